@@ -1,0 +1,24 @@
+# Compiler settings every target shares. Link `heel_options` privately to get them.
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+add_library(heel_options INTERFACE)
+target_compile_options(heel_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Werror
+  # GCC 12 warns of overlap in "text" + std::string that is not there (GCC bug 105651).
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+  # Fused multiply-add would make results depend on the instruction set.
+  -ffp-contract=off)
+
+if(HEEL_SANITIZE)
+  add_compile_options(-fsanitize=${HEEL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${HEEL_SANITIZE})
+endif()
+
+# Everything under a fuzz target reports its coverage to the fuzzer.
+if(HEEL_BUILD_FUZZERS)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()

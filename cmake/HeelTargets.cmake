@@ -1,0 +1,28 @@
+# heel_library(NAME DEPENDS …): a static library of every .cpp in the current folder.
+function(heel_library name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  add_library(${name} STATIC ${sources})
+  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src)
+  target_link_libraries(${name} PUBLIC ${ARG_DEPENDS} PRIVATE heel_options ${ARG_PRIVATE_DEPENDS})
+endfunction()
+
+# heel_test(NAME SOURCES … DEPENDS … [SERIAL]): a GoogleTest program; each of its tests is a ctest entry.
+# SERIAL: its tests run in real time and are not to share the machine with others.
+# Tests that need ../shared-style data find it in HEEL_TEST_DATA and call GTEST_SKIP() without it.
+function(heel_test name)
+  cmake_parse_arguments(ARG "SERIAL" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  if(NOT HEEL_BUILD_TESTS)
+    return()
+  endif()
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+  target_link_libraries(${name} PRIVATE heel_options ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
+  gtest_discover_tests(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}" RUN_SERIAL ${ARG_SERIAL} DISCOVERY_TIMEOUT 60)
+endfunction()

@@ -1,0 +1,224 @@
+// Everything that travels between threads, in the order it flows:
+//
+//   camera → FrameHeader → PoseEstimate → TargetState → Verdict → VelocityCommand → P3-AT
+//                                 RobotState (odometry, bumpers, flags) ← SIP ┘
+//
+// All of it is trivially copyable, SI units and radians. Frames of reference:
+//   camera   x right, y down, z forward
+//   robot    x forward, y left, z up; origin between the wheels, on the floor
+//   odom     the robot frame at the moment the session began; drifts as odometry does
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include "heel/time.h"
+
+namespace heel {
+
+// ── capture → vision ────────────────────────────────────────────────────────────────────────────
+
+/// What is known of a frame beside its pixels. Pixels are 8-bit grey (luma), row-major.
+struct FrameHeader {
+  std::uint64_t sequence = 0;  ///< counts every frame the camera made, dropped ones included
+  TimeNs t_capture_ns = 0;     ///< when the exposure happened, as near as the driver tells
+  std::uint32_t width_px = 0;
+  std::uint32_t height_px = 0;
+};
+
+/// A borrowed look at a frame: valid only during the call it is passed to.
+struct FrameView {
+  FrameHeader header;
+  const std::uint8_t* grey = nullptr;  ///< first pixel of the first row
+  std::uint32_t stride_bytes = 0;
+};
+
+// ── vision → control ────────────────────────────────────────────────────────────────────────────
+
+/// Why a frame gave a pose, or why it did not.
+enum class PoseReason : std::uint8_t {
+  Found,
+  TooFewFeatures,    ///< the frame holds fewer than four features in the scale range
+  TooFewMatches,     ///< fewer than four pairs survived sign, ratio and mutual check
+  NoHomography,      ///< no non-degenerate sample before the deadline
+  TooFewInliers,     ///< certainty or inlier count below the floor
+  ImplausibleShape,  ///< the template's outline lands mirrored, folded, or absurdly large or small
+  NoValidMotion,     ///< no decomposition puts the shirt in front of both cameras, facing the camera
+  WrongFrameSize,    ///< the frame is not of the size the camera was calibrated at
+};
+
+/// The shirt as one frame saw it. Conventions of the reference view: the plane z = d, normal (0,0,1);
+/// X_cur = R_cur_from_ref X_ref + t;  H_cur_from_ref = K_cur (R + (t/d) nᵀ) K_ref⁻¹;  x_cur ~ H x_ref.
+struct PoseEstimate {
+  std::uint64_t frame_sequence = 0;
+  TimeNs t_capture_ns = 0;  ///< of the frame
+  TimeNs t_done_ns = 0;     ///< when vision finished
+  PoseReason reason = PoseReason::TooFewFeatures;
+
+  std::uint32_t frame_features = 0;
+  std::uint32_t template_features = 0;
+  std::uint32_t matches = 0;
+  std::uint32_t inliers = 0;
+  double certainty = 0.0;  ///< inliers / template_features, 0…1
+
+  double yaw_rad = 0.0;  ///< R about camera y; positive turns the walking direction to the image's right
+  double yaw_sigma_rad = 0.0;              ///< one standard deviation
+  std::array<double, 3> t_over_d{};        ///< camera frame, in units of the template distance
+  std::array<double, 3> t_over_d_sigma{};  ///< one standard deviation each
+  std::array<double, 9> R_cur_from_ref{};  ///< row-major
+  bool has_distance = false;               ///< the template's distance is known: metres below are valid
+  std::array<double, 3> position_m{};      ///< template centre in the current camera frame
+  std::array<double, 9> H_cur_from_ref{};  ///< row-major, undistorted pixels, H[8] = 1
+
+  bool found() const { return reason == PoseReason::Found; }
+};
+
+// ── robot → control ─────────────────────────────────────────────────────────────────────────────
+
+/// Where the session with the robot's controller stands.
+enum class LinkPhase : std::uint8_t {
+  Closed,    ///< no line, or not yet tried
+  Syncing,   ///< SYNC0…SYNC2, baud sweep
+  Opening,   ///< OPEN sent, first SIP awaited; CONFIG asked
+  Enabling,  ///< zero velocity sent, ENABLE awaiting its flag
+  Running,   ///< SIPs arrive, motors are enabled
+  Disabled,  ///< SIPs arrive, motors are off (button or E-stall): a person must start again
+  Lost,      ///< SIPs stopped or the line broke; reconnecting
+};
+
+/// Pose of the robot frame in odom, unwrapped, SI.
+struct Odometry {
+  TimeNs t_ns = 0;  ///< first byte of the SIP
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double heading_rad = 0.0;  ///< continuous, not wrapped
+  double v_m_s = 0.0;
+  double yaw_rate_rad_s = 0.0;
+};
+
+/// The newest standard information packet in SI units, and the state of the line.
+struct RobotState {
+  LinkPhase phase = LinkPhase::Closed;
+  bool has_sip = false;
+  Odometry odometry;
+  bool motors_enabled = false;
+  bool stop_button = false;
+  bool e_stall = false;
+  bool stall_left = false;
+  bool stall_right = false;
+  std::uint8_t bumpers_front = 0;  ///< bit i: segment i pressed
+  std::uint8_t bumpers_rear = 0;
+  double battery_v = 0.0;
+  std::uint64_t sips = 0;
+  std::uint64_t checksum_errors = 0;
+  std::uint64_t bytes_discarded = 0;
+  std::uint64_t reconnects = 0;
+};
+
+// ── control ─────────────────────────────────────────────────────────────────────────────────────
+
+/// The target in the odometry frame, carried from the frame's capture time to now.
+struct TargetState {
+  bool known = false;
+  TimeNs t_capture_ns = 0;  ///< of the frame it rests on
+  double certainty = 0.0;
+  // In the robot frame at `now`:
+  double x_m = 0.0;  ///< centre of the back
+  double y_m = 0.0;
+  double yaw_rad = 0.0;  ///< walking direction against the robot's heading, counter-clockwise + (robot frame)
+  // Where the reference view is recreated (the pose the robot is to take), robot frame at `now`:
+  double goal_x_m = 0.0;
+  double goal_y_m = 0.0;
+};
+
+/// Why the robot is at rest. One value for each row of the supervisor's table; None: following.
+enum class StopReason : std::uint8_t {
+  None,
+  Shutdown,
+  LinkDown,
+  StaleSip,
+  StopButton,
+  MotorsOff,
+  Bumper,
+  Stall,
+  NoTargetYet,
+  StaleFrame,
+  TargetLost,
+  LowCertainty,
+};
+
+/// What the gate holds back, as bits of VelocityCommand::limited_by.
+enum GateLimit : std::uint8_t {
+  kGateSpeed = 1,
+  kGateAcceleration = 2,
+  kGateAge = 4,
+  kGateNotFinite = 8,
+  kGateSeparation = 16,  ///< the person is too near
+};
+
+/// What goes to the wire, once a tick. Expires by itself.
+struct VelocityCommand {
+  TimeNs t_issued_ns = 0;
+  TimeNs t_expires_ns = 0;  ///< after this it counts as zero
+  double v_m_s = 0.0;
+  double yaw_rate_rad_s = 0.0;  ///< counter-clockwise +
+  std::uint8_t limited_by = 0;  ///< GateLimit bits
+};
+
+// ── everything → telemetry ──────────────────────────────────────────────────────────────────────
+
+/// One control tick, whole.
+struct TickRecord {
+  std::uint64_t tick = 0;
+  TimeNs t_ns = 0;         ///< when the tick ran
+  TimeNs lateness_ns = 0;  ///< after its absolute deadline
+  StopReason stop_reason = StopReason::NoTargetYet;
+  RobotState robot;
+  TargetState target;
+  VelocityCommand wanted;   ///< from the control law
+  VelocityCommand command;  ///< after the gate, as sent
+};
+
+/// What a hot thread has to tell people. It pushes the record; the telemetry thread makes it text, logs it
+/// and writes it to events.log. (Changes of stop reason, link phase and target need no event: telemetry sees
+/// them in the ticks and poses.)
+enum class EventKind : std::uint8_t {
+  CameraOpened,       ///< text: what was agreed with the device
+  CameraUnavailable,  ///< text: why it does not open
+  CameraLost,         ///< text: why; it will be opened again
+  CameraEnded,        ///< a file's last frame has been given
+  FrameRefused,       ///< a: width_px, b: height_px; not the size the ring was made for
+  FrameCorrupt,       ///< a: corrupt frames so far
+  Overrun,            ///< a: periods missed so far, b: lateness_ns of this one
+  Note,               ///< text: anything else; a: its number, when not 0
+  Warning,            ///< as Note, and someone should look at it
+};
+
+struct Event {
+  TimeNs t_ns = 0;
+  EventKind kind = EventKind::Note;
+  std::int64_t a = 0;
+  std::int64_t b = 0;
+  std::array<char, 128> text{};  ///< ends with a zero
+};
+
+/// Counters of the frame path.
+struct CaptureCounters {
+  std::uint64_t captured = 0;
+  std::uint64_t dropped_by_driver = 0;  ///< gaps in the driver's sequence, buffers with the error flag
+  std::uint64_t dropped_in_ring = 0;    ///< overtaken by a fresher frame
+  std::uint64_t reopened = 0;
+};
+
+template <typename... T>
+inline constexpr bool kAllTriviallyCopyable = (std::is_trivially_copyable_v<T> && ...);
+static_assert(kAllTriviallyCopyable<FrameHeader, FrameView, PoseEstimate, RobotState, TargetState,
+                                    VelocityCommand, TickRecord, Event, CaptureCounters>);
+
+const char* to_string(PoseReason reason);
+const char* to_string(LinkPhase phase);
+const char* to_string(StopReason reason);
+const char* to_string(EventKind kind);
+
+}  // namespace heel

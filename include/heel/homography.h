@@ -1,0 +1,79 @@
+// The homography between two views of a plane: normalised DLT, RANSAC with symmetric transfer error,
+// least squares over the consensus set (Hartley & Zisserman, "Multiple View Geometry", 2nd ed., 4.1–4.8).
+// Convention everywhere: x_cur ~ H_cur_from_ref x_ref, scaled so that H(2,2) = 1 where that is possible.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "heel/time.h"
+
+namespace heel {
+
+/// A pair of matched points, undistorted pixels.
+struct PointPair {
+  Eigen::Vector2d ref_px;
+  Eigen::Vector2d cur_px;
+};
+
+enum class HomographyStatus : std::uint8_t {
+  Ok,
+  TooFewPairs,  ///< fewer than four
+  Degenerate,   ///< three collinear points, or a matrix without full rank, in every sample tried
+  NoConsensus,  ///< no sample had more support than its own four pairs
+};
+
+/// Normalised DLT over four or more pairs. Degenerate when the second smallest singular value is tiny
+/// relative to the largest.
+HomographyStatus homography_dlt(std::span<const PointPair> pairs, Eigen::Matrix3d& H_cur_from_ref);
+
+/// Symmetric transfer error, squared: |x_cur − H x_ref|² + |x_ref − H⁻¹ x_cur|² (px²).
+double symmetric_transfer_error_px2(const Eigen::Matrix3d& H_cur_from_ref,
+                                    const Eigen::Matrix3d& H_ref_from_cur, const PointPair& pair);
+
+struct RansacSettings {
+  double inlier_px = 3.0;      ///< an inlier's symmetric transfer error is below 2 · inlier_px²
+  double confidence = 0.999;   ///< stop when a better sample is this unlikely
+  int max_iterations = 10000;  ///< 0.999 sure with 83 % wrong
+  std::uint64_t seed = 1;
+  TimeNs budget_ns = 0;  ///< 0: no deadline; otherwise the best so far is returned when it has passed
+};
+
+struct RobustHomography {
+  HomographyStatus status = HomographyStatus::TooFewPairs;
+  Eigen::Matrix3d H_cur_from_ref = Eigen::Matrix3d::Identity();
+  int inliers = 0;
+  int iterations = 0;
+  double rms_px = 0.0;  ///< one-way error of the inliers in the current image, root mean square
+  /// Covariance of the nine entries (row-major, H(2,2) = 1 fixed), from the inliers' residuals; px units of
+  /// H.
+  Eigen::Matrix<double, 9, 9> covariance = Eigen::Matrix<double, 9, 9>::Zero();
+};
+
+/// RANSAC with local optimisation (O. Chum, J. Matas, J. Kittler, "Locally optimized RANSAC", DAGM 2003) and
+/// MSAC's cost. Memory is taken once for `max_pairs`; pairs beyond that many are left out.
+///
+/// Deterministic: seeded for every call anew, so the same pairs give the same result. Only a budget other
+/// than 0 makes it look at a clock (CLOCK_MONOTONIC, every few samples): the one place where a stage does,
+/// since a deadline has no other meaning. In lock step the budget is 0 and the iterations alone bound it.
+///
+/// The plane is taken to be opaque and in front of both cameras: a mirrored map is never returned.
+class HomographyEstimator {
+ public:
+  HomographyEstimator(int max_pairs, const RansacSettings& settings);
+  ~HomographyEstimator();
+  HomographyEstimator(HomographyEstimator&&) noexcept;
+  HomographyEstimator& operator=(HomographyEstimator&&) noexcept;
+
+  /// `inlier_mask` (resized within capacity) says which pairs support the result.
+  RobustHomography estimate(std::span<const PointPair> pairs, std::vector<std::uint8_t>& inlier_mask);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace heel

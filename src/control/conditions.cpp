@@ -1,0 +1,68 @@
+#include "control/conditions.h"
+
+namespace heel {
+namespace {
+
+bool link_is_up(LinkPhase phase) {
+  // Disabled is a live line with motors off, which has a reason of its own.
+  return phase == LinkPhase::Running || phase == LinkPhase::Disabled;
+}
+
+bool older_than(TimeNs t_ns, TimeNs now_ns, double limit_s) {
+  return now_ns - t_ns > ns_from_seconds(limit_s);
+}
+
+/// True while `active`, and for `hold_s` after it ended.
+bool held(bool active, bool& ever, TimeNs& t_last_ns, TimeNs now_ns, double hold_s) {
+  if (active) {
+    ever = true;
+    t_last_ns = now_ns;
+  }
+  return active || (ever && !older_than(t_last_ns, now_ns, hold_s));
+}
+
+}  // namespace
+
+Conditions ConditionMonitor::observe(const ControlInput& input, PoseNews news,
+                                     const SupervisorConfig& config) {
+  const RobotState& robot = input.robot;
+  const TimeNs now_ns = input.now_ns;
+  observe_target(input, news, config);
+
+  unsigned bits = 0;
+  const auto set = [&bits](Condition condition, bool holds) {
+    if (holds) bits |= condition;
+  };
+  set(kShutdown, input.shutdown);
+  set(kLinkDown, !link_is_up(robot.phase));
+  set(kStaleSip, !robot.has_sip || older_than(robot.odometry.t_ns, now_ns, config.sip_timeout_s));
+  set(kStopButton, robot.stop_button || robot.e_stall);
+  set(kMotorsOff, !robot.motors_enabled);
+  set(kBumper, held((robot.bumpers_front | robot.bumpers_rear) != 0, bumped_, t_last_bump_ns_, now_ns,
+                    config.bumper_hold_s));
+  set(kStall,
+      held(robot.stall_left || robot.stall_right, stalled_, t_last_stall_ns_, now_ns, config.bumper_hold_s));
+  set(kStaleFrame, !input.has_pose || older_than(input.pose.t_capture_ns, now_ns, config.frame_timeout_s));
+  set(kLowCertainty,
+      !following_ && input.has_pose && input.pose.found() && input.pose.certainty < config.certainty_follow);
+  set(kTargetLost, !following_ && ever_followed_);
+  set(kNoTargetYet, !following_ && !ever_followed_);
+  return static_cast<Conditions>(bits);
+}
+
+void ConditionMonitor::observe_target(const ControlInput& input, PoseNews news,
+                                      const SupervisorConfig& config) {
+  const double needed = following_ ? config.certainty_drop : config.certainty_follow;
+  if (news == PoseNews::Believed && input.pose.certainty >= needed) {
+    ++good_in_a_row_;
+    t_last_good_ns_ = input.pose.t_capture_ns;
+  } else if (news != PoseNews::None) {
+    good_in_a_row_ = 0;
+  }
+  const bool expired = older_than(t_last_good_ns_, input.now_ns, config.target_timeout_s);
+  if (expired) good_in_a_row_ = 0;  // frames with a long gap between them are not in a row
+  following_ = !expired && (following_ || good_in_a_row_ >= config.frames_to_follow);
+  ever_followed_ = ever_followed_ || following_;
+}
+
+}  // namespace heel

@@ -1,0 +1,103 @@
+// One control tick: estimate → supervise → law → gate.
+#include <cmath>
+#include <limits>
+
+#include "control/conditions.h"
+#include "control/follow_law.h"
+#include "control/gate.h"
+#include "control/supervisor.h"
+#include "estimate/target_estimator.h"
+#include "heel/control.h"
+
+namespace heel {
+
+struct ControlStage::Impl {
+  explicit Impl(const Config& config) : estimator(config) { reconfigure(config); }
+
+  void reconfigure(const Config& config);
+
+  void follow_the_robot(const RobotState& robot);
+  PoseNews take_news(const ControlInput& input);
+  double range_ahead(const TargetState& target) const;
+
+  // Only the parts in use, none of which holds text: taking over a configuration takes no memory.
+  ControlConfig control;
+  SupervisorConfig supervisor;
+  GateConfig gate;
+  CameraMount mount;
+
+  TargetEstimator estimator;
+  ConditionMonitor monitor;
+  VelocityCommand last_command;
+  std::uint64_t ticks = 0;
+  std::uint64_t reconnects = 0;
+  bool any_frame = false;
+  std::uint64_t last_frame = 0;
+  TimeNs t_last_frame_ns = 0;
+};
+
+void ControlStage::Impl::reconfigure(const Config& config) {
+  control = config.control;
+  supervisor = config.supervisor;
+  gate = config.gate;
+  mount = mount_of(config.camera);
+  estimator.reconfigure(config);
+}
+
+/// After a reconnection odom begins anew, and with it everything expressed in it.
+void ControlStage::Impl::follow_the_robot(const RobotState& robot) {
+  if (robot.reconnects != reconnects) {
+    reconnects = robot.reconnects;
+    estimator.reset();
+  }
+  if (robot.has_sip) estimator.see_robot(robot.odometry);
+}
+
+PoseNews ControlStage::Impl::take_news(const ControlInput& input) {
+  // By number and time: a film that begins again, or a single picture, counts from the same number anew.
+  const bool seen =
+      any_frame && input.pose.frame_sequence == last_frame && input.pose.t_capture_ns == t_last_frame_ns;
+  if (!input.has_pose || seen) return PoseNews::None;
+  any_frame = true;
+  last_frame = input.pose.frame_sequence;
+  t_last_frame_ns = input.pose.t_capture_ns;
+  return estimator.see_pose(input.pose) ? PoseNews::Believed : PoseNews::Refused;
+}
+
+/// Camera to back, when the person is ahead; nobody there is infinitely far.
+double ControlStage::Impl::range_ahead(const TargetState& target) const {
+  const double x_m = target.x_m - mount.x_m;
+  const double y_m = target.y_m - mount.y_m;
+  if (!target.known || x_m <= 0.0) return std::numeric_limits<double>::infinity();
+  return std::hypot(x_m, y_m);
+}
+
+ControlStage::ControlStage(const Config& config) : impl_(std::make_unique<Impl>(config)) {}
+ControlStage::~ControlStage() = default;
+ControlStage::ControlStage(ControlStage&&) noexcept = default;
+ControlStage& ControlStage::operator=(ControlStage&&) noexcept = default;
+
+void ControlStage::reconfigure(const Config& config) {
+  impl_->reconfigure(config);
+}
+
+TickRecord ControlStage::tick(const ControlInput& input) {
+  Impl& s = *impl_;
+  TickRecord record;
+  record.tick = s.ticks++;
+  record.t_ns = input.now_ns;
+  record.robot = input.robot;
+
+  s.follow_the_robot(input.robot);
+  const PoseNews news = s.take_news(input);
+  record.target = s.estimator.at(input.now_ns);
+  const Verdict verdict = supervise(s.monitor.observe(input, news, s.supervisor));
+  record.stop_reason = verdict.reason;
+  record.wanted = follow(record.target, s.control, s.mount, input.now_ns, s.gate.command_lifetime_s);
+  record.command = pass_gate(record.wanted, s.last_command, verdict.style, s.range_ahead(record.target),
+                             input.now_ns, s.gate);
+  s.last_command = record.command;
+  return record;
+}
+
+}  // namespace heel

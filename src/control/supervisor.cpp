@@ -1,0 +1,35 @@
+#include "control/supervisor.h"
+
+namespace heel {
+namespace {
+
+// Why this order: what a person did on purpose, then what makes the robot's answers meaningless, then what it
+// touches, then what it cannot see. The rows about seeing go from the most to the least specific.
+constexpr SupervisorRow kTable[] = {
+    {kShutdown, StopReason::Shutdown, StopStyle::AtOnce},
+    {kLinkDown, StopReason::LinkDown, StopStyle::AtOnce},
+    {kStaleSip, StopReason::StaleSip, StopStyle::AtOnce},
+    {kStopButton, StopReason::StopButton, StopStyle::AtOnce},
+    {kMotorsOff, StopReason::MotorsOff, StopStyle::AtOnce},
+    {kBumper, StopReason::Bumper, StopStyle::AtOnce},
+    {kStall, StopReason::Stall, StopStyle::AtOnce},
+    {kStaleFrame, StopReason::StaleFrame, StopStyle::ComeToRest},
+    {kLowCertainty, StopReason::LowCertainty, StopStyle::ComeToRest},
+    {kTargetLost, StopReason::TargetLost, StopStyle::ComeToRest},
+    {kNoTargetYet, StopReason::NoTargetYet, StopStyle::ComeToRest},
+};
+
+}  // namespace
+
+std::span<const SupervisorRow> supervisor_table() {
+  return kTable;
+}
+
+Verdict supervise(Conditions conditions) {
+  for (const auto& row : kTable) {
+    if (conditions & row.condition) return {row.reason, row.style};
+  }
+  return {};
+}
+
+}  // namespace heel

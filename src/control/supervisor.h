@@ -1,0 +1,34 @@
+// The supervisor: a table from conditions to the reason the robot rests, first row that applies.
+#pragma once
+
+#include <span>
+
+#include "control/conditions.h"
+#include "heel/flow.h"
+
+namespace heel {
+
+enum class StopStyle : std::uint8_t {
+  Go,          ///< not stopping
+  ComeToRest,  ///< within the deceleration limits
+  AtOnce,      ///< zero on the wire now; the robot's own controller brakes
+};
+
+struct SupervisorRow {
+  Condition condition;
+  StopReason reason;
+  StopStyle style;
+};
+
+struct Verdict {
+  StopReason reason = StopReason::None;
+  StopStyle style = StopStyle::Go;
+};
+
+/// Highest priority first.
+std::span<const SupervisorRow> supervisor_table();
+
+/// Pure: the first row whose condition holds; following when none does.
+Verdict supervise(Conditions conditions);
+
+}  // namespace heel

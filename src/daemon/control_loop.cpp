@@ -1,0 +1,89 @@
+#include "daemon/control_loop.h"
+
+#include <cstring>
+
+namespace heel {
+ControlLoop::ControlLoop(const Config& config, Mailbox<PoseEstimate>& poses, TelemetryFeeds& feeds)
+    : link_(config.robot),
+      stage_(config),
+      deadline_(ns_from_seconds(1.0 / config.control.rate_hz), monotonic_now_ns()),
+      poses_(poses),
+      feeds_(feeds) {}
+
+void ControlLoop::run() {
+  while (!stop_.load(std::memory_order_relaxed)) {
+    const TimeNs lateness_ns = sleep_to_the_tick();
+    take_over_configuration();
+    read_inputs(monotonic_now_ns());
+    TickRecord record = stage_.tick(input_);
+    record.lateness_ns = lateness_ns;
+    link_.exchange(record.command, monotonic_now_ns());
+    tell_of_the_robot();
+    publish(record);
+  }
+  shut_robot_down();
+}
+
+void ControlLoop::shut_robot_down() {
+  link_.shutdown(monotonic_now_ns());
+  tell_of_the_robot();
+}
+
+/// Returns how late it is. Until then bytes are stamped as they come.
+TimeNs ControlLoop::sleep_to_the_tick() {
+  link_.listen_until(deadline_.next_ns());
+  const TimeNs now_ns = monotonic_now_ns();
+  const TimeNs lateness_ns = deadline_.advance(now_ns);
+  heartbeat_ns_.store(now_ns, std::memory_order_relaxed);
+  if (deadline_.overruns() != overruns_) {
+    overruns_ = deadline_.overruns();
+    Event event{.t_ns = now_ns, .kind = EventKind::Overrun, .a = static_cast<std::int64_t>(overruns_)};
+    event.b = lateness_ns;
+    feeds_.control_events.push(event);
+  }
+  return lateness_ns;
+}
+
+void ControlLoop::take_over_configuration() {
+  const Config* config = offered_.exchange(nullptr, std::memory_order_acquire);
+  if (config == nullptr) return;
+  stage_.reconfigure(*config);
+  taken_.store(config, std::memory_order_release);
+}
+
+bool ControlLoop::reconfigure(const Config& config, TimeNs timeout_ns) {
+  const TimeNs give_up_ns = monotonic_now_ns() + timeout_ns;
+  taken_.store(nullptr, std::memory_order_relaxed);
+  offered_.store(&config, std::memory_order_release);
+  while (taken_.load(std::memory_order_acquire) != &config) {
+    // Withdrawn, unless the loop has just picked it up: then it will be done in a moment.
+    const bool late = monotonic_now_ns() > give_up_ns;
+    if (late && offered_.exchange(nullptr, std::memory_order_acq_rel) != nullptr) return false;
+    sleep_until_ns(monotonic_now_ns() + kNsPerMs);
+  }
+  return true;
+}
+
+void ControlLoop::read_inputs(TimeNs now_ns) {
+  input_.now_ns = now_ns;
+  input_.robot = link_.receive(now_ns);
+  if (poses_.take(input_.pose)) input_.has_pose = true;
+}
+
+/// The session's events as they are, copied, not formatted.
+void ControlLoop::tell_of_the_robot() {
+  SessionEvent news;
+  while (link_.next_event(news)) {
+    Event event{.t_ns = news.t_ns, .kind = is_warning(news.kind) ? EventKind::Warning : EventKind::Note};
+    event.a = news.value;
+    std::strncpy(event.text.data(), to_string(news.kind), event.text.size() - 1);
+    feeds_.control_events.push(event);
+  }
+}
+
+void ControlLoop::publish(const TickRecord& record) {
+  status_.post(record);
+  feeds_.ticks.push(record);
+}
+
+}  // namespace heel

@@ -1,0 +1,62 @@
+// The control thread's body: at each deadline the newest pose and the newest packet become one command.
+// It is the only owner of the robot's line, and its last act is always STOP and CLOSE.
+#pragma once
+
+#include <atomic>
+
+#include "heel/config.h"
+#include "heel/control.h"
+#include "robot/robot_link.h"
+#include "runtime/clock.h"
+#include "runtime/mailbox.h"
+#include "telemetry/feeds.h"
+
+namespace heel {
+
+class ControlLoop {
+ public:
+  /// Everything is borrowed and must outlive run(). Opening the line begins here.
+  ControlLoop(const Config& config, Mailbox<PoseEstimate>& poses, TelemetryFeeds& feeds);
+
+  /// Until stop(); then the robot is stopped and the line closed. Does not allocate, lock or format.
+  void run();
+  /// From any thread.
+  void stop() { stop_.store(true, std::memory_order_relaxed); }
+  /// STOP, SONAR 0, CLOSE, for a thread whose run() has ended by an exception; nothing when already done.
+  void shut_robot_down();
+
+  /// From the main thread: offers a configuration, taken over before the next tick. `config` must live until
+  /// the call returns. False: the loop did not take it within the timeout.
+  bool reconfigure(const Config& config, TimeNs timeout_ns);
+
+  // ── for the main thread ──
+  /// True and the newest tick, when there is one not taken before.
+  bool take_status(TickRecord& out) { return status_.take(out); }
+  TimeNs heartbeat_ns() const { return heartbeat_ns_.load(std::memory_order_relaxed); }
+  std::uint64_t open_failures() const { return link_.open_failures(); }
+  std::string last_open_error() const { return link_.last_open_error(); }
+
+ private:
+  TimeNs sleep_to_the_tick();
+  void take_over_configuration();
+  void read_inputs(TimeNs now_ns);
+  void tell_of_the_robot();
+  void publish(const TickRecord& record);
+
+  RobotLink link_;
+  ControlStage stage_;
+  PeriodicDeadline deadline_;
+  Mailbox<PoseEstimate>& poses_;
+  TelemetryFeeds& feeds_;
+
+  ControlInput input_;
+  std::uint64_t overruns_ = 0;
+
+  Mailbox<TickRecord> status_;
+  std::atomic<const Config*> offered_{nullptr};  // main → control
+  std::atomic<const Config*> taken_{nullptr};    // control → main
+  std::atomic<bool> stop_{false};
+  std::atomic<TimeNs> heartbeat_ns_{0};
+};
+
+}  // namespace heel

@@ -1,0 +1,77 @@
+// heeld: load, wire, start, stop.
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "daemon/check.h"
+#include "daemon/daemon.h"
+#include "runtime/config_load.h"
+#include "runtime/config_text.h"
+#include "runtime/logging.h"
+
+namespace {
+
+// sysexits(3) has EX_CONFIG = 78; the unit does not restart on it: only a person can help.
+constexpr int kExitConfiguration = 78;
+
+struct Options {
+  std::string config;
+  bool check = false;
+  bool print_default_config = false;
+  bool print_config_manual = false;
+};
+
+int run(const Options& options) {
+  if (options.print_default_config) {
+    std::fputs(heel::default_config_text().c_str(), stdout);
+    return 0;
+  }
+  if (options.print_config_manual) {
+    std::fputs(heel::config_manual_text().c_str(), stdout);
+    return 0;
+  }
+  if (options.check) {
+    heel::check_configuration(options.config);
+    return 0;
+  }
+  return heel::run_daemon(options.config);
+}
+
+int run(int argc, char** argv) {
+  Options options;
+  CLI::App app("heeld: a Pioneer P3-AT follows the back of one person's shirt", "heeld");
+  auto* config = app.add_option("--config", options.config, "The configuration file (see heel.toml)");
+  app.add_flag("--check", options.check, "Validate, print every value with its origin, and exit")
+      ->needs(config);
+  auto* print =
+      app.add_flag("--print-default-config", options.print_default_config, "Print heel.toml and exit");
+  auto* manual = app.add_flag("--print-config-manual", options.print_config_manual,
+                              "Print the manual's table of keys and exit");
+  CLI11_PARSE(app, argc, argv);
+  if (config->count() + print->count() + manual->count() == 0) {
+    std::fputs("heeld: --config FILE is needed; heeld --print-default-config makes one\n", stderr);
+    return kExitConfiguration;
+  }
+
+  return run(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const heel::ConfigError& error) {
+    for (const auto& line : error.lines()) std::fprintf(stderr, "%s\n", line.c_str());
+    return kExitConfiguration;
+  } catch (const heel::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return kExitConfiguration;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "heeld: %s\n", error.what());
+    return 1;
+  }
+}

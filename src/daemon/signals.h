@@ -1,0 +1,26 @@
+// Signals as ordinary input: blocked in every thread, read from a descriptor by the main one.
+#pragma once
+
+#include "heel/time.h"
+
+namespace heel {
+
+enum class Signal : unsigned char { None, Stop, Reload };
+
+class Signals {
+ public:
+  /// Blocks SIGTERM, SIGINT and SIGHUP for this thread and all it starts later, and ignores SIGPIPE.
+  /// Throws heel::Error.
+  Signals();
+  ~Signals();
+  Signals(const Signals&) = delete;
+  Signals& operator=(const Signals&) = delete;
+
+  /// The next signal, or None after the timeout.
+  Signal wait(TimeNs timeout_ns);
+
+ private:
+  int fd_ = -1;
+};
+
+}  // namespace heel

@@ -1,0 +1,32 @@
+// The vision thread's body: the freshest frame in, its pose to control and to the recording.
+#pragma once
+
+#include <atomic>
+
+#include "heel/pose_estimator.h"
+#include "runtime/frame_ring.h"
+#include "runtime/mailbox.h"
+#include "runtime/record_queue.h"
+
+namespace heel {
+
+class VisionLoop {
+ public:
+  /// Everything is borrowed and must outlive run().
+  VisionLoop(FrameRing& frames, PoseEstimator& estimator, Mailbox<PoseEstimate>& to_control,
+             RecordQueue<PoseEstimate>& to_telemetry);
+
+  /// Until stop(). Does not allocate, lock or format.
+  void run();
+  /// From any thread.
+  void stop();
+
+ private:
+  FrameRing& frames_;
+  PoseEstimator& estimator_;
+  Mailbox<PoseEstimate>& to_control_;
+  RecordQueue<PoseEstimate>& to_telemetry_;
+  std::atomic<bool> stop_{false};
+};
+
+}  // namespace heel

@@ -1,0 +1,54 @@
+#include "estimate/sighting.h"
+
+#include <cmath>
+
+namespace heel {
+
+CameraMount mount_of(const CameraConfig& camera) {
+  return {camera.mount_x_m, camera.mount_y_m, camera.mount_z_m, camera.mount_pitch_rad};
+}
+
+Eigen::Matrix3d R_robot_from_camera(double pitch_rad) {
+  const double c = std::cos(pitch_rad);
+  const double s = std::sin(pitch_rad);
+  Eigen::Matrix3d R;
+  R << 0, s, c,  //
+      -1, 0, 0,  //
+      0, -c, s;
+  return R;
+}
+
+std::optional<Sighting> sighting_from_pose(const PoseEstimate& pose, const CameraMount& mount) {
+  if (!pose.found() || !pose.has_distance) return std::nullopt;
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R_cur_from_ref(
+      pose.R_cur_from_ref.data());
+  const Eigen::Map<const Eigen::Vector3d> t_over_d(pose.t_over_d.data());
+  const Eigen::Map<const Eigen::Vector3d> position_m(pose.position_m.data());
+  const Eigen::Matrix3d R_robot_from_cur = R_robot_from_camera(mount.pitch_rad);
+
+  // The centre c of the template obeys  position = R c + d (t/d)  with c_z = d, hence
+  //   d = e_z·Rᵀ position / (1 + e_z·Rᵀ (t/d)),
+  // whose denominator is the present distance to the shirt's plane over d.
+  const double plane_ratio = 1.0 + (R_cur_from_ref.transpose() * t_over_d).z();
+  const double d_m = (R_cur_from_ref.transpose() * position_m).z() / plane_ratio;
+  const Eigen::Vector3d centre_ref_m = R_cur_from_ref.transpose() * (position_m - d_m * t_over_d);
+
+  const Eigen::Vector3d walking = R_robot_from_cur * R_cur_from_ref.col(2);
+  const Eigen::Vector3d position_robot_m =
+      Eigen::Vector3d(mount.x_m, mount.y_m, mount.z_m) + R_robot_from_cur * position_m;
+
+  Sighting sighting;
+  sighting.position_m = position_robot_m.head<2>();
+  sighting.yaw_rad = std::atan2(walking.y(), walking.x());
+  sighting.yaw_sigma_rad = pose.yaw_sigma_rad;
+  sighting.in_reference_view_m = {d_m, -centre_ref_m.x()};
+
+  constexpr double kLeastHorizontalShare = 0.2;  // a back tilted by more than 78° shows no direction
+  const bool valid = plane_ratio > 0.0 && d_m > 0.0 && walking.head<2>().norm() > kLeastHorizontalShare &&
+                     sighting.position_m.allFinite() && sighting.in_reference_view_m.allFinite() &&
+                     std::isfinite(sighting.yaw_rad) && std::isfinite(sighting.yaw_sigma_rad);
+  if (!valid) return std::nullopt;
+  return sighting;
+}
+
+}  // namespace heel

@@ -1,0 +1,141 @@
+#include "estimate/target_estimator.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace heel {
+namespace {
+
+// Spread of a new target's velocity: a person walks at about 1 m/s and turns at about 1 rad/s.
+constexpr double kStartSpeedSigma_m_s = 1.0;
+constexpr double kStartYawRateSigma_rad_s = 0.5;
+// A homography measures scale, hence range, to a few per cent and direction far better.
+constexpr double kRangeSigmaPerM = 0.02;
+constexpr double kAcrossSigmaPerM = 0.005;
+// A gap longer than this says nothing about where the person went: begin anew.
+constexpr TimeNs kLongestGap_ns = kNsPerS;
+// The target is carried on past its last frame no longer than this.
+constexpr TimeNs kLongestPrediction_ns = 500 * kNsPerMs;
+
+double wrapped(double angle_rad) {
+  return std::remainder(angle_rad, 2.0 * std::numbers::pi);
+}
+
+Eigen::Matrix2d rotation(double angle_rad) {
+  return Eigen::Rotation2Dd(angle_rad).toRotationMatrix();
+}
+
+/// Measurement covariance: long along the line of sight, narrow across it.
+Eigen::Matrix2d position_covariance(const Eigen::Vector2d& line_of_sight_odom_m, double floor_sigma_m) {
+  const double range_m = line_of_sight_odom_m.norm();
+  const double along = std::hypot(floor_sigma_m, kRangeSigmaPerM * range_m);
+  const double across = std::hypot(floor_sigma_m, kAcrossSigmaPerM * range_m);
+  const Eigen::Matrix2d R = rotation(std::atan2(line_of_sight_odom_m.y(), line_of_sight_odom_m.x()));
+  return R * Eigen::Vector2d(along * along, across * across).asDiagonal() * R.transpose();
+}
+
+}  // namespace
+
+void TargetEstimator::reconfigure(const Config& config) {
+  mount_ = mount_of(config.camera);
+  settings_ = config.estimate;
+  set_points_ = config.control;
+}
+
+void TargetEstimator::reset() {
+  path_.clear();
+  known_ = false;
+  outliers_in_a_row_ = 0;
+}
+
+void TargetEstimator::see_robot(const Odometry& odometry) {
+  path_.push(odometry);
+}
+
+void TargetEstimator::start(const Eigen::Vector2d& position_odom_m, double yaw_odom_rad,
+                            const Eigen::Matrix2d& R_position, double yaw_variance) {
+  position_.start(position_odom_m, R_position, kStartSpeedSigma_m_s);
+  yaw_.start(Eigen::Matrix<double, 1, 1>(yaw_odom_rad), Eigen::Matrix<double, 1, 1>(yaw_variance),
+             kStartYawRateSigma_rad_s);
+  known_ = true;
+  outliers_in_a_row_ = 0;
+}
+
+bool TargetEstimator::see_pose(const PoseEstimate& pose) {
+  const auto sighting = sighting_from_pose(pose, mount_);
+  const auto robot = path_.at(pose.t_capture_ns);
+  const TimeNs gap_ns = pose.t_capture_ns - t_capture_ns_;
+  if (!sighting || !robot || (known_ && gap_ns <= 0)) return false;
+
+  const Eigen::Vector2d sight_m = rotation(robot->heading_rad) * sighting->position_m;
+  const Eigen::Vector2d position_m = Eigen::Vector2d(robot->x_m, robot->y_m) + sight_m;
+  const double yaw_rad = robot->heading_rad + sighting->yaw_rad;
+  const Eigen::Matrix2d R_position = position_covariance(sight_m, settings_.position_sigma_m);
+  const double yaw_sigma_rad = std::max(sighting->yaw_sigma_rad, settings_.yaw_sigma_rad);
+  const Eigen::Matrix<double, 1, 1> R_yaw(yaw_sigma_rad * yaw_sigma_rad);
+
+  bool believed = true;
+  if (!known_ || gap_ns > kLongestGap_ns) {
+    start(position_m, yaw_rad, R_position, R_yaw(0));
+  } else {
+    position_.predict(seconds_from_ns(gap_ns), settings_.acceleration_m_s2);
+    yaw_.predict(seconds_from_ns(gap_ns), settings_.yaw_acceleration_rad_s2);
+    const Eigen::Vector2d d_position = position_m - position_.position();
+    const Eigen::Matrix<double, 1, 1> d_yaw(wrapped(yaw_rad - yaw_.position()(0)));
+    const double gate = settings_.outlier_sigma * settings_.outlier_sigma;
+    const bool wild = position_.distance_squared(d_position, R_position) > gate ||
+                      yaw_.distance_squared(d_yaw, R_yaw) > gate;
+    if (!wild) {
+      position_.correct(d_position, R_position);
+      yaw_.correct(d_yaw, R_yaw);
+      outliers_in_a_row_ = 0;
+    } else if (++outliers_in_a_row_ >= settings_.outliers_to_reset) {
+      start(position_m, yaw_rad, R_position, R_yaw(0));
+    } else {
+      believed = false;
+    }
+  }
+  t_capture_ns_ = pose.t_capture_ns;
+  if (!believed) return false;
+  certainty_ = pose.certainty;
+  in_reference_view_m_ = sighting->in_reference_view_m;
+  return true;
+}
+
+TargetState TargetEstimator::at(TimeNs now_ns) const {
+  TargetState target;
+  const auto robot = path_.at(now_ns);
+  if (!known_ || !robot) return target;
+
+  const double ahead_s =
+      seconds_from_ns(std::clamp<TimeNs>(now_ns - t_capture_ns_, 0, kLongestPrediction_ns));
+  const Eigen::Vector2d position_odom_m = position_.position() + ahead_s * position_.velocity();
+  const double yaw_odom_rad = yaw_.position()(0) + ahead_s * yaw_.velocity()(0);
+
+  const Eigen::Matrix2d R_robot_from_odom = rotation(-robot->heading_rad);
+  const Eigen::Vector2d position_m =
+      R_robot_from_odom * (position_odom_m - Eigen::Vector2d(robot->x_m, robot->y_m));
+  const double yaw_rad = wrapped(yaw_odom_rad - robot->heading_rad);
+
+  // The camera has the person where the reference view has them, moved by the set points; the robot's own
+  // centre is behind the camera by the mount.
+  const Eigen::Vector2d person_from_camera_m =
+      in_reference_view_m_ + Eigen::Vector2d(set_points_.setpoint_t_z_m, -set_points_.setpoint_t_x_m);
+  const Eigen::Vector2d person_from_robot_m = person_from_camera_m + Eigen::Vector2d(mount_.x_m, mount_.y_m);
+  const Eigen::Vector2d goal_m =
+      position_m - rotation(yaw_rad + set_points_.setpoint_yaw_rad) * person_from_robot_m;
+
+  target.known = true;
+  target.t_capture_ns = t_capture_ns_;
+  target.certainty = certainty_;
+  target.x_m = position_m.x();
+  target.y_m = position_m.y();
+  target.yaw_rad = yaw_rad;
+  target.goal_x_m = goal_m.x();
+  target.goal_y_m = goal_m.y();
+  return target;
+}
+
+}  // namespace heel

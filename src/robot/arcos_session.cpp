@@ -1,0 +1,235 @@
+// See arcos_session.h. Here: the line, and what a packet means. What time does: arcos_session_steps.cpp.
+#include "robot/arcos_session.h"
+
+#include "arcos/command_codec.h"
+#include "robot/sip_to_state.h"
+
+namespace heel {
+namespace {
+
+using arcos::CommandId;
+using Kind = SessionEventKind;
+
+}  // namespace
+
+ArcosSession::ArcosSession(const RobotConfig& config)
+    : config_(config),
+      sweep_(parse_robot_address(config.address)),
+      wished_baud_(sweep_.current()),
+      motion_(config),
+      odometry_(config.dist_conv_factor) {
+  pacer_.set_baud(sweep_.current());
+}
+
+bool ArcosSession::is_connected() const {
+  switch (step_) {
+    case Step::Opening:
+    case Step::AskingRate:
+    case Step::TryingRate:
+    case Step::LeavingRate:
+    case Step::Enabling:
+    case Step::Running:
+    case Step::Disabled:
+      return true;
+    default:
+      return false;
+  }
+}
+
+void ArcosSession::enter(Step step, TimeNs now_ns) {
+  step_ = step;
+  t_step_ns_ = now_ns;
+  attempts_ = 0;
+  switch (step) {
+    case Step::NoLine:
+      break;  // the caller knows whether it is closed or lost
+    case Step::Listening:
+    case Step::Sync0:
+    case Step::Sync1:
+    case Step::Sync2:
+    case Step::Closing:
+      return show_phase(LinkPhase::Syncing);
+    case Step::Opening:
+    case Step::AskingRate:
+    case Step::TryingRate:
+    case Step::LeavingRate:
+      return show_phase(LinkPhase::Opening);
+    case Step::Enabling:
+      return show_phase(LinkPhase::Enabling);
+    case Step::Running:
+      return show_phase(LinkPhase::Running);
+    case Step::Disabled:
+      return show_phase(LinkPhase::Disabled);
+    case Step::Silent:
+      return show_phase(LinkPhase::Lost);
+  }
+}
+
+// ── the line ────────────────────────────────────────────────────────────────────────────────────
+
+void ArcosSession::line_opened(TimeNs now_ns) {
+  parser_.reset();
+  pacer_.reset();
+  queue_.clear();
+  sweep_.restart();
+  pacer_.set_baud(sweep_.current());
+  line_exhausted_ = false;
+  events_.push(now_ns, Kind::LineOpened);
+  enter(Step::Listening, now_ns);
+}
+
+void ArcosSession::line_lost(TimeNs now_ns) {
+  if (step_ == Step::NoLine) return;
+  queue_.clear();
+  odometry_.interrupted();
+  events_.push(now_ns, Kind::LineLost);
+  enter(Step::NoLine, now_ns);
+  show_phase(LinkPhase::Lost);
+}
+
+std::span<const std::uint8_t> ArcosSession::close(TimeNs now_ns) {
+  out_.clear();
+  if (step_ != Step::NoLine) {
+    out_.append(arcos::encode_plain(CommandId::Stop));
+    out_.append(arcos::encode_integer(CommandId::Sonar, 0));
+    out_.append(arcos::encode_plain(CommandId::Close));
+    events_.push(now_ns, Kind::Closed);
+  }
+  queue_.clear();
+  odometry_.interrupted();
+  enter(Step::NoLine, now_ns);
+  show_phase(LinkPhase::Closed);
+  return out_.bytes();
+}
+
+// ── bytes in ────────────────────────────────────────────────────────────────────────────────────
+
+void ArcosSession::receive(std::span<const std::uint8_t> bytes, TimeNs t_ns) {
+  if (step_ == Step::NoLine) return;
+  parser_.feed(bytes, t_ns, [this](const arcos::Packet& packet) { on_packet(packet); });
+  state_.checksum_errors = parser_.counters().checksum_errors + parser_.counters().length_errors;
+  state_.bytes_discarded = parser_.counters().bytes_discarded;
+}
+
+void ArcosSession::on_packet(const arcos::Packet& packet) {
+  const std::uint8_t id = packet.id();
+  if (step_ == Step::TryingRate) rate_confirmed(packet.t_first_byte_ns);
+  if (arcos::is_sip(id)) {
+    on_sip(packet);
+  } else if (id == arcos::kConfigPacketId) {
+    on_config(packet);
+  } else if (arcos::is_reset_notice(id)) {
+    on_reset_notice(packet.t_first_byte_ns);
+  } else if (id <= static_cast<std::uint8_t>(CommandId::Sync2)) {
+    on_sync_echo(id, packet);
+  }
+  // Other packets were not asked for and do not matter to a follower.
+}
+
+void ArcosSession::on_sync_echo(std::uint8_t number, const arcos::Packet& packet) {
+  const TimeNs t_ns = packet.t_first_byte_ns;
+  if (step_ == Step::Sync0 && number == 0) {
+    ask_sync(Step::Sync1, t_ns);
+  } else if (step_ == Step::Sync1 && number == 1) {
+    ask_sync(Step::Sync2, t_ns);
+  } else if (step_ == Step::Sync2 && number == 2) {
+    if (decode_sync2_echo(packet.body, identity_) != arcos::DecodeResult::Ok) {
+      events_.push(t_ns, Kind::BadPacket, number);  // its names are for people only
+    }
+    events_.push(t_ns, Kind::Synchronised);
+    sweep_.found();
+    line_exhausted_ = sip_seen_ = config_seen_ = false;
+    controller_ = arcos::ConfigPacket{};
+    queue_.clear();
+    queue_.push(arcos::encode_integer(CommandId::Open, 1));
+    queue_.push(arcos::encode_plain(CommandId::Stop));
+    if (config_.request_config) queue_.push(arcos::encode_integer(CommandId::Config, 1));
+    enter(Step::Opening, t_ns);
+  }
+}
+
+void ArcosSession::on_sip(const arcos::Packet& packet) {
+  const TimeNs t_ns = packet.t_first_byte_ns;
+  if (arcos::decode_sip(packet.body, sip_) != arcos::DecodeResult::Ok) {
+    events_.push(t_ns, Kind::BadPacket, packet.id());
+    return;
+  }
+  if (!is_connected()) {
+    if (step_ != Step::Closing) close_left_open(t_ns);
+    return;
+  }
+  switch (odometry_.update(sip_, t_ns)) {
+    case OdometryTracker::Step::Moved:
+      break;
+    case OdometryTracker::Step::Rebased:
+      events_.push(t_ns, Kind::OdometryRebased);
+      break;
+    case OdometryTracker::Step::Suspect:
+      events_.push(t_ns, Kind::OdometrySuspect);
+      break;
+  }
+  state_.odometry = odometry_.pose();
+  copy_status(sip_, state_);
+  ++state_.sips;
+  t_sip_ns_ = t_ns;
+  if (!sip_seen_) {
+    sip_seen_ = true;
+    if (was_connected_) ++state_.reconnects;
+    was_connected_ = true;
+    events_.push(t_ns, Kind::FirstSip);
+  }
+  follow_motor_flags(t_ns);
+}
+
+void ArcosSession::on_config(const arcos::Packet& packet) {
+  if (step_ != Step::Opening || config_seen_) return;
+  if (arcos::decode_config(packet.body, controller_) != arcos::DecodeResult::Ok) {
+    controller_ = arcos::ConfigPacket{};
+    events_.push(packet.t_first_byte_ns, Kind::BadPacket, packet.id());
+    return;
+  }
+  config_seen_ = true;
+  // Behind a TCP server is a serial line as well, and its rate is the robot's.
+  if (!sweep_.sweeps() && controller_.host_baud < kRobotBauds.size())
+    pacer_.set_baud(kRobotBauds[controller_.host_baud]);
+  events_.push(packet.t_first_byte_ns, Kind::ConfigReceived, controller_.watchdog_ms);
+}
+
+void ArcosSession::on_reset_notice(TimeNs t_ns) {
+  if (!is_connected()) return;
+  events_.push(t_ns, Kind::ControllerReset);
+  odometry_.controller_reset();
+  queue_.clear();
+  enter(Step::Listening, t_ns);
+}
+
+void ArcosSession::follow_motor_flags(TimeNs t_ns) {
+  const bool held = state_.stop_button || state_.e_stall;
+  if (step_ == Step::Enabling) {
+    if (held) {
+      hold_disabled_ = true;
+      queue_.clear();
+      events_.push(t_ns, Kind::StopButton);
+      enter(Step::Disabled, t_ns);
+    } else if (state_.motors_enabled && queue_.empty()) {  // not before our zero velocity has gone out
+      events_.push(t_ns, Kind::MotorsEnabled);
+      enter(Step::Running, t_ns);
+    }
+  } else if (step_ == Step::Running && (held || !state_.motors_enabled)) {
+    hold_disabled_ = true;
+    events_.push(t_ns, held ? Kind::StopButton : Kind::MotorsOff);
+    enter(Step::Disabled, t_ns);
+  }
+}
+
+void ArcosSession::close_left_open(TimeNs t_ns) {
+  events_.push(t_ns, Kind::FoundOpen);
+  sweep_.found();  // a SIP was understood: this is the rate
+  odometry_.interrupted();
+  queue_.clear();
+  queue_.push(arcos::encode_plain(CommandId::Stop));
+  queue_.push(arcos::encode_plain(CommandId::Close));
+  enter(Step::Closing, t_ns);
+}
+
+}  // namespace heel

@@ -1,0 +1,139 @@
+// The session with the robot's controller, from the first SYNC0 to the last CLOSE: bytes in, bytes out, and
+// the time it is. No device and no clock, so that daemon, lock-step simulator and replay run the same code;
+// no allocation after construction.
+//
+//   NoLine → Listening → Sync0 → Sync1 → Sync2 → Opening → Enabling → Running ⇄ Disabled
+//              ↑  └ a SIP: left open → Closing ┘      ⇅          └ silence, reset → Silent → Listening
+//                                            AskingRate → TryingRate (→ LeavingRate): a faster line
+//
+// Listening comes first because SYNC0 is PULSE to a robot that was left open, and a pulse may resume its
+// motion.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "arcos/config_packet.h"
+#include "arcos/other_packets.h"
+#include "arcos/parser.h"
+#include "arcos/sip.h"
+#include "heel/config.h"
+#include "heel/flow.h"
+#include "robot/baud_sweep.h"
+#include "robot/command_pacer.h"
+#include "robot/motion_sender.h"
+#include "robot/odometry.h"
+#include "robot/outgoing.h"
+#include "robot/session_event.h"
+
+namespace heel {
+
+class ArcosSession {
+ public:
+  /// Throws heel::Error when the address cannot be understood.
+  explicit ArcosSession(const RobotConfig& config);
+
+  void line_opened(TimeNs now_ns);
+  void line_lost(TimeNs now_ns);
+
+  /// Bytes from the line; `t_ns` is when they came. Never produces output by itself: tick does.
+  void receive(std::span<const std::uint8_t> bytes, TimeNs t_ns);
+
+  /// One tick. Returns what is to be written now; valid until the next call.
+  std::span<const std::uint8_t> tick(const VelocityCommand& command, TimeNs now_ns);
+
+  /// The rate the line should have: changes where no robot is found, and when it has been asked for another.
+  /// After a change tick is to be called again only when the line runs at it.
+  int wanted_baud() const { return sweep_.current(); }
+  /// Every rate was tried without an answer: the device itself may need to be opened anew.
+  bool line_exhausted() const { return line_exhausted_; }
+
+  /// A person starts again after the motors went off. Without effect in other phases but on a reconnection.
+  void enable_again();
+
+  /// STOP, SONAR 0, CLOSE: on every way out. Nothing more is sent until line_opened.
+  std::span<const std::uint8_t> close(TimeNs now_ns);
+
+  const RobotState& state() const { return state_; }
+  const arcos::RobotIdentity& identity() const { return identity_; }
+  bool next_event(SessionEvent& event) { return events_.pop(event); }
+
+ private:
+  enum class Step : std::uint8_t {
+    NoLine,
+    Listening,  ///< is the robot already talking?
+    Sync0,
+    Sync1,
+    Sync2,
+    Closing,      ///< it was left open: CLOSE has been sent, let it take effect
+    Opening,      ///< OPEN sent: SIP and configuration awaited
+    AskingRate,   ///< HOSTBAUD sent at the old rate
+    TryingRate,   ///< any packet at the new one?
+    LeavingRate,  ///< none: HOSTBAUD sent at the new rate, to go back
+    Enabling,
+    Running,
+    Disabled,
+    Silent,  ///< SIPs stopped: a pause, then from the beginning
+  };
+
+  void enter(Step step, TimeNs now_ns);
+  void show_phase(LinkPhase phase) { state_.phase = phase; }
+  bool is_connected() const;
+
+  void on_packet(const arcos::Packet& packet);
+  void on_sync_echo(std::uint8_t number, const arcos::Packet& packet);
+  void on_sip(const arcos::Packet& packet);
+  void on_config(const arcos::Packet& packet);
+  void on_reset_notice(TimeNs t_ns);
+  void follow_motor_flags(TimeNs t_ns);
+  void close_left_open(TimeNs t_ns);
+
+  void advance_steps(TimeNs now_ns);
+  void retry_sync(TimeNs now_ns);
+  void finish_opening(TimeNs now_ns);
+  void retry_enable(TimeNs now_ns);
+  void give_up_silent(TimeNs now_ns);
+
+  // arcos_session_rate.cpp
+  bool rate_can_rise() const;
+  void ask_rate(Step step, int baud, TimeNs now_ns);
+  bool rate_was_asked(TimeNs now_ns) const;
+  void change_rate(int baud);
+  void try_rate(TimeNs now_ns);
+  void rate_confirmed(TimeNs t_ns);
+
+  void ask_sync(Step step, TimeNs now_ns, bool close_first = false);
+  void queue_limits();
+  void queue_enable();
+  void flush_queue(TimeNs now_ns);
+
+  RobotConfig config_;
+  BaudSweep sweep_;
+  int wished_baud_;  ///< of the address
+  CommandPacer pacer_;
+  MotionSender motion_;
+  OdometryTracker odometry_;
+  arcos::Parser parser_;
+  FrameQueue queue_;
+  OutgoingBytes out_;
+  SessionEvents events_;
+  RobotState state_;
+  arcos::RobotIdentity identity_;
+
+  // Decoded into place: they are too large for the stack of a real-time thread to hold twice over.
+  arcos::Sip sip_;
+  arcos::ConfigPacket controller_;
+
+  Step step_ = Step::NoLine;
+  TimeNs t_step_ns_ = 0;  ///< when the step, or its last attempt, began
+  TimeNs t_sip_ns_ = 0;
+  int attempts_ = 0;
+  bool sip_seen_ = false;     ///< since OPEN
+  bool config_seen_ = false;  ///< since OPEN
+  bool was_connected_ = false;
+  bool line_exhausted_ = false;
+  bool rate_refused_ = false;   ///< once is enough
+  bool hold_disabled_ = false;  ///< motors were put off: ENABLE waits for a person
+};
+
+}  // namespace heel

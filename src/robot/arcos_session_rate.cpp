@@ -1,0 +1,73 @@
+// See arcos_session.h. Here: a slow line made faster, before the motors are enabled. A controller that can
+// (CONFIGpac: Autobaud 2) is asked for the rate of our address, and followed to it:
+//
+//   Opening ─HOSTBAUD→ AskingRate ─10 ms, retune→ TryingRate ─any packet→ Opening, at the new rate
+//                                                     └900 ms, HOSTBAUD→ LeavingRate ─10 ms, retune→ Opening
+//
+// Who goes back says so at the new rate first: the robot may have followed and only not be heard. Should it
+// be lost nevertheless, Opening falls silent, and the sweep over all rates finds it.
+#include <algorithm>
+
+#include "arcos/command_codec.h"
+#include "robot/arcos_session.h"
+
+namespace heel {
+namespace {
+
+using arcos::CommandId;
+using Kind = SessionEventKind;
+
+constexpr std::uint8_t kAutobaudByItself = 2;
+constexpr TimeNs kSettleNs = 10 * kNsPerMs;
+constexpr TimeNs kConfirmNs = 900 * kNsPerMs;
+constexpr TimeNs kPulseNs = 200 * kNsPerMs;
+
+arcos::Frame host_baud_command(int baud) {
+  const auto at = std::find(kRobotBauds.begin(), kRobotBauds.end(), baud);
+  return arcos::encode_integer(CommandId::HostBaud, static_cast<std::int16_t>(at - kRobotBauds.begin()));
+}
+
+}  // namespace
+
+bool ArcosSession::rate_can_rise() const {
+  return sweep_.sweeps() && !rate_refused_ && config_seen_ && controller_.autobaud == kAutobaudByItself &&
+         wished_baud_ > sweep_.current();
+}
+
+void ArcosSession::ask_rate(Step step, int baud, TimeNs now_ns) {
+  enter(step, now_ns);
+  queue_.clear();
+  queue_.push(host_baud_command(baud));
+}
+
+/// HOSTBAUD has gone out, and the robot has had time to obey.
+bool ArcosSession::rate_was_asked(TimeNs now_ns) const {
+  return queue_.empty() && now_ns >= pacer_.idle_from_ns() + kSettleNs;
+}
+
+void ArcosSession::try_rate(TimeNs now_ns) {
+  const TimeNs in_step_ns = now_ns - t_step_ns_;
+  if (in_step_ns >= kConfirmNs) {
+    rate_refused_ = true;
+    events_.push(now_ns, Kind::RateRefused, sweep_.current());
+    ask_rate(Step::LeavingRate, sweep_.good(), now_ns);
+  } else if (in_step_ns >= kSettleNs + attempts_ * kPulseNs) {
+    ++attempts_;
+    queue_.push(arcos::encode_plain(CommandId::Pulse));
+  }
+}
+
+void ArcosSession::rate_confirmed(TimeNs t_ns) {
+  sweep_.found();
+  events_.push(t_ns, Kind::RateRaised, sweep_.current());
+  queue_.clear();
+  enter(Step::Opening, t_ns);
+}
+
+void ArcosSession::change_rate(int baud) {
+  sweep_.attempt(baud);
+  pacer_.set_baud(baud);
+  parser_.reset();
+}
+
+}  // namespace heel

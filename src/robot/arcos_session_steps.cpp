@@ -1,0 +1,201 @@
+// See arcos_session.h. Here: what happens as time passes, and what is sent.
+#include <algorithm>
+
+#include "arcos/command_codec.h"
+#include "robot/arcos_session.h"
+
+namespace heel {
+namespace {
+
+using arcos::CommandId;
+using Kind = SessionEventKind;
+
+constexpr TimeNs kListenNs = 300 * kNsPerMs;  // three SIP cycles
+constexpr TimeNs kCloseTakesNs = 150 * kNsPerMs;
+constexpr TimeNs kOpenTimeoutNs = 3 * kNsPerS;
+constexpr TimeNs kSipSilenceNs = 2 * kNsPerS;
+constexpr TimeNs kEnableRetryNs = 700 * kNsPerMs;
+constexpr int kEnableAttempts = 3;
+constexpr int kSyncAttemptsPerBaud = 2;
+// The longest packet takes 0.27 s at 9600 baud: what is older and still incomplete has lost bytes.
+constexpr TimeNs kPartialPacketNs = 300 * kNsPerMs;
+
+/// A limit of ours, no larger than the controller's own (0: not told).
+std::int16_t limited(int ours, int controllers_top) {
+  const int limit = controllers_top > 0 ? std::min(ours, controllers_top) : ours;
+  return static_cast<std::int16_t>(std::clamp(limit, 0, 32767));
+}
+
+}  // namespace
+
+// ── time passes ─────────────────────────────────────────────────────────────────────────────────
+
+std::span<const std::uint8_t> ArcosSession::tick(const VelocityCommand& command, TimeNs now_ns) {
+  out_.clear();
+  if (step_ == Step::NoLine) return out_.bytes();
+  parser_.give_up_before(now_ns - kPartialPacketNs,
+                         [this](const arcos::Packet& packet) { on_packet(packet); });
+  advance_steps(now_ns);
+  flush_queue(now_ns);
+  if (queue_.empty()) {
+    if (step_ == Step::Running) motion_.send(command, now_ns, pacer_, out_);
+    // Zero keeps the watchdog fed while the motors are off or about to come on.
+    if (step_ == Step::Enabling || step_ == Step::Disabled) motion_.send_zero(now_ns, pacer_, out_);
+  }
+  return out_.bytes();
+}
+
+void ArcosSession::advance_steps(TimeNs now_ns) {
+  const TimeNs in_step_ns = now_ns - t_step_ns_;
+  switch (step_) {
+    case Step::NoLine:
+      return;
+    case Step::Listening:
+      if (in_step_ns >= kListenNs) ask_sync(Step::Sync0, now_ns);
+      return;
+    case Step::Sync0:
+    case Step::Sync1:
+    case Step::Sync2:
+      if (in_step_ns >= ns_from_seconds(config_.sync_retry_s)) retry_sync(now_ns);
+      return;
+    case Step::Closing:
+      if (in_step_ns >= kCloseTakesNs && queue_.empty()) enter(Step::Listening, now_ns);
+      return;
+    case Step::Opening:
+      return finish_opening(now_ns);
+    case Step::AskingRate:
+      if (!rate_was_asked(now_ns)) return;
+      change_rate(wished_baud_);
+      return enter(Step::TryingRate, now_ns);
+    case Step::TryingRate:
+      return try_rate(now_ns);
+    case Step::LeavingRate:
+      if (!rate_was_asked(now_ns)) return;
+      change_rate(sweep_.good());
+      return enter(Step::Opening, now_ns);
+    case Step::Enabling:
+      if (in_step_ns >= kEnableRetryNs) retry_enable(now_ns);
+      [[fallthrough]];
+    case Step::Running:
+    case Step::Disabled:
+      if (now_ns - t_sip_ns_ >= kSipSilenceNs) give_up_silent(now_ns);
+      return;
+    case Step::Silent:
+      if (in_step_ns >= ns_from_seconds(config_.reconnect_s) && queue_.empty())
+        enter(Step::Listening, now_ns);
+      return;
+  }
+}
+
+void ArcosSession::ask_sync(Step step, TimeNs now_ns, bool close_first) {
+  const int attempts = attempts_;
+  enter(step, now_ns);
+  attempts_ = step == Step::Sync0 ? attempts + 1 : attempts;  // a baud's attempts count through all three
+  const CommandId id = step == Step::Sync0   ? CommandId::Sync0
+                       : step == Step::Sync1 ? CommandId::Sync1
+                                             : CommandId::Sync2;
+  queue_.clear();
+  // If only the last echo was lost, the robot takes SYNC0 for a pulse and says nothing. With its argument
+  // CLOSE cannot be mistaken for SYNC2.
+  if (close_first) queue_.push(arcos::encode_integer(CommandId::Close, 1));
+  queue_.push(arcos::encode_plain(id));
+}
+
+void ArcosSession::retry_sync(TimeNs now_ns) {
+  if (attempts_ < kSyncAttemptsPerBaud) {
+    ask_sync(Step::Sync0, now_ns, true);
+    return;
+  }
+  events_.push(now_ns, Kind::NoAnswer, sweep_.current());
+  const int before = sweep_.current();
+  if (!sweep_.advance()) line_exhausted_ = true;
+  if (sweep_.current() != before) {
+    events_.push(now_ns, Kind::TryingBaud, sweep_.current());
+    change_rate(sweep_.current());
+  }
+  enter(Step::Listening, now_ns);
+}
+
+void ArcosSession::finish_opening(TimeNs now_ns) {
+  const TimeNs in_step_ns = now_ns - t_step_ns_;
+  if (!sip_seen_ || t_sip_ns_ < t_step_ns_) {  // one that came at this rate
+    if (in_step_ns >= kOpenTimeoutNs) give_up_silent(now_ns);
+    return;
+  }
+  const bool waited = in_step_ns >= ns_from_seconds(config_.config_wait_s);
+  if (config_.request_config && !config_seen_ && !waited) return;
+  if (config_.request_config && !config_seen_) events_.push(now_ns, Kind::ConfigMissing);
+  if (rate_can_rise()) return ask_rate(Step::AskingRate, wished_baud_, now_ns);
+  queue_limits();
+  if (hold_disabled_) {
+    enter(Step::Disabled, now_ns);
+  } else {
+    queue_enable();
+    enter(Step::Enabling, now_ns);
+  }
+}
+
+void ArcosSession::retry_enable(TimeNs now_ns) {
+  ++attempts_;
+  t_step_ns_ = now_ns;
+  if (attempts_ >= kEnableAttempts) {
+    events_.push(now_ns, Kind::EnableFailed, attempts_);
+    hold_disabled_ = true;
+    enter(Step::Disabled, now_ns);
+    return;
+  }
+  events_.push(now_ns, Kind::EnableRepeated, attempts_ + 1);
+  queue_enable();
+}
+
+void ArcosSession::give_up_silent(TimeNs now_ns) {
+  const TimeNs last_ns = sip_seen_ ? t_sip_ns_ : t_step_ns_;
+  events_.push(now_ns, Kind::SipSilence, (now_ns - last_ns) / kNsPerMs);
+  odometry_.interrupted();
+  // We may be deaf rather than the robot dead: it is to stand and to be closed.
+  queue_.clear();
+  queue_.push(arcos::encode_plain(CommandId::Stop));
+  queue_.push(arcos::encode_plain(CommandId::Close));
+  enter(Step::Silent, now_ns);
+}
+
+void ArcosSession::enable_again() {
+  hold_disabled_ = false;
+  if (step_ != Step::Disabled) return;
+  queue_enable();
+  enter(Step::Enabling, t_sip_ns_);
+}
+
+// ── bytes out ───────────────────────────────────────────────────────────────────────────────────
+
+void ArcosSession::queue_limits() {
+  const auto push = [this](CommandId id, std::int16_t value) {
+    queue_.push(arcos::encode_integer(id, value));
+  };
+  const auto negative = [](std::int16_t value) { return static_cast<std::int16_t>(-value); };
+  push(CommandId::SetV, limited(config_.v_limit_mm_s, controller_.trans_vel_top));
+  push(CommandId::SetA, limited(config_.acceleration_mm_s2, controller_.trans_acc_top));
+  push(CommandId::SetA, negative(limited(config_.deceleration_mm_s2, controller_.trans_acc_top)));
+  push(CommandId::SetRv, limited(config_.yaw_rate_limit_deg_s, controller_.rot_vel_top));
+  push(CommandId::SetRa, limited(config_.yaw_acceleration_deg_s2, controller_.rot_acc_top));
+  push(CommandId::SetRa, negative(limited(config_.yaw_acceleration_deg_s2, controller_.rot_acc_top)));
+  push(CommandId::Sonar, config_.sonar ? 1 : 0);
+}
+
+void ArcosSession::queue_enable() {
+  // Zero before the motors: an old set point must not come alive with them.
+  queue_.push(arcos::encode_integer(CommandId::Vel, 0));
+  queue_.push(arcos::encode_integer(CommandId::RVel, 0));
+  queue_.push(arcos::encode_integer(CommandId::Enable, 1));
+  motion_.begin_with_zero();
+}
+
+void ArcosSession::flush_queue(TimeNs now_ns) {
+  while (!queue_.empty() && pacer_.may_send(now_ns)) {
+    out_.append(queue_.front());
+    pacer_.sent(queue_.front().size(), now_ns);
+    queue_.pop();
+  }
+}
+
+}  // namespace heel

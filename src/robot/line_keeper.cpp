@@ -1,0 +1,68 @@
+// See line_keeper.h.
+#include "robot/line_keeper.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace heel {
+
+LineKeeper::LineKeeper(RobotAddress address, TimeNs pause_ns)
+    : address_(std::move(address)), pause_ns_(pause_ns), thread_([this] { run(); }) {}
+
+LineKeeper::~LineKeeper() {
+  quit_.store(true);
+  owner_.store(Owner::Quit, std::memory_order_release);
+  owner_.notify_one();
+  thread_.join();
+}
+
+void LineKeeper::hand_over(Owner to, int baud) {
+  baud_ = baud;
+  owner_.store(to, std::memory_order_release);
+  owner_.notify_one();
+}
+
+std::string LineKeeper::last_error() const {
+  const std::lock_guard lock(error_mutex_);
+  return error_;
+}
+
+void LineKeeper::run() {
+  while (!quit_.load()) {
+    const Owner owner = owner_.load(std::memory_order_acquire);
+    if (owner == Owner::Nobody || owner == Owner::Caller) {
+      owner_.wait(owner, std::memory_order_acquire);
+      continue;
+    }
+    if (owner == Owner::Quit) return;
+    const bool retuned = owner == Owner::KeeperRetunes && line_.set_baud(baud_);
+    if (!retuned && !open_until_it_works()) return;
+    Owner expected = owner;  // unless it was told to quit meanwhile
+    owner_.compare_exchange_strong(expected, Owner::Caller, std::memory_order_acq_rel);
+  }
+}
+
+bool LineKeeper::open_until_it_works() {
+  line_.close();
+  while (!quit_.load()) {
+    if (tried_before_) pause();
+    tried_before_ = true;
+    if (line_.open(address_, baud_)) return true;
+    {
+      const std::lock_guard lock(error_mutex_);
+      error_ = line_.error();
+    }
+    failures_.fetch_add(1, std::memory_order_relaxed);
+  }
+  return false;
+}
+
+void LineKeeper::pause() {
+  constexpr TimeNs kStepNs = 20 * kNsPerMs;  // quitting does not wait for the whole pause
+  for (TimeNs waited_ns = 0; waited_ns < pause_ns_ && !quit_.load(); waited_ns += kStepNs) {
+    std::this_thread::sleep_for(std::chrono::nanoseconds(std::min(kStepNs, pause_ns_ - waited_ns)));
+  }
+}
+
+}  // namespace heel

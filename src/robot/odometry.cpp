@@ -1,0 +1,104 @@
+// See odometry.h.
+#include "robot/odometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "robot/wire_units.h"
+
+namespace heel {
+namespace {
+
+using wire::wrapped_difference;
+
+// What a P3-AT can do, with room for late stamps; beyond it a counter has been damaged or zeroed.
+constexpr double kSpeedMaxMS = 2.0;
+constexpr double kTurnMaxRadS = 6.0;
+constexpr double kDistanceSlackM = 0.10;
+constexpr double kTurnSlackRad = 0.35;
+constexpr double kReachMaxS = 2.5;  // after a longer gap the robot has stood: its watchdog saw to that
+
+// Counters this near to zero after an interruption have been zeroed.
+constexpr double kZeroedWithinM = 0.05;
+constexpr double kZeroedWithinRad = 0.05;
+
+}  // namespace
+
+OdometryTracker::OdometryTracker(double dist_conv_factor)
+    : metres_per_unit_(dist_conv_factor * wire::kMetresPerMm) {}
+
+bool OdometryTracker::reachable(const Counters& from, const Counters& to) const {
+  const double elapsed_s = std::clamp(seconds_from_ns(to.t_ns - from.t_ns), 0.0, kReachMaxS);
+  const double dx_m = wrapped_difference(to.x, from.x, wire::kPositionUnitsPerWrap) * metres_per_unit_;
+  const double dy_m = wrapped_difference(to.y, from.y, wire::kPositionUnitsPerWrap) * metres_per_unit_;
+  const double turn_rad =
+      wrapped_difference(to.heading, from.heading, wire::kHeadingUnitsPerTurn) * wire::kRadPerHeadingUnit;
+  return std::hypot(dx_m, dy_m) <= kSpeedMaxMS * elapsed_s + kDistanceSlackM &&
+         std::abs(turn_rad) <= kTurnMaxRadS * elapsed_s + kTurnSlackRad;
+}
+
+bool OdometryTracker::zeroed_meanwhile(const Counters& now) const {
+  const auto near_zero = [this](const Counters& c) {
+    const Counters zero;
+    const double x_m = wrapped_difference(c.x, zero.x, wire::kPositionUnitsPerWrap) * metres_per_unit_;
+    const double y_m = wrapped_difference(c.y, zero.y, wire::kPositionUnitsPerWrap) * metres_per_unit_;
+    const double heading_rad =
+        wrapped_difference(c.heading, zero.heading, wire::kHeadingUnitsPerTurn) * wire::kRadPerHeadingUnit;
+    return std::hypot(x_m, y_m) < kZeroedWithinM && std::abs(heading_rad) < kZeroedWithinRad;
+  };
+  return near_zero(now) && !near_zero(last_);
+}
+
+void OdometryTracker::anchor(const Counters& at) {
+  units_x_ = units_y_ = units_heading_ = 0;
+  anchor_x_m_ = pose_.x_m;
+  anchor_y_m_ = pose_.y_m;
+  anchor_heading_rad_ = pose_.heading_rad;
+  const double odom_from_raw_rad = pose_.heading_rad - at.heading * wire::kRadPerHeadingUnit;
+  cos_odom_from_raw_ = std::cos(odom_from_raw_rad);
+  sin_odom_from_raw_ = std::sin(odom_from_raw_rad);
+  last_ = at;
+}
+
+void OdometryTracker::advance(const Counters& to) {
+  units_x_ += wrapped_difference(to.x, last_.x, wire::kPositionUnitsPerWrap);
+  units_y_ += wrapped_difference(to.y, last_.y, wire::kPositionUnitsPerWrap);
+  units_heading_ += wrapped_difference(to.heading, last_.heading, wire::kHeadingUnitsPerTurn);
+  last_ = to;
+  const double raw_x_m = static_cast<double>(units_x_) * metres_per_unit_;
+  const double raw_y_m = static_cast<double>(units_y_) * metres_per_unit_;
+  pose_.x_m = anchor_x_m_ + cos_odom_from_raw_ * raw_x_m - sin_odom_from_raw_ * raw_y_m;
+  pose_.y_m = anchor_y_m_ + sin_odom_from_raw_ * raw_x_m + cos_odom_from_raw_ * raw_y_m;
+  pose_.heading_rad = anchor_heading_rad_ + static_cast<double>(units_heading_) * wire::kRadPerHeadingUnit;
+}
+
+OdometryTracker::Step OdometryTracker::update(const arcos::Sip& sip, TimeNs t_ns) {
+  const Counters now{sip.x_pos, sip.y_pos, sip.th_pos, t_ns};
+  const bool confirmed = has_suspect_ && reachable(suspect_, now);
+  Step step = Step::Moved;
+  if (!started_ || rebase_next_ || (interrupted_ && (zeroed_meanwhile(now) || !reachable(last_, now)))) {
+    step = started_ ? Step::Rebased : Step::Moved;
+    anchor(now);
+  } else if (reachable(last_, now)) {
+    advance(now);
+  } else if (confirmed) {
+    step = Step::Rebased;
+    anchor(suspect_);
+    advance(now);
+  } else {
+    suspect_ = now;
+    has_suspect_ = true;
+    return Step::Suspect;
+  }
+  started_ = true;
+  interrupted_ = rebase_next_ = has_suspect_ = false;
+
+  pose_.t_ns = t_ns;
+  const double left_m_s = sip.left_mm_s * wire::kMetresPerMm;
+  const double right_m_s = sip.right_mm_s * wire::kMetresPerMm;
+  pose_.v_m_s = 0.5 * (left_m_s + right_m_s);
+  pose_.yaw_rate_rad_s = (right_m_s - left_m_s) / wire::kEffectiveTrackM;
+  return step;
+}
+
+}  // namespace heel

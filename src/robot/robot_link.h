@@ -1,0 +1,68 @@
+// The robot as the control thread sees it: line and session together. Construct it before the real-time
+// threads start; then nothing here allocates, locks or waits, but for shutdown(), which is bounded.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "heel/config.h"
+#include "heel/flow.h"
+#include "robot/arcos_session.h"
+#include "robot/line_keeper.h"
+
+namespace heel {
+
+class RobotLink {
+ public:
+  /// Throws heel::Error when the address cannot be understood. Begins to open the line at once, on a helper
+  /// thread: opening a device or looking up a host may take seconds.
+  explicit RobotLink(const RobotConfig& config);
+  /// Shuts down, if that has not been done.
+  ~RobotLink();
+
+  /// One control tick, on the control thread: reads what has come, lets the session decide, writes.
+  const RobotState& exchange(const VelocityCommand& command, TimeNs now_ns);
+
+  /// What the robot has sent so far, without writing: called at the beginning of a tick, so that the tick
+  /// rests on the newest SIP.
+  const RobotState& receive(TimeNs now_ns);
+
+  /// Instead of sleeping to the next tick: stamps bytes as they come, until `deadline_ns` of CLOCK_MONOTONIC.
+  /// A SIP stamped only at the tick would look up to a period younger than it is.
+  void listen_until(TimeNs deadline_ns);
+
+  /// A person starts again after the motors went off.
+  void enable_again() { session_.enable_again(); }
+
+  /// STOP, SONAR 0, CLOSE, drained: on every way out. Takes 0.3 s at most; the link is finished after it.
+  void shutdown(TimeNs now_ns);
+
+  const RobotState& state() const { return session_.state(); }
+  bool next_event(SessionEvent& event) { return session_.next_event(event); }
+
+  /// Failed attempts to open the line, and the last reason; for threads that may lock and allocate.
+  std::uint64_t open_failures() const { return keeper_.failures(); }
+  std::string last_open_error() const { return keeper_.last_error(); }
+
+ private:
+  SerialLine* usable_line(TimeNs now_ns);
+  void read_all(SerialLine& line, TimeNs now_ns);
+  void write_pending(TimeNs now_ns);
+  void lose_line(TimeNs now_ns);
+
+  ArcosSession session_;
+  LineKeeper keeper_;
+  bool line_up_ = false;  ///< the session has been told of it
+  bool finished_ = false;
+  int line_baud_;
+
+  // What the driver did not take of the last tick's bytes.
+  std::array<std::uint8_t, 512> pending_{};
+  std::size_t pending_begin_ = 0;
+  std::size_t pending_end_ = 0;
+  TimeNs t_progress_ns_ = 0;  ///< when output last moved
+};
+
+}  // namespace heel

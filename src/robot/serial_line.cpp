@@ -1,0 +1,189 @@
+// See serial_line.h.
+#include "robot/serial_line.h"
+
+#include <fcntl.h>
+#include <libserialport.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <system_error>
+
+#include "robot/tcp_connect.h"
+
+namespace heel {
+namespace {
+
+/// poll with a timeout in nanoseconds. True when any of `events`, or a hang-up, is there.
+bool poll_one(int fd, short events, TimeNs timeout_ns, short* seen = nullptr) {
+  pollfd entry{fd, events, 0};
+  const timespec timeout{static_cast<time_t>(timeout_ns / kNsPerS), static_cast<long>(timeout_ns % kNsPerS)};
+  const bool ready = ::ppoll(&entry, 1, &timeout, nullptr) > 0;
+  if (seen != nullptr) *seen = entry.revents;
+  return ready;
+}
+
+speed_t termios_speed(int baud) {
+  constexpr std::array<speed_t, kRobotBauds.size()> kSpeeds = {B9600, B19200, B38400, B57600, B115200};
+  for (std::size_t i = 0; i < kSpeeds.size(); ++i) {
+    if (kRobotBauds[i] == baud) return kSpeeds[i];
+  }
+  return B9600;
+}
+
+std::string last_serial_error() {
+  char* const text = sp_last_error_message();
+  std::string error = text != nullptr ? text : "unknown error";
+  sp_free_error_message(text);
+  return error;
+}
+
+}  // namespace
+
+bool SerialLine::fail(const std::string& why) {
+  close();
+  error_ = "robot " + name_ + ": " + why;
+  return false;
+}
+
+bool SerialLine::open(const RobotAddress& address, int baud) {
+  close();
+  kind_ = address.kind;
+  name_ = address.text;
+  error_.clear();
+  switch (kind_) {
+    case RobotAddress::Kind::Serial:
+      return open_serial(address, baud);
+    case RobotAddress::Kind::Pty:
+      return open_pty(address, baud);
+    case RobotAddress::Kind::Tcp:
+      return open_tcp(address);
+  }
+  return false;
+}
+
+bool SerialLine::open_serial(const RobotAddress& address, int baud) {
+  // libserialport knows devices by their kernel name only: udev's symlinks are followed for it.
+  std::error_code missing;
+  const std::string device = std::filesystem::canonical(address.path, missing).string();
+  if (missing) return fail("cannot open: " + missing.message());
+  if (sp_get_port_by_name(device.c_str(), &port_) != SP_OK) {
+    return fail("is not a serial port (expected a device as /dev/ttyUSB0)");
+  }
+  if (sp_open(port_, SP_MODE_READ_WRITE) != SP_OK) return fail("cannot open: " + last_serial_error());
+  sp_get_port_handle(port_, &fd_);
+  const bool configured = sp_set_baudrate(port_, baud) == SP_OK && sp_set_bits(port_, 8) == SP_OK &&
+                          sp_set_parity(port_, SP_PARITY_NONE) == SP_OK &&
+                          sp_set_stopbits(port_, 1) == SP_OK &&
+                          sp_set_flowcontrol(port_, SP_FLOWCONTROL_NONE) == SP_OK;
+  if (!configured) return fail("cannot configure: " + last_serial_error());
+  sp_flush(port_, SP_BUF_BOTH);  // bytes of an earlier session
+  return true;
+}
+
+bool SerialLine::open_pty(const RobotAddress& address, int baud) {
+  fd_ = ::open(address.path.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  if (fd_ < 0) return fail(std::string("cannot open: ") + std::strerror(errno));
+  if (::isatty(fd_) == 0) return fail("is not a terminal (expected the path of a pty)");
+  return configure_pty(baud) || fail(std::string("cannot configure: ") + std::strerror(errno));
+}
+
+/// A pty carries bytes at any speed; its rate is a note, for whoever plays the robot at the other end.
+bool SerialLine::configure_pty(int baud) {
+  termios settings{};
+  if (::tcgetattr(fd_, &settings) != 0) return false;
+  ::cfmakeraw(&settings);
+  ::cfsetspeed(&settings, termios_speed(baud));
+  return ::tcsetattr(fd_, TCSANOW, &settings) == 0;
+}
+
+bool SerialLine::open_tcp(const RobotAddress& address) {
+  std::string why;
+  fd_ = tcp_connect(address.host, address.port, 3 * kNsPerS, why);
+  if (fd_ < 0) return fail(why);
+  const int on = 1;
+  ::setsockopt(fd_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));  // a command is of no use later
+  return true;
+}
+
+bool SerialLine::set_baud(int baud) {
+  if (kind_ == RobotAddress::Kind::Tcp) return true;
+  if (fd_ < 0) return false;
+  if (kind_ == RobotAddress::Kind::Pty) {
+    ::tcflush(fd_, TCIOFLUSH);
+    return configure_pty(baud) ||
+           fail("cannot set " + std::to_string(baud) + " baud: " + std::strerror(errno));
+  }
+  sp_flush(port_, SP_BUF_BOTH);
+  if (sp_set_baudrate(port_, baud) == SP_OK) return true;
+  return fail("cannot set " + std::to_string(baud) + " baud: " + last_serial_error());
+}
+
+void SerialLine::close() {
+  if (port_ != nullptr) {
+    // Closing a port waits for its output, half a minute when nobody takes it: drop what is left.
+    if (fd_ >= 0) {
+      ::tcflush(fd_, TCOFLUSH);
+      sp_close(port_);
+    }
+    sp_free_port(port_);
+    port_ = nullptr;
+  } else if (fd_ >= 0) {
+    ::close(fd_);
+  }
+  fd_ = -1;
+}
+
+bool SerialLine::wait_readable(TimeNs timeout_ns) const {
+  return fd_ >= 0 && poll_one(fd_, POLLIN, timeout_ns);
+}
+
+SerialLine::Transfer SerialLine::read(std::span<std::uint8_t> into) {
+  if (fd_ < 0) return {0, Status::Lost};
+  // A terminal may answer 0 for "nothing yet"; after poll has promised something, 0 means the end.
+  short seen = 0;
+  if (!poll_one(fd_, POLLIN, 0, &seen)) return {};
+  if ((seen & POLLIN) == 0) return {0, Status::Lost};
+  const ssize_t count = ::read(fd_, into.data(), into.size());
+  if (count > 0) return {static_cast<std::size_t>(count), Status::Ok};
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) return {};
+  return {0, Status::Lost};
+}
+
+SerialLine::Transfer SerialLine::write(std::span<const std::uint8_t> bytes) {
+  if (fd_ < 0) return {0, Status::Lost};
+  if (bytes.empty()) return {};
+  const ssize_t count = kind_ == RobotAddress::Kind::Tcp
+                            ? ::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL)
+                            : ::write(fd_, bytes.data(), bytes.size());
+  if (count >= 0) return {static_cast<std::size_t>(count), Status::Ok};
+  if (errno == EAGAIN || errno == EINTR) return {};
+  return {0, Status::Lost};
+}
+
+std::size_t SerialLine::unsent_bytes() const {
+  int count = 0;
+  if (fd_ < 0 || ::ioctl(fd_, TIOCOUTQ, &count) != 0 || count < 0) return 0;
+  return static_cast<std::size_t>(count);
+}
+
+bool SerialLine::drain(TimeNs timeout_ns) const {
+  constexpr TimeNs kStepNs = 2 * kNsPerMs;
+  const timespec step{0, kStepNs};
+  for (TimeNs waited_ns = 0; unsent_bytes() > 0; waited_ns += kStepNs) {
+    if (waited_ns >= timeout_ns) return false;
+    ::nanosleep(&step, nullptr);
+  }
+  return true;
+}
+
+}  // namespace heel

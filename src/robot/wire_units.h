@@ -1,0 +1,37 @@
+// The one place where ARCOS wire units meet SI.
+#pragma once
+
+#include <numbers>
+
+namespace heel::wire {
+
+inline constexpr double kMetresPerMm = 1e-3;
+inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+/// THPOS: a turn is 4096 units (the reference's 0.001534 rad).
+inline constexpr int kHeadingUnitsPerTurn = 4096;
+inline constexpr double kRadPerHeadingUnit = 2.0 * std::numbers::pi / kHeadingUnitsPerTurn;
+
+/// XPOS and YPOS count modulo 2^15: some firmware keeps the sixteenth bit, some does not.
+inline constexpr int kPositionUnitsPerWrap = 1 << 15;
+
+inline constexpr double kVoltsPerDecivolt = 0.1;
+
+/// The track that turns a difference of wheel speeds into a yaw rate: 2 / DiffConvFactor(0.0034), 1.47 times
+/// the geometric one, because the wheels skid in turns.
+inline constexpr double kEffectiveTrackM = 0.588;
+
+constexpr double mm_s_from_m_s(double v_m_s) {
+  return v_m_s / kMetresPerMm;
+}
+constexpr double deg_s_from_rad_s(double rate_rad_s) {
+  return rate_rad_s / kRadPerDeg;
+}
+
+/// The difference a − b of two counters that wrap, as the nearest representative: −modulus/2 … modulus/2 − 1.
+constexpr int wrapped_difference(int a, int b, int modulus) {
+  const int reduced = ((a - b) % modulus + modulus) % modulus;
+  return reduced < modulus / 2 ? reduced : reduced - modulus;
+}
+
+}  // namespace heel::wire

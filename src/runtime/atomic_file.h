@@ -1,0 +1,16 @@
+// Writing a file so that a reader, or a power cut, finds either the old one whole or the new one whole.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace heel {
+
+/// Writes `bytes` beside `path`, syncs, and renames over `path`. Throws heel::Error naming the file; then
+/// nothing has changed and no temporary file is left.
+void write_file_atomically(const std::string& path, std::string_view bytes);
+
+/// The whole of a regular file. Throws heel::Error naming the file, or when it is larger than `max_bytes`.
+std::string read_whole_file(const std::string& path, std::size_t max_bytes);
+
+}  // namespace heel

@@ -1,0 +1,120 @@
+#include "telemetry/csv_columns.h"
+
+#include <limits>
+#include <vector>
+
+namespace heel {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double or_none(bool known, double value) {
+  return known ? value : kNone;
+}
+
+/// Columns NAME_0 … NAME_(count−1).
+template <typename Record>
+void add_array(std::vector<CsvColumn<Record>>& columns, const std::string& name, int count,
+               void (*write)(CsvLine&, const Record&, int)) {
+  for (int i = 0; i < count; ++i) columns.push_back({name + "_" + std::to_string(i), write, i});
+}
+
+std::vector<CsvColumn<TickRecord>> make_tick_columns() {
+  using T = TickRecord;
+  using L = CsvLine;
+  return {
+      {"t_s", [](L& l, const T& t, int) { l.seconds(t.t_ns); }},
+      {"tick", [](L& l, const T& t, int) { l.integer(t.tick); }},
+      {"lateness_us", [](L& l, const T& t, int) { l.number(static_cast<double>(t.lateness_ns) * 1e-3); }},
+      {"stop_code", [](L& l, const T& t, int) { l.integer(static_cast<std::uint64_t>(t.stop_reason)); }},
+      {"stop_reason", [](L& l, const T& t, int) { l.text(to_string(t.stop_reason)); }},
+      {"link_code", [](L& l, const T& t, int) { l.integer(static_cast<std::uint64_t>(t.robot.phase)); }},
+      {"link_phase", [](L& l, const T& t, int) { l.text(to_string(t.robot.phase)); }},
+      // The robot, as its newest packet says.
+      {"odom_t_s", [](L& l, const T& t, int) { l.seconds(t.robot.odometry.t_ns); }},
+      {"odom_x_m", [](L& l, const T& t, int) { l.number(or_none(t.robot.has_sip, t.robot.odometry.x_m)); }},
+      {"odom_y_m", [](L& l, const T& t, int) { l.number(or_none(t.robot.has_sip, t.robot.odometry.y_m)); }},
+      {"odom_heading_rad",
+       [](L& l, const T& t, int) { l.number(or_none(t.robot.has_sip, t.robot.odometry.heading_rad)); }},
+      {"odom_v_m_s",
+       [](L& l, const T& t, int) { l.number(or_none(t.robot.has_sip, t.robot.odometry.v_m_s)); }},
+      {"odom_yaw_rate_rad_s",
+       [](L& l, const T& t, int) { l.number(or_none(t.robot.has_sip, t.robot.odometry.yaw_rate_rad_s)); }},
+      {"motors_enabled", [](L& l, const T& t, int) { l.flag(t.robot.motors_enabled); }},
+      {"stop_button", [](L& l, const T& t, int) { l.flag(t.robot.stop_button); }},
+      {"e_stall", [](L& l, const T& t, int) { l.flag(t.robot.e_stall); }},
+      {"stall_left", [](L& l, const T& t, int) { l.flag(t.robot.stall_left); }},
+      {"stall_right", [](L& l, const T& t, int) { l.flag(t.robot.stall_right); }},
+      {"bumpers_front", [](L& l, const T& t, int) { l.integer(std::uint64_t{t.robot.bumpers_front}); }},
+      {"bumpers_rear", [](L& l, const T& t, int) { l.integer(std::uint64_t{t.robot.bumpers_rear}); }},
+      {"battery_v", [](L& l, const T& t, int) { l.number(or_none(t.robot.has_sip, t.robot.battery_v)); }},
+      {"sips", [](L& l, const T& t, int) { l.integer(t.robot.sips); }},
+      {"checksum_errors", [](L& l, const T& t, int) { l.integer(t.robot.checksum_errors); }},
+      {"bytes_discarded", [](L& l, const T& t, int) { l.integer(t.robot.bytes_discarded); }},
+      {"reconnects", [](L& l, const T& t, int) { l.integer(t.robot.reconnects); }},
+      // The target, in the robot frame now.
+      {"target_known", [](L& l, const T& t, int) { l.flag(t.target.known); }},
+      {"target_t_capture_s", [](L& l, const T& t, int) { l.seconds(t.target.t_capture_ns); }},
+      {"target_certainty",
+       [](L& l, const T& t, int) { l.number(or_none(t.target.known, t.target.certainty)); }},
+      {"target_x_m", [](L& l, const T& t, int) { l.number(or_none(t.target.known, t.target.x_m)); }},
+      {"target_y_m", [](L& l, const T& t, int) { l.number(or_none(t.target.known, t.target.y_m)); }},
+      {"target_yaw_rad", [](L& l, const T& t, int) { l.number(or_none(t.target.known, t.target.yaw_rad)); }},
+      {"goal_x_m", [](L& l, const T& t, int) { l.number(or_none(t.target.known, t.target.goal_x_m)); }},
+      {"goal_y_m", [](L& l, const T& t, int) { l.number(or_none(t.target.known, t.target.goal_y_m)); }},
+      // What was asked for and what went to the wire.
+      {"wanted_v_m_s", [](L& l, const T& t, int) { l.number(t.wanted.v_m_s); }},
+      {"wanted_yaw_rate_rad_s", [](L& l, const T& t, int) { l.number(t.wanted.yaw_rate_rad_s); }},
+      {"command_v_m_s", [](L& l, const T& t, int) { l.number(t.command.v_m_s); }},
+      {"command_yaw_rate_rad_s", [](L& l, const T& t, int) { l.number(t.command.yaw_rate_rad_s); }},
+      {"command_expires_s", [](L& l, const T& t, int) { l.seconds(t.command.t_expires_ns); }},
+      {"limited_by", [](L& l, const T& t, int) { l.integer(std::uint64_t{t.command.limited_by}); }},
+  };
+}
+
+std::vector<CsvColumn<PoseEstimate>> make_pose_columns() {
+  using P = PoseEstimate;
+  using L = CsvLine;
+  std::vector<CsvColumn<P>> columns{
+      {"t_s", [](L& l, const P& p, int) { l.seconds(p.t_capture_ns); }},
+      {"done_s", [](L& l, const P& p, int) { l.seconds(p.t_done_ns); }},
+      {"frame", [](L& l, const P& p, int) { l.integer(p.frame_sequence); }},
+      {"reason_code", [](L& l, const P& p, int) { l.integer(static_cast<std::uint64_t>(p.reason)); }},
+      {"reason", [](L& l, const P& p, int) { l.text(to_string(p.reason)); }},
+      {"found", [](L& l, const P& p, int) { l.flag(p.found()); }},
+      {"certainty", [](L& l, const P& p, int) { l.number(p.certainty); }},
+      {"inliers", [](L& l, const P& p, int) { l.integer(std::uint64_t{p.inliers}); }},
+      {"matches", [](L& l, const P& p, int) { l.integer(std::uint64_t{p.matches}); }},
+      {"frame_features", [](L& l, const P& p, int) { l.integer(std::uint64_t{p.frame_features}); }},
+      {"template_features", [](L& l, const P& p, int) { l.integer(std::uint64_t{p.template_features}); }},
+      {"yaw_rad", [](L& l, const P& p, int) { l.number(or_none(p.found(), p.yaw_rad)); }},
+      {"yaw_sigma_rad", [](L& l, const P& p, int) { l.number(or_none(p.found(), p.yaw_sigma_rad)); }},
+  };
+  add_array<P>(columns, "t_over_d", 3,
+               [](L& l, const P& p, int i) { l.number(or_none(p.found(), p.t_over_d[i])); });
+  add_array<P>(columns, "t_over_d_sigma", 3,
+               [](L& l, const P& p, int i) { l.number(or_none(p.found(), p.t_over_d_sigma[i])); });
+  add_array<P>(columns, "position_m", 3, [](L& l, const P& p, int i) {
+    l.number(or_none(p.found() && p.has_distance, p.position_m[i]));
+  });
+  add_array<P>(columns, "R_cur_from_ref", 9,
+               [](L& l, const P& p, int i) { l.number(or_none(p.found(), p.R_cur_from_ref[i])); });
+  add_array<P>(columns, "H_cur_from_ref", 9,
+               [](L& l, const P& p, int i) { l.number(or_none(p.found(), p.H_cur_from_ref[i])); });
+  return columns;
+}
+
+}  // namespace
+
+std::span<const CsvColumn<TickRecord>> tick_columns() {
+  static const std::vector<CsvColumn<TickRecord>> columns = make_tick_columns();
+  return columns;
+}
+
+std::span<const CsvColumn<PoseEstimate>> pose_columns() {
+  static const std::vector<CsvColumn<PoseEstimate>> columns = make_pose_columns();
+  return columns;
+}
+
+}  // namespace heel

@@ -1,0 +1,40 @@
+// The columns of ticks.csv and poses.csv: one table each makes the header, the rows and (held to it by a
+// test) src/telemetry/README.md.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "heel/flow.h"
+#include "telemetry/csv_line.h"
+
+namespace heel {
+
+template <typename Record>
+struct CsvColumn {
+  std::string name;
+  void (*write)(CsvLine& line, const Record& record, int index);
+  int index = 0;  ///< handed to write: which element of an array
+};
+
+std::span<const CsvColumn<TickRecord>> tick_columns();
+std::span<const CsvColumn<PoseEstimate>> pose_columns();
+
+/// The names, separated by commas, with a line end.
+template <typename Record>
+std::string csv_header(std::span<const CsvColumn<Record>> columns) {
+  std::string header;
+  for (const CsvColumn<Record>& column : columns) header += (header.empty() ? "" : ",") + column.name;
+  return header + '\n';
+}
+
+/// The record as a line; valid until `line` is used again.
+template <typename Record>
+std::string_view csv_row(CsvLine& line, std::span<const CsvColumn<Record>> columns, const Record& record) {
+  line.clear();
+  for (const CsvColumn<Record>& column : columns) column.write(line, record, column.index);
+  return line.finish();
+}
+
+}  // namespace heel

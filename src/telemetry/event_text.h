@@ -1,0 +1,20 @@
+// Events as people read them.
+#pragma once
+
+#include <spdlog/common.h>
+
+#include <string>
+
+#include "heel/flow.h"
+
+namespace heel {
+
+/// One line, e.g. "camera lost: v4l2:/dev/video0: the device has gone".
+std::string event_text(const Event& event);
+
+spdlog::level::level_enum event_level(EventKind kind);
+
+/// Events that can come with every frame or tick, and are therefore logged at most once a second.
+bool event_repeats(EventKind kind);
+
+}  // namespace heel

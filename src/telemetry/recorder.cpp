@@ -1,0 +1,101 @@
+#include "telemetry/recorder.h"
+
+#include <array>
+#include <ctime>
+#include <filesystem>
+#include <system_error>
+
+#include "heel/error.h"
+#include "runtime/clock.h"
+#include "telemetry/csv_columns.h"
+#include "telemetry/event_text.h"
+
+namespace heel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct RecordingName {
+  const char* stem;
+  const char* extension;
+  fs::path path(const fs::path& folder) const { return folder / (std::string(stem) + extension); }
+  fs::path numbered(const fs::path& folder, int n) const {
+    return folder / (std::string(stem) + "." + std::to_string(n) + extension);
+  }
+};
+
+constexpr std::array<RecordingName, 3> kNames{{{"ticks", ".csv"}, {"poses", ".csv"}, {"events", ".log"}}};
+
+bool any_exists(const fs::path& folder, int n) {
+  for (const RecordingName& name : kNames) {
+    if (fs::exists(n == 0 ? name.path(folder) : name.numbered(folder, n))) return true;
+  }
+  return false;
+}
+
+/// An earlier recording is never overwritten; its files keep one number.
+void set_earlier_aside(const fs::path& folder) {
+  if (!any_exists(folder, 0)) return;
+  int number = 1;
+  while (any_exists(folder, number)) ++number;
+  for (const RecordingName& name : kNames) {
+    if (fs::exists(name.path(folder))) fs::rename(name.path(folder), name.numbered(folder, number));
+  }
+}
+
+std::string wall_clock() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text.data();
+}
+
+}  // namespace
+
+Recorder::Recorder(const std::string& directory) {
+  try {
+    fs::create_directories(directory);
+    set_earlier_aside(directory);
+  } catch (const fs::filesystem_error& error) {
+    throw Error("telemetry.directory " + directory + ": " + error.code().message() +
+                "; expected a folder that can be written");
+  }
+  ticks_ = std::make_unique<RecordFile>(kNames[0].path(directory));
+  poses_ = std::make_unique<RecordFile>(kNames[1].path(directory));
+  events_ = std::make_unique<RecordFile>(kNames[2].path(directory));
+  ticks_->append(csv_header(tick_columns()));
+  poses_->append(csv_header(pose_columns()));
+  remark(monotonic_now_ns(), "recording begins at " + wall_clock());
+}
+
+void Recorder::record(const TickRecord& tick) {
+  ticks_->append(csv_row(line_, tick_columns(), tick));
+}
+
+void Recorder::record(const PoseEstimate& pose) {
+  poses_->append(csv_row(line_, pose_columns(), pose));
+}
+
+void Recorder::record(const Event& event) {
+  remark(event.t_ns, event_text(event));
+}
+
+void Recorder::remark(TimeNs t_ns, std::string_view text) {
+  line_.clear();
+  line_.seconds(t_ns);
+  std::string whole(line_.finish());
+  whole.back() = ' ';
+  whole.append(text).push_back('\n');
+  events_->append(whole);
+}
+
+void Recorder::flush() {
+  ticks_->flush();
+  poses_->flush();
+  events_->flush();
+}
+
+}  // namespace heel

@@ -1,0 +1,38 @@
+// A recording: ticks.csv, poses.csv and events.log in one folder. Columns: src/telemetry/README.md.
+//
+//   Recorder recorder("/var/lib/heel/run");
+//   recorder.record(tick);  recorder.record(pose);  recorder.record(event);
+//   recorder.flush();       // in steady intervals
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "heel/flow.h"
+#include "telemetry/csv_line.h"
+#include "telemetry/record_file.h"
+
+namespace heel {
+
+class Recorder {
+ public:
+  /// Makes the folder when there is none; renames the files of an earlier recording in it (ticks.csv becomes
+  /// ticks.1.csv or the first free number). Throws heel::Error naming the file.
+  explicit Recorder(const std::string& directory);
+
+  void record(const TickRecord& tick);
+  void record(const PoseEstimate& pose);
+  void record(const Event& event);
+  /// A line of its own in events.log.
+  void remark(TimeNs t_ns, std::string_view text);
+  void flush();
+
+ private:
+  CsvLine line_;
+  std::unique_ptr<RecordFile> ticks_;
+  std::unique_ptr<RecordFile> poses_;
+  std::unique_ptr<RecordFile> events_;
+};
+
+}  // namespace heel

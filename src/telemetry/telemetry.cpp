@@ -1,0 +1,108 @@
+#include "telemetry/telemetry.h"
+
+#include <spdlog/spdlog.h>
+
+#include "runtime/clock.h"
+#include "runtime/futex.h"
+#include "telemetry/event_text.h"
+
+namespace heel {
+
+namespace {
+
+constexpr TimeNs kRoundNs = 50 * kNsPerMs;
+constexpr TimeNs kFlushNs = 500 * kNsPerMs;
+constexpr TimeNs kRepeatNs = kNsPerS;
+
+static_assert(static_cast<std::size_t>(EventKind::Warning) < 16, "Telemetry::logged_ns_ is too short");
+
+}  // namespace
+
+Telemetry::Telemetry(TelemetryFeeds& feeds, const TelemetryConfig& config) : feeds_(feeds) {
+  if (!config.directory.empty()) recorder_ = std::make_unique<Recorder>(config.directory);
+}
+
+void Telemetry::run() {
+  PeriodicDeadline deadline(kRoundNs, monotonic_now_ns());
+  while (stop_.load(std::memory_order_acquire) == 0) {
+    TimeNs now_ns = monotonic_now_ns();
+    if (now_ns < deadline.next_ns()) {
+      futex_wait(stop_, 0, deadline.next_ns() - now_ns, FutexScope::Process);
+      continue;
+    }
+    deadline.advance(now_ns);
+    drain(now_ns);
+  }
+  drain(monotonic_now_ns());
+  if (recorder_) recorder_->flush();
+}
+
+void Telemetry::stop() {
+  stop_.store(1, std::memory_order_release);
+  futex_wake_all(stop_, FutexScope::Process);
+}
+
+void Telemetry::drain(TimeNs now_ns) {
+  for (TickRecord tick; feeds_.ticks.pop(tick);) take(tick);
+  for (PoseEstimate pose; feeds_.poses.pop(pose);) {
+    ++newest_.poses;
+    newest_.pose = pose;
+    if (recorder_) recorder_->record(pose);
+  }
+  for (RecordQueue<Event>* events : {&feeds_.capture_events, &feeds_.vision_events, &feeds_.control_events}) {
+    for (Event event; events->pop(event);) take(event);
+  }
+  tell_losses(now_ns);
+  if (recorder_ && now_ns - flushed_ns_ >= kFlushNs) {
+    recorder_->flush();
+    flushed_ns_ = now_ns;
+  }
+  const std::lock_guard lock(published_mutex_);
+  published_ = newest_;
+}
+
+// What a person wants to read of the ticks is where they change.
+void Telemetry::take(const TickRecord& tick) {
+  const bool first = newest_.ticks == 0;
+  if (first || tick.stop_reason != newest_.tick.stop_reason) {
+    const std::string text = tick.stop_reason == StopReason::None
+                                 ? std::string("following")
+                                 : std::string("at rest: ") + to_string(tick.stop_reason);
+    spdlog::info("{}", text);
+    if (recorder_) recorder_->remark(tick.t_ns, text);
+  }
+  if (first || tick.robot.phase != newest_.tick.robot.phase) {
+    const std::string text = std::string("link to the robot: ") + to_string(tick.robot.phase);
+    spdlog::log(tick.robot.phase == LinkPhase::Lost ? spdlog::level::warn : spdlog::level::info, "{}", text);
+    if (recorder_) recorder_->remark(tick.t_ns, text);
+  }
+  ++newest_.ticks;
+  newest_.tick = tick;
+  if (recorder_) recorder_->record(tick);
+}
+
+void Telemetry::take(const Event& event) {
+  ++newest_.events;
+  TimeNs& logged_ns = logged_ns_[static_cast<std::size_t>(event.kind)];
+  const bool too_soon = logged_ns != 0 && event.t_ns - logged_ns < kRepeatNs;
+  if (event_repeats(event.kind) && too_soon) return;
+  logged_ns = event.t_ns;
+  spdlog::log(event_level(event.kind), "{}", event_text(event));
+  if (recorder_) recorder_->record(event);
+}
+
+void Telemetry::tell_losses(TimeNs now_ns) {
+  newest_.records_lost = feeds_.ticks.dropped() + feeds_.poses.dropped() + feeds_.capture_events.dropped() +
+                         feeds_.vision_events.dropped() + feeds_.control_events.dropped();
+  if (newest_.records_lost == lost_told_ || now_ns - losses_told_ns_ < kRepeatNs) return;
+  spdlog::warn("telemetry fell behind: {} records lost so far", newest_.records_lost);
+  lost_told_ = newest_.records_lost;
+  losses_told_ns_ = now_ns;
+}
+
+TelemetrySnapshot Telemetry::snapshot() const {
+  const std::lock_guard lock(published_mutex_);
+  return published_;
+}
+
+}  // namespace heel

@@ -1,0 +1,174 @@
+#include "vision/hessian_rows.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "vision/hessian_rows.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace heel::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using U32 = hn::ScalableTag<std::uint32_t>;
+using I32 = hn::ScalableTag<std::int32_t>;
+using F32 = hn::ScalableTag<float>;
+
+// The row differences for columns [begin, end). With I the integral image and l the lobe:
+//   xx: the strip Dxx's boxes stand in,                          yy: whole minus three times the middle
+//   strip, xy: the strip above the centre row minus the one below it.
+void difference_rows(const IntegralImage& integral, BoxFilter filter, int y, int begin, int end,
+                     HessianRowWork& work) {
+  const U32 d;
+  const int l = filter.lobe, half = filter.half(), mid = (l - 1) / 2;
+  const std::uint32_t* strip_top = integral.row(y - l + 1);
+  const std::uint32_t* strip_end = integral.row(y + l);
+  const std::uint32_t* whole_top = integral.row(y - half);
+  const std::uint32_t* whole_end = integral.row(y + half + 1);
+  const std::uint32_t* middle_top = integral.row(y - mid);
+  const std::uint32_t* middle_end = integral.row(y + mid + 1);
+  const std::uint32_t* above_top = integral.row(y - l);
+  const std::uint32_t* above_end = integral.row(y);
+  const std::uint32_t* below_top = integral.row(y + 1);
+  const std::uint32_t* below_end = integral.row(y + l + 1);
+  std::uint32_t* xx = work.xx();
+  std::uint32_t* yy = work.yy();
+  std::uint32_t* xy = work.xy();
+  for (int c = begin; c < end; c += static_cast<int>(hn::Lanes(d))) {
+    hn::StoreU(hn::Sub(hn::LoadU(d, strip_end + c), hn::LoadU(d, strip_top + c)), d, xx + c);
+    const auto whole = hn::Sub(hn::LoadU(d, whole_end + c), hn::LoadU(d, whole_top + c));
+    const auto middle = hn::Sub(hn::LoadU(d, middle_end + c), hn::LoadU(d, middle_top + c));
+    hn::StoreU(hn::Sub(whole, hn::Add(middle, hn::Add(middle, middle))), d, yy + c);
+    const auto above = hn::Sub(hn::LoadU(d, above_end + c), hn::LoadU(d, above_top + c));
+    const auto below = hn::Sub(hn::LoadU(d, below_end + c), hn::LoadU(d, below_top + c));
+    hn::StoreU(hn::Sub(above, below), d, xy + c);
+  }
+}
+
+// Every kStep-th column from `columns` on; kStep 0 stands for any larger step, given at run time.
+template <int kStep>
+HWY_INLINE hn::Vec<U32> load_every(const std::uint32_t* columns, int step) {
+  const U32 d;
+  if constexpr (kStep == 1) {
+    return hn::LoadU(d, columns);
+  } else if constexpr (kStep == 2) {
+    return hn::ConcatEven(d, hn::LoadU(d, columns + hn::Lanes(d)), hn::LoadU(d, columns));
+  } else {
+    return hn::GatherIndex(d, columns, hn::Mul(hn::Iota(I32(), 0), hn::Set(I32(), step)));
+  }
+}
+
+HWY_INLINE hn::Vec<F32> to_float(hn::Vec<U32> differences) {
+  return hn::ConvertTo(F32(), hn::BitCast(I32(), differences));
+}
+
+template <int kStep>
+void response_row(HessianRowWork& work, BoxFilter filter, int step, int first, int last, float* response) {
+  const F32 d;
+  const int l = filter.lobe, half = filter.half(), mid = (l - 1) / 2;
+  const float area = static_cast<float>(filter.side() * filter.side()) * 255.f;
+  const auto scale = hn::Set(d, 1.f / (area * area));
+  const auto weight = hn::Set(d, 0.81f);
+  for (int i = first; i < last; i += static_cast<int>(hn::Lanes(d))) {
+    const std::uint32_t* xx = work.xx() + i * step;
+    const std::uint32_t* yy = work.yy() + i * step;
+    const std::uint32_t* xy = work.xy() + i * step;
+    const auto whole = hn::Sub(load_every<kStep>(xx + half + 1, step), load_every<kStep>(xx - half, step));
+    const auto middle = hn::Sub(load_every<kStep>(xx + mid + 1, step), load_every<kStep>(xx - mid, step));
+    const auto dxx = to_float(hn::Sub(whole, hn::Add(middle, hn::Add(middle, middle))));
+    const auto dyy = to_float(hn::Sub(load_every<kStep>(yy + l, step), load_every<kStep>(yy - l + 1, step)));
+    const auto left = hn::Sub(load_every<kStep>(xy, step), load_every<kStep>(xy - l, step));
+    const auto right = hn::Sub(load_every<kStep>(xy + l + 1, step), load_every<kStep>(xy + 1, step));
+    const auto dxy = to_float(hn::Sub(left, right));
+    const auto det = hn::Sub(hn::Mul(dxx, dyy), hn::Mul(weight, hn::Mul(dxy, dxy)));
+    hn::StoreU(hn::Mul(det, scale), d, response + i);
+  }
+}
+
+void HessianResponseRow(const IntegralImage& integral, BoxFilter filter, int y, int step, int first, int last,
+                        HessianRowWork& work, float* response) {
+  difference_rows(integral, filter, y, first * step - filter.half(), (last - 1) * step + filter.half() + 2,
+                  work);
+  switch (step) {
+    case 1:
+      return response_row<1>(work, filter, step, first, last, response);
+    case 2:
+      return response_row<2>(work, filter, step, first, last, response);
+    default:
+      return response_row<0>(work, filter, step, first, last, response);
+  }
+}
+
+HWY_INLINE hn::Vec<F32> max_of_three(const float* row, int i) {
+  const F32 d;
+  return hn::Max(hn::LoadU(d, row + i), hn::Max(hn::LoadU(d, row + i - 1), hn::LoadU(d, row + i + 1)));
+}
+
+HWY_INLINE hn::Vec<F32> max_of_nine(const std::array<const float*, 3>& rows, int i) {
+  return hn::Max(max_of_three(rows[1], i), hn::Max(max_of_three(rows[0], i), max_of_three(rows[2], i)));
+}
+
+int FindMaximaRow(const ResponseNeighbourhood& rows, int first, int last, float threshold,
+                  std::int32_t* found) {
+  const F32 d;
+  const I32 di;
+  int count = 0;
+  const auto floor = hn::Set(d, threshold);
+  for (int i = first; i < last; i += static_cast<int>(hn::Lanes(d))) {
+    const auto centre = hn::LoadU(d, rows[1][1] + i);
+    const auto strong = hn::Gt(centre, floor);
+    if (hn::AllFalse(d, strong)) continue;
+    const auto own = hn::And(strong, hn::Ge(centre, max_of_nine(rows[1], i)));
+    if (hn::AllFalse(d, own)) continue;
+    const auto others = hn::Max(max_of_nine(rows[0], i), max_of_nine(rows[2], i));
+    const auto index = hn::Iota(di, i);
+    const auto is_max =
+        hn::And(hn::RebindMask(di, hn::And(own, hn::Ge(centre, others))), hn::Lt(index, hn::Set(di, last)));
+    count += static_cast<int>(hn::CompressStore(index, is_max, di, found + count));
+  }
+  return count;
+}
+
+}  // namespace
+}  // namespace heel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace heel {
+
+HWY_EXPORT(HessianResponseRow);
+HWY_EXPORT(FindMaximaRow);
+
+HessianRowWork::HessianRowWork(int max_width_px)
+    : size_(static_cast<std::size_t>(max_width_px + 1 + IntegralImage::kReadablePadding)),
+      columns_(hwy::AllocateAligned<std::uint32_t>(3 * size_ + IntegralImage::kReadablePadding)) {
+  std::fill_n(columns_.get(), 3 * size_ + IntegralImage::kReadablePadding, 0U);
+}
+
+void hessian_response_row(const IntegralImage& integral, BoxFilter filter, int y, int step, int first,
+                          int last, HessianRowWork& work, float* response) {
+  HWY_DYNAMIC_DISPATCH(HessianResponseRow)(integral, filter, y, step, first, last, work, response);
+}
+
+int find_maxima_row(const ResponseNeighbourhood& rows, int first, int last, float threshold,
+                    std::int32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(FindMaximaRow)(rows, first, last, threshold, found);
+}
+
+std::int8_t laplacian_sign(const IntegralImage& integral, BoxFilter filter, int x, int y) {
+  const int l = filter.lobe, half = filter.half(), mid = (l - 1) / 2;
+  const auto box = [&](int x0, int y0, int x1, int y1) {
+    return static_cast<std::int32_t>(integral.row(y1)[x1] - integral.row(y1)[x0] - integral.row(y0)[x1] +
+                                     integral.row(y0)[x0]);
+  };
+  const int dxx =
+      box(x - half, y - l + 1, x + half + 1, y + l) - 3 * box(x - mid, y - l + 1, x + mid + 1, y + l);
+  const int dyy =
+      box(x - l + 1, y - half, x + l, y + half + 1) - 3 * box(x - l + 1, y - mid, x + l, y + mid + 1);
+  return dxx + dyy >= 0 ? std::int8_t{1} : std::int8_t{-1};
+}
+
+}  // namespace heel
+#endif  // HWY_ONCE

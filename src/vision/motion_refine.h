@@ -1,0 +1,55 @@
+// The camera's motion against a plane whose normal is known, from pixels: the last step after the
+// decomposition. The decomposition explains all eight degrees of freedom of H by a motion and *some* normal,
+// and near the frontal view hands the noise of the perspective terms to the normal and with it to the yaw.
+// The reference view is frontoparallel by definition, so six degrees of freedom explain the same pairs,
+// several times more precisely, and their covariance is the honest one. Convention: X_cur = R X_ref + (t/d) d
+// on the plane z = d, n = (0,0,1): with d = 1, X_ref = (x, y, 1).
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "heel/homography.h"
+#include "heel/motion.h"
+
+namespace heel {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// Undistorted pixels of both views, and what turns them into directions.
+struct FrontalProblem {
+  std::span<const PointPair> pairs;
+  Eigen::Matrix3d K_ref, K_cur;
+  Eigen::Matrix3d H_cur_from_ref;  ///< tells how far the reference pixels' noise is magnified
+  Eigen::Vector2d centre_ref_px;   ///< the template's centre: about it the ambiguity turns
+};
+
+struct FrontalMotion {
+  Eigen::Matrix3d R_cur_from_ref = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d t_over_d = Eigen::Vector3d::Zero();
+  /// Σ rᵀ W r, px²; W whitens the noise of both images, of equal size.
+  double cost_px2 = 0.0;
+  double noise_px = 0.0;  ///< one standard deviation of a coordinate, either image
+  /// Of (ω, δt): R = exp(ω) R̂, t = t̂ + δt.
+  Matrix6d covariance = Matrix6d::Zero();
+};
+
+/// Levenberg–Marquardt from `start` (its normal is replaced by (0,0,1)). Total: the result is never worse.
+FrontalMotion refine_frontal_motion(const FrontalProblem& problem, const PlaneMotion& start);
+
+/// The other minimum a plane seen from afar has: its normal mirrored in the line of sight to its centre
+/// (D. Oberkampf, D. DeMenthon, L. Davis, "Iterative pose estimation using coplanar feature points", CVIU
+/// 1996). A start for refine_frontal_motion, which tells which of the two the pixels support.
+PlaneMotion mirrored_motion(const FrontalProblem& problem, const FrontalMotion& motion);
+
+/// The better of both minima, with variances that include the chance of having chosen the wrong one.
+struct FrontalPose {
+  FrontalMotion motion;
+  double yaw_rad = 0.0;
+  double yaw_sigma_rad = 0.0;
+  Eigen::Vector3d t_over_d_sigma = Eigen::Vector3d::Zero();
+  double ambiguity = 0.0;  ///< probability of the other minimum, 0…0.5
+};
+FrontalPose estimate_frontal_pose(const FrontalProblem& problem, const PlaneMotion& start);
+
+}  // namespace heel

@@ -1,0 +1,302 @@
+// One frame's way through, in the order of M. Burke and W. Brink, "Estimating Target Orientation with a
+// Single Camera for Use in a Human-Following Robot" (PRASA 2010); see PoseEstimator::estimate at the end.
+#include "heel/pose_estimator.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "guided_matcher.h"
+#include "heel/error.h"
+#include "heel/homography.h"
+#include "heel/matching.h"
+#include "heel/motion.h"
+#include "motion_refine.h"
+#include "shape_plausibility.h"
+
+namespace heel {
+namespace {
+
+// A plane turned by 75° loses half its linear size (√cos 75°): features and outline shrink by that much
+// beside what the distance does.
+constexpr double kTiltShrink = 0.5;
+constexpr double kScaleMargin = 1.2;  // the template's distance is measured by hand, a back is not flat
+// Inliers' features change size as the homography says; those of a fit by chance change anyhow.
+constexpr double kMaxScaleDisagreement = 1.5;
+constexpr int kGuidedRounds = 2;
+
+/// Smallest and largest magnification of the template for which the target is looked for.
+struct ScaleRange {
+  double min = 1.0, max = 1.0;
+};
+
+ScaleRange magnification(const ShirtTemplate& shirt, const CameraModel& camera, const VisionConfig& config) {
+  const double focal_ratio = std::sqrt((camera.fx * camera.fy) / (shirt.camera.fx * shirt.camera.fy));
+  // Without a distance all that is known is that the template was taught somewhere in the same range.
+  const double nearest_ref = shirt.distance_m > 0.0 ? shirt.distance_m : config.distance_min_m;
+  const double farthest_ref = shirt.distance_m > 0.0 ? shirt.distance_m : config.distance_max_m;
+  return {focal_ratio * nearest_ref / config.distance_max_m,
+          focal_ratio * farthest_ref / config.distance_min_m};
+}
+
+FeatureSettings frame_feature_settings(const ShirtTemplate& shirt, const FeatureSet& reference,
+                                       const ScaleRange& range, const VisionConfig& config) {
+  FeatureSettings settings;
+  settings.octaves = config.octaves;
+  settings.max_features = config.max_features;
+  settings.oriented = shirt.oriented;
+  float smallest = reference.features.front().sigma_px, largest = smallest;
+  for (const Feature& feature : reference.features) {
+    smallest = std::min(smallest, feature.sigma_px);
+    largest = std::max(largest, feature.sigma_px);
+  }
+  settings.sigma_min_px = static_cast<float>(smallest * range.min * kTiltShrink);
+  settings.sigma_max_px = static_cast<float>(largest * range.max * kScaleMargin);
+  return settings;
+}
+
+RansacSettings ransac_settings(const VisionConfig& config) {
+  RansacSettings settings;
+  settings.inlier_px = config.inlier_px;
+  settings.max_iterations = config.ransac_iterations;
+  settings.budget_ns = static_cast<TimeNs>(config.ransac_budget_ms * static_cast<double>(kNsPerMs));
+  return settings;
+}
+
+void require_camera(const CameraModel& camera, const char* whose) {
+  if (camera.width_px <= 0 || camera.height_px <= 0 || !(camera.fx > 0.0) || !(camera.fy > 0.0))
+    throw Error(std::string(whose) + " camera: width, height, fx and fy must be positive (got " +
+                std::to_string(camera.width_px) + " x " + std::to_string(camera.height_px) + ", fx " +
+                std::to_string(camera.fx) + ", fy " + std::to_string(camera.fy) + ")");
+}
+
+/// Memory for what the constructor alone computes; throws where the template cannot be followed.
+FeatureSet checked_template_features(const ShirtTemplate& shirt, const CameraModel& camera,
+                                     const VisionConfig& config) {
+  require_camera(shirt.camera, "template");
+  require_camera(camera, "current");
+  FeatureSet reference = template_features(shirt);
+  const std::size_t needed = static_cast<std::size_t>(std::max(4, config.min_inliers));
+  if (reference.features.size() < needed)
+    throw Error("template: " + std::to_string(reference.features.size()) +
+                " features in its region (expected at least " + std::to_string(needed) +
+                ", vision.min_inliers)");
+  return reference;
+}
+
+Eigen::Vector2d undistorted(const CameraModel& camera, const Feature& feature) {
+  return camera.undistort_px({static_cast<double>(feature.x_px), static_cast<double>(feature.y_px)});
+}
+
+}  // namespace
+
+struct PoseEstimator::Impl {
+  Impl(const ShirtTemplate& shirt, const CameraModel& current_camera, const VisionConfig& given);
+
+  void pair_up(const std::vector<Match>& from);
+  PoseReason find_pairs(const FrameView& frame, PoseEstimate& pose);
+  PoseReason find_homography(PoseEstimate& pose);
+  PoseReason check_shape();
+  PoseReason match_again(PoseEstimate& pose);
+  PoseReason find_motion(PoseEstimate& pose);
+
+  bool scales_agree();
+  double distance_m;
+  CameraModel camera;
+  VisionConfig config;
+
+  // The reference view.
+  FeatureSet reference;
+  std::vector<Eigen::Vector2d> reference_px;  // undistorted, one for each feature
+  Outline outline_px;                         // undistorted corners of the region
+  Eigen::Vector2d centre_px;                  // undistorted centre of the region
+  Eigen::Matrix3d K_ref, K_ref_inverse, K_cur, K_cur_inverse;
+  ScaleRange range;
+  ShapeLimits shape_limits;
+
+  // The stages, and what travels between them.
+  FeatureExtractor extractor;
+  Matcher matcher;
+  GuidedMatcher guided_matcher;
+  HomographyEstimator homography_estimator;
+  FeatureSet frame_features;
+  std::vector<Eigen::Vector2d> frame_px;  // undistorted, one for each feature
+  std::vector<Match> matches;
+  std::vector<PointPair> pairs;  // one for each match, undistorted
+  std::vector<std::uint8_t> inlier_mask;
+  RobustHomography homography;
+  std::vector<PointPair> inliers;
+  std::vector<Eigen::Vector2d> inliers_ref;  // normalised
+  std::vector<double> disagreement;          // of the inliers' scales
+};
+
+PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current_camera,
+                          const VisionConfig& given)
+    : distance_m(shirt.distance_m),
+      camera(current_camera),
+      config(given),
+      reference(checked_template_features(shirt, current_camera, given)),
+      K_ref(shirt.camera.K()),
+      K_ref_inverse(K_ref.inverse()),
+      K_cur(camera.K()),
+      K_cur_inverse(K_cur.inverse()),
+      range(magnification(shirt, camera, config)),
+      extractor(camera.width_px, camera.height_px, frame_feature_settings(shirt, reference, range, config)),
+      matcher(static_cast<int>(reference.features.size()), config.max_features,
+              MatchSettings{static_cast<float>(config.match_ratio), true}),
+      guided_matcher(config.max_features, GuidedMatchSettings{}),
+      homography_estimator(static_cast<int>(reference.features.size()), ransac_settings(config)) {
+  const std::size_t count = reference.features.size();
+  for (const Feature& feature : reference.features)
+    reference_px.push_back(undistorted(shirt.camera, feature));
+  const double left = shirt.roi.x_px, right = shirt.roi.x_px + shirt.roi.width_px - 1;
+  const double top = shirt.roi.y_px, bottom = shirt.roi.y_px + shirt.roi.height_px - 1;
+  outline_px = {shirt.camera.undistort_px({left, top}), shirt.camera.undistort_px({right, top}),
+                shirt.camera.undistort_px({right, bottom}), shirt.camera.undistort_px({left, bottom})};
+  centre_px = shirt.camera.undistort_px({0.5 * (left + right), 0.5 * (top + bottom)});
+  shape_limits.scale_min = range.min * kTiltShrink;
+  shape_limits.scale_max = range.max * kScaleMargin;
+
+  extractor.reserve(frame_features);
+  frame_px.reserve(static_cast<std::size_t>(config.max_features));
+  matches.reserve(count);
+  pairs.reserve(count);
+  inlier_mask.reserve(count);
+  inliers.reserve(count);
+  inliers_ref.reserve(count);
+  disagreement.reserve(count);
+}
+
+/// Steps 1–4: features of the frame, their nearest neighbours in the template, lens distortion removed.
+PoseReason PoseEstimator::Impl::find_pairs(const FrameView& frame, PoseEstimate& pose) {
+  extractor.extract(frame, frame_features);
+  frame_px.clear();
+  pose.frame_features = static_cast<std::uint32_t>(frame_features.features.size());
+  if (frame_features.features.size() < 4) return PoseReason::TooFewFeatures;
+
+  matcher.match(reference, frame_features, matches);
+  pose.matches = static_cast<std::uint32_t>(matches.size());
+  if (matches.size() < 4) return PoseReason::TooFewMatches;
+
+  for (const Feature& feature : frame_features.features) frame_px.push_back(undistorted(camera, feature));
+  pair_up(matches);
+  return PoseReason::Found;
+}
+
+void PoseEstimator::Impl::pair_up(const std::vector<Match>& from) {
+  pairs.clear();
+  for (const Match& match : from)
+    pairs.push_back(
+        {reference_px[static_cast<std::size_t>(match.ref)], frame_px[static_cast<std::size_t>(match.cur)]});
+}
+
+/// Steps 5 and 6: the homography most pairs agree on, and the certainty.
+PoseReason PoseEstimator::Impl::find_homography(PoseEstimate& pose) {
+  homography = homography_estimator.estimate(pairs, inlier_mask);
+  if (homography.status != HomographyStatus::Ok) return PoseReason::NoHomography;
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.H_cur_from_ref.data()) =
+      homography.H_cur_from_ref;
+  pose.inliers = static_cast<std::uint32_t>(homography.inliers);
+  pose.certainty = static_cast<double>(homography.inliers) / static_cast<double>(reference.features.size());
+  return homography.inliers < config.min_inliers ? PoseReason::TooFewInliers : PoseReason::Found;
+}
+
+PoseReason PoseEstimator::Impl::check_shape() {
+  if (!plausible_shape(homography.H_cur_from_ref, outline_px, shape_limits) || !scales_agree())
+    return PoseReason::ImplausibleShape;
+  return PoseReason::Found;
+}
+
+/// The inliers' features have grown or shrunk, by the median, as the homography says.
+bool PoseEstimator::Impl::scales_agree() {
+  disagreement.clear();
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (inlier_mask[i] == 0) continue;
+    const Feature& ref = reference.features[static_cast<std::size_t>(matches[i].ref)];
+    const Feature& cur = frame_features.features[static_cast<std::size_t>(matches[i].cur)];
+    const double expected = local_scale(homography.H_cur_from_ref, pairs[i].ref_px);
+    disagreement.push_back(std::abs(std::log(static_cast<double>(cur.sigma_px) / ref.sigma_px / expected)));
+  }
+  const auto middle = disagreement.begin() + static_cast<std::ptrdiff_t>(disagreement.size() / 2);
+  std::nth_element(disagreement.begin(), middle, disagreement.end());
+  return *middle <= std::log(kMaxScaleDisagreement);
+}
+
+/// Steps 3–6 once more, guided by a homography that has passed every check: more pairs, above all towards the
+/// edges, so a steadier fit. The first round's error at the edges may be larger than the guide's radius; the
+/// second starts from a better one. Only now, when the pairs there are have been found, is the certainty held
+/// to its floor.
+PoseReason PoseEstimator::Impl::match_again(PoseEstimate& pose) {
+  for (int round = 0; round < kGuidedRounds; ++round) {
+    guided_matcher.match(homography.H_cur_from_ref, reference, reference_px, frame_features, frame_px,
+                         matches);
+    pair_up(matches);
+    const PoseReason reason = find_homography(pose);
+    if (reason != PoseReason::Found) return reason;
+  }
+  return pose.certainty < config.min_certainty ? PoseReason::TooFewInliers : PoseReason::Found;
+}
+
+/// Steps 7 and 8: decomposition, choice, and the pose with its precision.
+PoseReason PoseEstimator::Impl::find_motion(PoseEstimate& pose) {
+  inliers.clear();
+  inliers_ref.clear();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (inlier_mask[i] == 0) continue;
+    inliers.push_back(pairs[i]);
+    inliers_ref.push_back((K_ref_inverse * pairs[i].ref_px.homogeneous()).hnormalized());
+  }
+  const PlaneMotions motions = decompose_plane_motion(K_cur_inverse * homography.H_cur_from_ref * K_ref);
+  const MotionChoice choice = choose_motion(motions, inliers_ref);
+  if (choice.best < 0) return PoseReason::NoValidMotion;
+
+  const FrontalProblem problem{inliers, K_ref, K_cur, homography.H_cur_from_ref, centre_px};
+  const FrontalPose result =
+      estimate_frontal_pose(problem, motions.motions[static_cast<std::size_t>(choice.best)]);
+  const Eigen::Matrix3d& R = result.motion.R_cur_from_ref;
+  const Eigen::Vector3d& t = result.motion.t_over_d;
+  const Eigen::Vector3d centre_over_d = R * (K_ref_inverse * centre_px.homogeneous()) + t;
+  // In front of the camera, its outside towards it.
+  if (!(centre_over_d.z() > 0.0) || !(R.col(2).dot(centre_over_d) > 0.0)) return PoseReason::NoValidMotion;
+
+  pose.yaw_rad = result.yaw_rad;
+  pose.yaw_sigma_rad = result.yaw_sigma_rad;
+  Eigen::Map<Eigen::Vector3d>(pose.t_over_d.data()) = t;
+  Eigen::Map<Eigen::Vector3d>(pose.t_over_d_sigma.data()) = result.t_over_d_sigma;
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.R_cur_from_ref.data()) = R;
+  pose.has_distance = distance_m > 0.0;
+  if (pose.has_distance) Eigen::Map<Eigen::Vector3d>(pose.position_m.data()) = distance_m * centre_over_d;
+  return PoseReason::Found;
+}
+
+PoseEstimator::PoseEstimator(const ShirtTemplate& shirt, const CameraModel& camera,
+                             const VisionConfig& config)
+    : impl_(std::make_unique<Impl>(shirt, camera, config)) {}
+PoseEstimator::~PoseEstimator() = default;
+PoseEstimator::PoseEstimator(PoseEstimator&&) noexcept = default;
+PoseEstimator& PoseEstimator::operator=(PoseEstimator&&) noexcept = default;
+
+PoseEstimate PoseEstimator::estimate(const FrameView& frame) {
+  PoseEstimate pose;
+  pose.frame_sequence = frame.header.sequence;
+  pose.t_capture_ns = frame.header.t_capture_ns;
+  pose.template_features = static_cast<std::uint32_t>(impl_->reference.features.size());
+
+  if (frame.header.width_px != static_cast<std::uint32_t>(impl_->camera.width_px) ||
+      frame.header.height_px != static_cast<std::uint32_t>(impl_->camera.height_px)) {
+    pose.reason = PoseReason::WrongFrameSize;
+    return pose;
+  }
+  pose.reason = impl_->find_pairs(frame, pose);
+  if (pose.found()) pose.reason = impl_->find_homography(pose);
+  if (pose.found()) pose.reason = impl_->check_shape();
+  if (pose.found()) pose.reason = impl_->match_again(pose);
+  if (pose.found()) pose.reason = impl_->check_shape();
+  if (pose.found()) pose.reason = impl_->find_motion(pose);
+  return pose;
+}
+
+}  // namespace heel

@@ -1,0 +1,203 @@
+// The features of a template, and how well it can be followed.
+//
+// The verdict is a rehearsal: the view itself, made smaller, is searched and matched as a frame would be, and
+// since the scaling is known, every match is known to be right or wrong.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "heel/matching.h"
+#include "heel/shirt_template.h"
+
+namespace heel {
+namespace {
+
+// A descriptor covers 20 sigma; one larger than the region by half would describe what is round the shirt.
+constexpr float kSigmaPerRegionSide = 1.f / 12.f;
+constexpr int kMaxOctaves = 4;
+constexpr float kLargestSigmaOfFirstOctave_px = 3.2f;  // doubles with every octave
+
+constexpr int kRehearsalFeatures = 1000;  // as many as a frame has
+constexpr double kFarScale = 0.5;         // a view from twice the distance
+constexpr float kTwinDistance = 0.3f;
+
+// What a template must have. Eight inliers are the least that vision takes for a shirt (vision.min_inliers).
+constexpr int kMinSide_px = 32;
+constexpr int kMinFeatures = 24;
+constexpr double kMinSpread = 0.4;
+constexpr double kMaxSelfSimilarity = 0.5;
+constexpr int kMinCoarseFeatures = 12;
+
+FeatureSettings template_settings(const ShirtTemplate& shirt) {
+  FeatureSettings settings;
+  settings.max_features = shirt.max_features;
+  settings.oriented = shirt.oriented;
+  settings.sigma_max_px =
+      kSigmaPerRegionSide * static_cast<float>(std::min(shirt.roi.width_px, shirt.roi.height_px));
+  settings.octaves = 1;
+  for (float reached_px = kLargestSigmaOfFirstOctave_px;
+       reached_px < settings.sigma_max_px && settings.octaves < kMaxOctaves; reached_px *= 2.f) {
+    ++settings.octaves;
+  }
+  return settings;
+}
+
+FrameView view_of(const std::uint8_t* grey, int width_px, int height_px, std::size_t stride_bytes) {
+  FrameView view;
+  view.header.width_px = static_cast<std::uint32_t>(width_px);
+  view.header.height_px = static_cast<std::uint32_t>(height_px);
+  view.grey = grey;
+  view.stride_bytes = static_cast<std::uint32_t>(stride_bytes);
+  return view;
+}
+
+/// Share of a 4 × 4 grid over the region that holds a feature.
+double spread_of(const FeatureSet& set, const Region& roi) {
+  constexpr int kCells = 4;
+  std::array<bool, kCells * kCells> holds{};
+  const auto cell = [](float at_px, int start_px, int side_px) {
+    const int index =
+        static_cast<int>((at_px - static_cast<float>(start_px)) * kCells / static_cast<float>(side_px));
+    return static_cast<std::size_t>(std::clamp(index, 0, kCells - 1));
+  };
+  for (const Feature& feature : set.features) {
+    holds[cell(feature.y_px, roi.y_px, roi.height_px) * kCells + cell(feature.x_px, roi.x_px, roi.width_px)] =
+        true;
+  }
+  return static_cast<double>(std::count(holds.begin(), holds.end(), true)) / (kCells * kCells);
+}
+
+float distance_between(const Descriptor& a, const Descriptor& b) {
+  float sum = 0.f;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum);
+}
+
+/// Share of the features that have a twin elsewhere on the shirt. A second view changes a descriptor by 0.2
+/// to 0.4 or so; with another as near as that, the ratio test cannot tell the two apart.
+double twin_share(const FeatureSet& set) {
+  int twins = 0;
+  for (std::size_t i = 0; i < set.features.size(); ++i) {
+    const Feature& one = set.features[i];
+    for (std::size_t j = 0; j < set.features.size(); ++j) {
+      const Feature& other = set.features[j];
+      const float apart_px = std::hypot(one.x_px - other.x_px, one.y_px - other.y_px);
+      if (one.laplacian != other.laplacian || apart_px < 2.f * one.sigma_px) continue;
+      if (distance_between(set.descriptors[i], set.descriptors[j]) < kTwinDistance) {
+        ++twins;
+        break;
+      }
+    }
+  }
+  return static_cast<double>(twins) / static_cast<double>(std::max<std::size_t>(set.features.size(), 1));
+}
+
+/// How many of the template's features are found again, and matched to the right ones, in the same view at
+/// `scale`. Only the region is searched: what else a frame would show is not known here.
+int recognised_at(double scale, const ShirtTemplate& shirt, const FeatureSet& taught) {
+  const cv::Mat whole(shirt.camera.height_px, shirt.camera.width_px, CV_8UC1,
+                      const_cast<std::uint8_t*>(shirt.grey.data()));
+  cv::Mat smaller;
+  cv::resize(whole, smaller, {}, scale, scale, cv::INTER_AREA);
+  const double scale_x = static_cast<double>(smaller.cols) / whole.cols;
+  const double scale_y = static_cast<double>(smaller.rows) / whole.rows;
+  const Region region{static_cast<int>(shirt.roi.x_px * scale_x), static_cast<int>(shirt.roi.y_px * scale_y),
+                      static_cast<int>(std::ceil(shirt.roi.width_px * scale_x)),
+                      static_cast<int>(std::ceil(shirt.roi.height_px * scale_y))};
+  FeatureSettings settings = template_settings(shirt);
+  settings.max_features = kRehearsalFeatures;
+  FeatureSet seen;
+  FeatureExtractor(smaller.cols, smaller.rows, settings)
+      .extract(view_of(smaller.data, smaller.cols, smaller.rows, smaller.step), region, seen);
+
+  const auto same = [&](const Feature& ref, const Feature& cur) {
+    const double dx = (ref.x_px + 0.5) * scale_x - 0.5 - cur.x_px;
+    const double dy = (ref.y_px + 0.5) * scale_y - 0.5 - cur.y_px;
+    const double ratio = cur.sigma_px / (ref.sigma_px * scale);
+    return std::hypot(dx, dy) < std::max(1.0, 0.7 * ref.sigma_px * scale) && ratio > 0.6 && ratio < 1.7;
+  };
+  std::vector<Match> matches;
+  Matcher(static_cast<int>(taught.features.size()), kRehearsalFeatures, MatchSettings{})
+      .match(taught, seen, matches);
+  return static_cast<int>(std::count_if(matches.begin(), matches.end(), [&](const Match& match) {
+    return same(taught.features[static_cast<std::size_t>(match.ref)],
+                seen.features[static_cast<std::size_t>(match.cur)]);
+  }));
+}
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  char text[200];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+/// The first thing that makes it hopeless; empty when nothing does.
+std::string objection(const ShirtTemplate& shirt, const TemplateVerdict& verdict) {
+  const Region& roi = shirt.roi;
+  if (std::min(roi.width_px, roi.height_px) < kMinSide_px) {
+    return format(
+        "the region is %d x %d px (expected at least %d on each side: come nearer, or use more of the "
+        "camera's resolution)",
+        roi.width_px, roi.height_px, kMinSide_px);
+  }
+  if (verdict.features < kMinFeatures) {
+    return format(
+        "only %d features: the shirt is too plain, or the picture too dark or blurred (expected at "
+        "least %d: a print or a coarse pattern)",
+        verdict.features, kMinFeatures);
+  }
+  if (verdict.spread < kMinSpread) {
+    return format(
+        "features in only %.0f %% of the region (expected at least %.0f %%: choose the region round the "
+        "print, or a shirt with a larger one)",
+        100 * verdict.spread, 100 * kMinSpread);
+  }
+  if (verdict.self_similarity > kMaxSelfSimilarity) {
+    return format(
+        "the pattern repeats: %.0f %% of its features are mistaken for one another (expected at most "
+        "%.0f %%: no stripes, no check)",
+        100 * verdict.self_similarity, 100 * kMaxSelfSimilarity);
+  }
+  if (verdict.coarse_share * verdict.features < kMinCoarseFeatures) {
+    return format(
+        "the pattern is too fine: %.0f features are left from twice the distance (expected at least %d: a "
+        "larger pattern)",
+        verdict.coarse_share * verdict.features, kMinCoarseFeatures);
+  }
+  return {};
+}
+
+}  // namespace
+
+FeatureSet template_features(const ShirtTemplate& shirt) {
+  FeatureSet set;
+  FeatureExtractor(shirt.camera.width_px, shirt.camera.height_px, template_settings(shirt))
+      .extract(view_of(shirt.grey.data(), shirt.camera.width_px, shirt.camera.height_px,
+                       static_cast<std::size_t>(shirt.camera.width_px)),
+               shirt.roi, set);
+  return set;
+}
+
+TemplateVerdict judge_template(const ShirtTemplate& shirt) {
+  const FeatureSet taught = template_features(shirt);
+  TemplateVerdict verdict;
+  verdict.features = static_cast<int>(taught.features.size());
+  if (verdict.features > 0) {
+    verdict.spread = spread_of(taught, shirt.roi);
+    verdict.self_similarity = twin_share(taught);
+    verdict.coarse_share = static_cast<double>(recognised_at(kFarScale, shirt, taught)) / verdict.features;
+  }
+  verdict.reason = objection(shirt, verdict);
+  verdict.usable = verdict.reason.empty();
+  return verdict;
+}
+
+}  // namespace heel

@@ -1,0 +1,15 @@
+// Counts heap allocations by thread, for the tests that hold hot code to none. A program that uses it
+// compiles allocation_count.cpp in, which puts itself before the C library's malloc.
+#pragma once
+
+#include <cstdint>
+
+namespace heel::test {
+
+/// False under the sanitizers, whose allocator takes that place.
+bool counts_allocations();
+
+/// Calls of malloc, calloc, realloc and the aligned ones (and so of operator new) by this thread so far.
+std::uint64_t allocations_of_this_thread();
+
+}  // namespace heel::test

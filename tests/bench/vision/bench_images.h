@@ -1,0 +1,18 @@
+// Pictures to measure on: a real one where the test data is, textured noise otherwise, and worst cases.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "heel/flow.h"
+
+namespace heel::bench {
+
+/// A 640 × 480 real scene (graf, image 1, resized); blurred noise without HEEL_TEST_DATA.
+cv::Mat textured_image(cv::Size size = {640, 480});
+cv::Mat noise_image(cv::Size size = {640, 480});
+/// Blobs of one size, side by side: as many maxima of equal strength as fit.
+cv::Mat checkerboard_image(int period_px, cv::Size size = {640, 480});
+
+FrameView view_of(const cv::Mat& grey);
+
+}  // namespace heel::bench

@@ -1,0 +1,148 @@
+// heel teach and heel pose on a real video of real people: what must show, and the poses kept as golden.
+//
+// The golden file says where it comes from in its first lines. It is rewritten only when asked:
+//   HEEL_UPDATE_GOLDEN=1 build/release/bin/test_golden_pose
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "heel/camera_model.h"
+#include "temporary_folder.h"
+#include "unit/cli/run_heel.h"
+
+namespace heel {
+namespace {
+
+using nlohmann::json;
+using test::Outcome;
+using test::run_heel;
+
+constexpr const char* kGoldenFile = HEEL_SOURCE_DIR "/tests/golden/pose/knit_back.golden";
+constexpr const char* kProvenance =
+    "# Poses of the knitted back in person/one-by-one.mp4 (768x432, intel-iot-devkit/sample-videos, CC BY "
+    "4.0).\n"
+    "# Template: heel teach --frame 1000 --roi 400,90,100,175 --distance 3. Camera: not calibrated; taken "
+    "as\n"
+    "# fx = fy = 700 px, centre of the image, no distortion.\n"
+    "# Made by test_golden_pose with HEEL_UPDATE_GOLDEN=1. Compared within: certainty 0.05, yaw 0.05 rad, "
+    "position\n"
+    "# 0.05 m, because vector instructions sum in different orders on different processors.\n"
+    "# frame certainty yaw_rad x_m y_m z_m, every tenth frame\n";
+
+constexpr int kFirst = 950;  // the back is seen, square on or nearly
+constexpr int kLast = 1170;
+constexpr int kEntering = 925;  // before this frame and after the next the person is not seen from behind
+constexpr int kTurned = 1185;
+
+/// Runs teach and pose over the whole video, once for all tests.
+class RealVideo : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const char* data = std::getenv("HEEL_TEST_DATA");
+    const std::string video =
+        (data != nullptr ? std::string(data) : HEEL_SOURCE_DIR "/../shared/data") + "/person/one-by-one.mp4";
+    if (!std::filesystem::exists(video)) return;
+    const test::TemporaryFolder folder;
+    const std::string camera = folder.file("camera.yaml");
+    const std::string shirt = folder.file("knit.heel");
+    CameraModel guess;
+    guess.width_px = 768;
+    guess.height_px = 432;
+    guess.fx = guess.fy = 700.0;
+    guess.cx = 383.5;
+    guess.cy = 215.5;
+    write_camera_model(guess, camera);
+    const Outcome taught =
+        run_heel(folder, {"teach", "--image", video, "--frame", "1000", "--roi", "400,90,100,175",
+                          "--distance", "3", "--camera-info", camera, "-o", shirt});
+    ASSERT_EQ(taught.status, 0) << taught.out << taught.err;
+    const Outcome posed =
+        run_heel(folder, {"pose", "--template", shirt, "--camera-info", camera, video, "--json"});
+    ASSERT_EQ(posed.status, 0) << posed.err;
+    std::istringstream in(posed.out);
+    for (std::string line; std::getline(in, line);) lines().push_back(json::parse(line));
+  }
+  void SetUp() override {
+    if (lines().empty()) GTEST_SKIP() << "no person/one-by-one.mp4 in HEEL_TEST_DATA";
+  }
+  static std::vector<json>& lines() {
+    static std::vector<json> all;
+    return all;
+  }
+};
+
+TEST_F(RealVideo, TheBackIsFoundInNearlyEveryFrameThatShowsIt) {
+  ASSERT_EQ(lines().size(), 1394u);
+  int reliable = 0;
+  for (int frame = kFirst; frame <= kLast; ++frame) {
+    const json& line = lines()[static_cast<std::size_t>(frame)];
+    ASSERT_EQ(line["frame"], frame);
+    reliable += line["found"].get<bool>() && line["certainty"].get<double>() > 0.1;
+  }
+  EXPECT_GE(reliable, 0.95 * (kLast - kFirst + 1));
+}
+
+TEST_F(RealVideo, NothingIsFoundInTheFramesWithoutIt) {
+  int looked_at = 0;
+  for (const json& line : lines()) {
+    const int frame = line["frame"].get<int>();
+    if (frame >= kEntering && frame <= kTurned) continue;
+    ++looked_at;
+    EXPECT_FALSE(line["found"].get<bool>()) << line;
+  }
+  EXPECT_EQ(looked_at, 1133);
+}
+
+std::string golden_text(const std::vector<json>& lines) {
+  std::string text = kProvenance;
+  for (std::size_t frame = kFirst; frame <= kLast; frame += 10) {
+    const json& line = lines[frame];
+    if (!line["found"].get<bool>()) continue;
+    char row[120];
+    std::snprintf(row, sizeof row, "%zu %.3f %.3f %.3f %.3f %.3f\n", frame, line["certainty"].get<double>(),
+                  line["yaw_rad"].get<double>(), line["position_m"][0].get<double>(),
+                  line["position_m"][1].get<double>(), line["position_m"][2].get<double>());
+    text += row;
+  }
+  return text;
+}
+
+TEST_F(RealVideo, PosesAreTheGoldenOnes) {
+  if (std::getenv("HEEL_UPDATE_GOLDEN") != nullptr) {
+    test::write_text(kGoldenFile, golden_text(lines()));
+    GTEST_SKIP() << "wrote " << kGoldenFile;
+  }
+  std::ifstream golden(kGoldenFile);
+  ASSERT_TRUE(golden) << kGoldenFile;
+  int rows = 0;
+  for (std::string text; std::getline(golden, text);) {
+    if (text.starts_with('#')) continue;
+    std::size_t frame = 0;
+    double certainty = 0, yaw_rad = 0, x_m = 0, y_m = 0, z_m = 0;
+    ASSERT_EQ(
+        std::sscanf(text.c_str(), "%zu %lf %lf %lf %lf %lf", &frame, &certainty, &yaw_rad, &x_m, &y_m, &z_m),
+        6);
+    ASSERT_LT(frame, lines().size());
+    const json& line = lines()[frame];
+    SCOPED_TRACE(line.dump());
+    ASSERT_TRUE(line["found"].get<bool>());
+    EXPECT_NEAR(line["certainty"].get<double>(), certainty, 0.05);
+    EXPECT_NEAR(line["yaw_rad"].get<double>(), yaw_rad, 0.05);
+    EXPECT_NEAR(line["position_m"][0].get<double>(), x_m, 0.05);
+    EXPECT_NEAR(line["position_m"][1].get<double>(), y_m, 0.05);
+    EXPECT_NEAR(line["position_m"][2].get<double>(), z_m, 0.05);
+    ++rows;
+  }
+  EXPECT_EQ(rows, 23);
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,60 @@
+// Velocity commands on the wire, laid beside the video's frames.
+//
+// A wire file has a line for each piece sent: "seconds hex". A recording's poses.csv says when each frame was
+// taken, by the same clock. Between two frames, time counts as a fraction of a frame.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace heel::golden {
+
+struct Velocity {
+  double vel_mm_s = 0.0;
+  double rvel_deg_s = 0.0;
+};
+
+/// VEL and RVEL as they went out together.
+struct SentVelocity {
+  double t_s = 0.0;
+  Velocity velocity;
+};
+
+/// By the video's frame number.
+using FrameCommands = std::map<int, Velocity>;
+
+/// Decodes a wire file. Throws std::runtime_error on a line that is none, or bytes that are no packets.
+std::vector<SentVelocity> read_wire(const std::string& path);
+
+/// Capture time to the video's frame.
+class FrameClock {
+ public:
+  /// `first_frame` is the video's frame that poses.csv counts as `first_count`.
+  FrameClock(const std::string& poses_csv, int first_frame, int first_count);
+
+  /// 12.5 is halfway between frames 12 and 13; before the first and after the last frame: at their pace.
+  double frame_at(double t_s) const;
+  std::size_t frames() const { return frames_.size(); }
+  /// How old the newest frame that vision had finished ever became.
+  double oldest_view_s() const;
+
+ private:
+  struct Taken {
+    double t_s = 0.0;
+    double done_s = 0.0;
+    int frame = 0;
+  };
+  std::vector<Taken> frames_;
+};
+
+/// The mean of what was sent from each frame to the next: VEL and RVEL carry their rounding error forward, so
+/// that single commands waver by one.
+FrameCommands mean_by_frame(const std::vector<SentVelocity>& sent, const FrameClock& clock);
+
+/// "frame VEL RVEL" in whole units, change points only; the last row is the last frame. `header` stays above.
+std::string golden_text(const std::string& header, const FrameCommands& commands);
+/// Every frame from the first row's to the last's. Lines that begin with # are skipped.
+FrameCommands read_golden(const std::string& path);
+
+}  // namespace heel::golden

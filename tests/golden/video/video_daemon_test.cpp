@@ -1,0 +1,117 @@
+// The real heeld with a real video at its camera, in real time over a pty to the real simulated robot: what
+// arrives at the robot is the golden of the lock step, within what a busy machine may shift it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "golden/video/frame_commands.h"
+#include "golden/video/video_scene.h"
+#include "loopback/daemon/process.h"
+
+namespace heel::golden {
+namespace {
+
+using loopback::Process;
+
+constexpr int kFirst = 890;  // some seconds before the back is seen: the line is to stand by then
+constexpr int kLast = 1195;
+constexpr int kCompareFirst = 925;
+constexpr int kCompareLast = 1190;
+constexpr int kShiftFrames = 3;  // ±0.3 s at 10 Hz
+// A frame's mean depends on where in the frame a change falls: at 600 mm/s² a peak loses up to 30 mm/s.
+constexpr double kVelTolerance_mm_s = 40.0;
+constexpr double kRvelTolerance_deg_s = 4.0;
+
+/// Smallest and largest of what the neighbours in time command.
+struct Envelope {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+  void add(double value) {
+    lowest = std::min(lowest, value);
+    highest = std::max(highest, value);
+  }
+  bool holds(double value, double tolerance) const {
+    return value >= lowest - tolerance && value <= highest + tolerance;
+  }
+};
+
+/// Those of `commands` within the compared frames that no neighbour in `others` accounts for.
+std::vector<std::string> unmet(const FrameCommands& commands, const FrameCommands& others) {
+  std::vector<std::string> found;
+  for (const auto& [frame, velocity] : commands) {
+    if (frame < kCompareFirst || frame > kCompareLast) continue;
+    Envelope vel, rvel;
+    const auto end = others.upper_bound(frame + kShiftFrames);
+    for (auto other = others.lower_bound(frame - kShiftFrames); other != end; ++other) {
+      vel.add(other->second.vel_mm_s);
+      rvel.add(other->second.rvel_deg_s);
+    }
+    if (vel.holds(velocity.vel_mm_s, kVelTolerance_mm_s) &&
+        rvel.holds(velocity.rvel_deg_s, kRvelTolerance_deg_s))
+      continue;
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "frame %d: VEL %.0f, RVEL %.0f; nearby VEL %.0f to %.0f, RVEL %.0f to %.0f", frame,
+                  velocity.vel_mm_s, velocity.rvel_deg_s, vel.lowest, vel.highest, rvel.lowest, rvel.highest);
+    found.emplace_back(text);
+  }
+  return found;
+}
+
+class VideoDrivesHeeld : public ::testing::Test {
+ protected:
+  void SetUp() override {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitized vision cannot keep up with the video in real time; test_golden_video runs";
+#endif
+    if (video_path().empty()) GTEST_SKIP() << "no person/one-by-one.mp4 in HEEL_TEST_DATA";
+  }
+};
+
+/// Runs heeld on the cut video until the video ends; what the robot received is in wire.hex.
+void drive(const VideoScene& scene, double gain_yaw_1_s) {
+  scene.cut_frames(kFirst, kLast);
+  const std::string config = scene.write_config(gain_yaw_1_s, "file:frames");
+  Process robot(
+      {HEEL_SIM_PATH, "--robot", "pty:" + scene.file("robot"), "--exact", "--wire", scene.file("wire.hex")},
+      scene.file("robot.log"));
+  ASSERT_TRUE(robot.says("ready at", 10.0)) << robot.output();
+  Process daemon({HEELD_PATH, "--config", config}, scene.file("heeld.log"));
+  const double video_s = (kLast - kFirst + 1) / kVideoRateHz;
+  ASSERT_EQ(daemon.wait(video_s + 60.0), 0) << daemon.output() << robot.output();
+  ASSERT_TRUE(robot.says("closed", 2.0)) << daemon.output() << robot.output();
+  robot.signal(SIGTERM);
+  ASSERT_EQ(robot.wait(5.0), 0) << robot.output();
+}
+
+TEST_F(VideoDrivesHeeld, AndTheRobotReceivesTheGoldenCommands) {
+  // Whoever holds the processors for long makes heeld rest, rightly. Such a run says nothing of its commands.
+  constexpr double kHeldUp_s = 0.3;
+  constexpr int kRuns = 3;
+  for (int run = 1;; ++run) {
+    const VideoScene scene(video_path());
+    ASSERT_NO_FATAL_FAILURE(drive(scene, kGainYaw_1_s));
+    const FrameClock clock(scene.file("run/poses.csv"), kFirst, 0);
+    if (clock.oldest_view_s() > kHeldUp_s) {
+      std::printf("run %d was held up: a view %.2f s old\n", run, clock.oldest_view_s());
+      if (run == kRuns) GTEST_SKIP() << "the machine is too busy for real time";
+      continue;
+    }
+    const FrameCommands received = mean_by_frame(read_wire(scene.file("wire.hex")), clock);
+    const FrameCommands golden = read_golden(kGoldenFile);
+    ASSERT_FALSE(received.empty());
+    EXPECT_LT(received.begin()->first, kCompareFirst) << "the line stood too late";
+    EXPECT_THAT(unmet(golden, received), testing::IsEmpty()) << "golden commands that did not arrive";
+    EXPECT_THAT(unmet(received, golden), testing::IsEmpty()) << "commands that are not golden";
+    return;
+  }
+}
+
+}  // namespace
+}  // namespace heel::golden

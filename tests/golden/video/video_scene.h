@@ -1,0 +1,44 @@
+// What the video's tests share: the person's video, a camera file, the template taught from it, and a
+// configuration with gains and limits of its own, so that tuning heel's defaults does not renew the golden.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "temporary_folder.h"
+
+namespace heel::golden {
+
+inline constexpr const char* kGoldenFile = HEEL_SOURCE_DIR "/tests/golden/video/knit_back_commands.golden";
+inline constexpr double kVideoRateHz = 10.0;
+inline constexpr int kVideoFrames = 1394;
+inline constexpr std::uint32_t kVideoCrc32 = 0x689d095d;
+
+/// person/one-by-one.mp4; empty when the test data is absent.
+std::string video_path();
+/// CRC-32 (zlib) of a file.
+std::uint32_t crc32_of_file(const std::string& path);
+
+inline constexpr double kGainYaw_1_s = 2.0;
+
+class VideoScene {
+ public:
+  /// Writes camera.yaml and teaches knit.heel from frame 1000. Throws std::runtime_error when that fails.
+  explicit VideoScene(const std::string& video);
+
+  const test::TemporaryFolder& folder() const { return folder_; }
+  std::string file(const std::string& name) const { return folder_.file(name); }
+
+  /// heel.toml for `heel simulate`, and with `camera_source` given for heeld with the robot at pty:robot.
+  std::string write_config(double gain_yaw_1_s, const std::string& camera_source = "") const;
+  /// The scenario whose camera is the whole video; its robot turns and rolls as its odometry believes.
+  std::string write_scenario() const;
+  /// Frames first…last as pictures without loss, for the file source to read in order. Returns the folder.
+  std::string cut_frames(int first, int last) const;
+
+ private:
+  std::string video_;
+  test::TemporaryFolder folder_;
+};
+
+}  // namespace heel::golden

@@ -1,0 +1,180 @@
+// The real daemon drives the real simulated robot over a pty towards a person shown 1 m too far away: it gets
+// ready, starts gently, and on every way out (SIGTERM, SIGKILL, the end of the film) the wheels stand.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <memory>
+
+#include "process.h"
+#include "scene.h"
+
+namespace heel::loopback {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Heeld : public ::testing::Test {
+ protected:
+  explicit Heeld(int frames = 2000) : scene_(frames) {}
+
+  void start_robot(std::vector<std::string> more = {}) {
+    std::vector<std::string> argv = {HEEL_SIM_PATH,  "--robot", "pty:" + scene_.path("robot"),
+                                     "--exact",      "--truth", scene_.path("truth.csv"),
+                                     "--truth-rate", "500"};
+    argv.insert(argv.end(), more.begin(), more.end());
+    robot_ = std::make_unique<Process>(argv, scene_.path("robot.log"));
+    ASSERT_TRUE(robot_->says("ready at", 10.0)) << robot_->output();
+  }
+  void start_heeld(const std::string& config) {
+    daemon_ = std::make_unique<Process>(
+        std::vector<std::string>{HEELD_PATH, "--config", config}, scene_.path("heeld.log"),
+        std::map<std::string, std::string>{{"NOTIFY_SOCKET", notify_.path()}});
+  }
+  double speed() const { return newest_truth(scene_.path("truth.csv")).v_m_s; }
+  bool drives(double timeout_s) {
+    return eventually([this] { return speed() > 0.2; }, timeout_s);
+  }
+  bool stands(double timeout_s) {
+    return eventually([this] { return speed() == 0.0; }, timeout_s);
+  }
+  std::string logs() { return daemon_->output() + "\n--- robot\n" + robot_->output(); }
+
+  Scene scene_;
+  NotifySocket notify_{scene_.path("notify")};
+  std::unique_ptr<Process> robot_, daemon_;
+};
+
+TEST_F(Heeld, GetsReadyFollowsAndStopsOnSigterm) {
+  start_robot();
+  start_heeld(scene_.write_config());
+  ASSERT_TRUE(notify_.receives("READY=1", 30.0)) << logs();
+  ASSERT_TRUE(drives(30.0)) << logs();
+  EXPECT_TRUE(notify_.receives("STATUS=following", 1.0));
+
+  daemon_->signal(SIGTERM);
+  EXPECT_EQ(daemon_->wait(5.0), 0) << logs();
+  EXPECT_TRUE(notify_.receives("STOPPING=1", 0.1));
+  EXPECT_TRUE(robot_->says("closed", 2.0)) << logs();
+  EXPECT_TRUE(stands(2.0)) << logs();
+  // By STOP, not by the watchdog.
+  EXPECT_THAT(robot_->output(), Not(HasSubstr("watchdog")));
+}
+
+TEST_F(Heeld, IsNotReadyWithoutARobotAndSaysWhy) {
+  start_heeld(scene_.write_config());
+  EXPECT_TRUE(notify_.receives("STATUS=waiting for the robot", 10.0)) << daemon_->output();
+  EXPECT_FALSE(notify_.receives("READY=1", 1.0));
+  EXPECT_TRUE(daemon_->says("warn", 5.0)) << daemon_->output();  // the line does not open, and why
+  start_robot();
+  EXPECT_TRUE(notify_.receives("READY=1", 30.0)) << logs();
+  daemon_->signal(SIGINT);
+  EXPECT_EQ(daemon_->wait(5.0), 0);
+}
+
+TEST_F(Heeld, KilledWhileTheWheelsTurnTheRobotStandsWithinItsWatchdogAndDoesNotJumpAfter) {
+  start_robot();
+  const std::string config = scene_.write_config();
+  start_heeld(config);
+  ASSERT_TRUE(drives(30.0)) << logs();
+  daemon_->signal(SIGKILL);
+  ASSERT_EQ(daemon_->wait(5.0), -SIGKILL);
+  // 2 s of watchdog, and braking from 0.7 m/s at 1.5 m/s².
+  EXPECT_TRUE(stands(2.0 + 0.7 / 1.5 + 0.5)) << logs();
+  EXPECT_THAT(robot_->output(), HasSubstr("watchdog stop"));
+
+  const double t_restart_s = newest_truth(scene_.path("truth.csv")).t_s;
+  start_heeld(config);
+  ASSERT_TRUE(drives(30.0)) << logs();
+  // From the restart on: never faster than the acceleration allows, from rest.
+  daemon_->signal(SIGTERM);
+  daemon_->wait(5.0);
+  robot_->signal(SIGTERM);
+  robot_->wait(5.0);
+  double last_v = 0.0, last_t = 0.0;
+  for (const Truth& row : all_truth(scene_.path("truth.csv"))) {
+    // Over a tenth of a second, so that the simulator's steps do not count.
+    if (row.t_s < t_restart_s || row.t_s - last_t < 0.1) continue;
+    if (last_t != 0.0) {
+      EXPECT_LE(row.v_m_s - last_v, 0.6 * (row.t_s - last_t) + 0.05) << row.t_s;
+    }
+    last_v = row.v_m_s;
+    last_t = row.t_s;
+  }
+  EXPECT_THAT(robot_->output(), Not(HasSubstr("old motion")));
+}
+
+TEST_F(Heeld, ReloadIsAllOrNothing) {
+  start_robot();
+  start_heeld(scene_.write_config());
+  ASSERT_TRUE(notify_.receives("READY=1", 30.0)) << logs();
+  ASSERT_TRUE(drives(30.0)) << logs();
+
+  // Good: taken over while driving.
+  scene_.write_config("[gate]\nv_max_m_s = 0.1\n");
+  daemon_->signal(SIGHUP);
+  ASSERT_TRUE(daemon_->says("reloaded", 5.0)) << logs();
+  EXPECT_TRUE(notify_.receives("RELOADING=1\nMONOTONIC_USEC=", 1.0));
+  EXPECT_EQ(notify_.messages().back().substr(0, 7), "READY=1");
+  EXPECT_TRUE(eventually([this] { return speed() > 0.05 && speed() < 0.12; }, 5.0)) << speed();
+
+  // An error, and beside it a good change: nothing of it is taken.
+  scene_.write_config("[gate]\nv_max_m_s = 0.6\n[control]\ngain_yaw = 1\n");
+  daemon_->signal(SIGHUP);
+  ASSERT_TRUE(daemon_->says("did you mean control.gain_yaw_1_s?", 5.0));
+  ASSERT_TRUE(daemon_->says("the old configuration stays", 5.0));
+
+  // A key that cannot change while running.
+  scene_.write_config("[gate]\nv_max_m_s = 0.6\n[vision]\noctaves = 3\n");
+  daemon_->signal(SIGHUP);
+  ASSERT_TRUE(daemon_->says("vision.octaves cannot change while running", 5.0));
+  sleep_s(1.0);
+  EXPECT_LT(speed(), 0.12);
+  EXPECT_TRUE(daemon_->running());
+}
+
+class HeeldWithOnePicture : public Heeld {
+ protected:
+  HeeldWithOnePicture() : Heeld(1) {}
+};
+
+TEST_F(HeeldWithOnePicture, FollowsAFilmThatBeginsAgain) {
+  start_robot();
+  const std::string config = scene_.write_config();
+  const std::string text = content_of(config);
+  std::ofstream(config) << text.substr(0, 9) << "at_end = \"loop\"\n" << text.substr(9);  // after [camera]
+  start_heeld(config);
+  EXPECT_TRUE(drives(30.0)) << logs();
+}
+
+class HeeldWithAShortFilm : public Heeld {
+ protected:
+  HeeldWithAShortFilm() : Heeld(250) {}
+};
+
+TEST_F(HeeldWithAShortFilm, ComesToRestAtItsEndAndLeavesARecording) {
+  start_robot();
+  start_heeld(scene_.write_config("[telemetry]\ndirectory = \"run\"\n"));
+  ASSERT_TRUE(drives(30.0)) << logs();
+  EXPECT_EQ(daemon_->wait(70.0), 0) << logs();
+  EXPECT_TRUE(daemon_->says("at rest: camera silent", 0.1)) << logs();
+  EXPECT_TRUE(robot_->says("closed", 2.0)) << logs();
+  EXPECT_TRUE(stands(2.0));
+  EXPECT_THAT(robot_->output(), Not(HasSubstr("watchdog")));
+  EXPECT_GT(content_of(scene_.path("run/ticks.csv")).size(), 10000u);
+  EXPECT_GT(content_of(scene_.path("run/poses.csv")).size(), 10000u);
+}
+
+TEST_F(Heeld, StopButtonHoldsTheRobotAndIsNamed) {
+  start_robot({"--fault", "stop_button@15+1"});
+  start_heeld(scene_.write_config());
+  ASSERT_TRUE(drives(14.0)) << logs();
+  EXPECT_TRUE(daemon_->says("at rest: stop button pressed", 20.0)) << logs();
+  EXPECT_TRUE(stands(2.0));
+  sleep_s(2.0);
+  EXPECT_EQ(speed(), 0.0);  // released meanwhile: a person must start it again
+}
+
+}  // namespace
+}  // namespace heel::loopback

@@ -1,0 +1,136 @@
+#include "scene.h"
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <sstream>
+#include <vector>
+
+#include "heel/shirt_template.h"
+#include "process.h"
+
+namespace heel::loopback {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth_px = 640, kHeight_px = 480;
+constexpr double kFocal_px = 600.0;
+constexpr double kTemplateDistance_m = 2.0;
+const cv::Rect kBack(220, 120, 200, 240);  // in the reference view, about its centre
+
+/// Blotches of many sizes on grey: features at every scale.
+cv::Mat reference_view() {
+  cv::Mat view(kHeight_px, kWidth_px, CV_8U, cv::Scalar(128));
+  cv::RNG random(42);
+  for (int i = 0; i < 260; ++i) {
+    const cv::Point centre(random.uniform(kBack.x, kBack.x + kBack.width),
+                           random.uniform(kBack.y, kBack.y + kBack.height));
+    cv::circle(view, centre, random.uniform(3, 13), cv::Scalar(random.uniform(0, 255)), cv::FILLED,
+               cv::LINE_AA);
+  }
+  cv::GaussianBlur(view, view, {}, 1.2);
+  return view;
+}
+
+/// The same back farther away: the plane z = d seen from a camera that stands back along z.
+cv::Mat seen_from(const cv::Mat& reference, double distance_m) {
+  const double s = kTemplateDistance_m / distance_m;
+  const double cx = (kWidth_px - 1) / 2.0, cy = (kHeight_px - 1) / 2.0;
+  const cv::Mat H = (cv::Mat_<double>(2, 3) << s, 0, cx - s * cx, 0, s, cy - s * cy);
+  cv::Mat view;
+  cv::warpAffine(reference, view, H, reference.size(), cv::INTER_AREA, cv::BORDER_CONSTANT, cv::Scalar(128));
+  return view;
+}
+
+}  // namespace
+
+Scene::Scene(int frames, double distance_m) {
+  write_pictures(frames, distance_m);
+  CameraModel camera;
+  camera.width_px = kWidth_px;
+  camera.height_px = kHeight_px;
+  camera.fx = camera.fy = kFocal_px;
+  camera.cx = (kWidth_px - 1) / 2.0;
+  camera.cy = (kHeight_px - 1) / 2.0;
+  write_camera_model(camera, path("camera.yaml"));
+
+  ShirtTemplate shirt;
+  const cv::Mat view = reference_view();
+  shirt.grey.assign(view.datastart, view.dataend);
+  shirt.camera = camera;
+  shirt.roi = {kBack.x, kBack.y, kBack.width, kBack.height};
+  shirt.distance_m = kTemplateDistance_m;
+  write_template(shirt, path("shirt.heel"));
+}
+
+void Scene::write_pictures(int frames, double distance_m) const {
+  fs::create_directory(path("frames"));
+  const std::string first = path("frame.png");
+  cv::imwrite(first, seen_from(reference_view(), distance_m));
+  for (int i = 0; i < frames; ++i) fs::create_symlink(first, path("frames/" + std::to_string(i) + ".png"));
+}
+
+// Sanitizers make vision ten times slower and leave the rest of the behaviour as it is: pictures come more
+// slowly then, and count as fresh for longer.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr const char* kPace = "rate_hz = 5\n[supervisor]\nframe_timeout_s = 3\ntarget_timeout_s = 3\n";
+#else
+constexpr const char* kPace = "rate_hz = 25\n[supervisor]\nframe_timeout_s = 0.3\ntarget_timeout_s = 0.4\n";
+#endif
+
+std::string Scene::write_config(const std::string& more) const {
+  const std::string file = path("heel.toml");
+  std::ofstream out(file);
+  out << "[camera]\nsource = \"file:frames\"\ninfo = \"camera.yaml\"\n"
+      << kPace
+      << "[target]\nshirt = \"shirt.heel\"\n"
+         "[robot]\naddress = \"pty:robot\"\nsync_retry_s = 0.2\nreconnect_s = 0.2\n"
+         "[runtime]\nrealtime = false\n"
+      << more;
+  return file;
+}
+
+namespace {
+
+Truth row_of(const std::string& header, const std::string& row) {
+  std::istringstream names(header), values(row);
+  Truth truth;
+  for (std::string name, value; std::getline(names, name, ',') && std::getline(values, value, ',');) {
+    if (name == "t_s") truth.t_s = std::stod(value);
+    if (name == "robot_v_m_s") truth.v_m_s = std::stod(value);
+  }
+  return truth;
+}
+
+}  // namespace
+
+std::vector<Truth> all_truth(const std::string& csv_path) {
+  std::istringstream rows(content_of(csv_path));
+  std::string header, row;
+  std::getline(rows, header);
+  std::vector<Truth> truth;
+  // The last line may be half written: a complete one is followed by a newline.
+  while (std::getline(rows, row) && !rows.eof()) truth.push_back(row_of(header, row));
+  return truth;
+}
+
+Truth newest_truth(const std::string& csv_path) {
+  constexpr std::streamoff kTail_bytes = 2000;  // several rows
+  std::ifstream file(csv_path, std::ios::binary);
+  std::string header, row, last;
+  std::getline(file, header);
+  file.seekg(0, std::ios::end);
+  const std::streamoff size = file.tellg();
+  if (size > kTail_bytes) {
+    file.seekg(size - kTail_bytes);
+    std::getline(file, row);  // the first is cut
+  } else {
+    file.seekg(static_cast<std::streamoff>(header.size()) + 1);
+  }
+  while (std::getline(file, row) && !file.eof()) last = row;
+  return row_of(header, last);
+}
+
+}  // namespace heel::loopback

@@ -1,0 +1,112 @@
+// JPEG to grey: right, and unharmed by what is not right.
+#include "capture/jpeg_decoder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace heel {
+namespace {
+
+constexpr int kWidth = 83;
+constexpr int kHeight = 47;
+
+cv::Mat made_image() {
+  cv::Mat image(kHeight, kWidth, CV_8UC3);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const int wave = static_cast<int>(60.0 * std::sin(x * 0.2) * std::cos(y * 0.15));
+      image.at<cv::Vec3b>(y, x) =
+          cv::Vec3b(static_cast<unsigned char>(128 + wave), static_cast<unsigned char>(100 + wave),
+                    static_cast<unsigned char>(140 - wave));
+    }
+  }
+  return image;
+}
+
+std::vector<std::uint8_t> made_jpeg() {
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", made_image(), jpeg, {cv::IMWRITE_JPEG_QUALITY, 95});
+  return jpeg;
+}
+
+class JpegDecoderTest : public testing::Test {
+ protected:
+  bool decode(const std::vector<std::uint8_t>& jpeg, std::uint32_t width_px = kWidth) {
+    return decoder_.decode(jpeg.data(), jpeg.size(), width_px, kHeight, grey_.data());
+  }
+  double mean_error() const {
+    cv::Mat expected;
+    cv::cvtColor(made_image(), expected, cv::COLOR_BGR2GRAY);
+    const cv::Mat got(kHeight, kWidth, CV_8UC1, const_cast<std::uint8_t*>(grey_.data()));
+    return cv::norm(expected, got, cv::NORM_L1) / (kWidth * kHeight);
+  }
+
+  JpegDecoder decoder_;
+  std::vector<std::uint8_t> grey_ = std::vector<std::uint8_t>(2 * kWidth * kHeight);
+};
+
+TEST_F(JpegDecoderTest, ColourImagesBecomeTheirLuma) {
+  ASSERT_TRUE(decode(made_jpeg())) << decoder_.problem();
+  EXPECT_LT(mean_error(), 1.5);
+}
+
+// As Motion-JPEG cameras send them: without the Huffman tables that are the standard's anyway.
+TEST_F(JpegDecoderTest, ImagesWithoutHuffmanTablesAreDecodedWithTheStandardOnes) {
+  const std::vector<std::uint8_t> jpeg = made_jpeg();
+  std::vector<std::uint8_t> bare(jpeg.begin(), jpeg.begin() + 2);
+  std::size_t at = 2;
+  int removed = 0;
+  while (jpeg[at + 1] != 0xda) {  // up to the start of scan
+    const std::size_t bytes = 2 + (std::size_t{jpeg[at + 2]} << 8 | jpeg[at + 3]);
+    if (jpeg[at + 1] == 0xc4) {
+      ++removed;
+    } else {
+      bare.insert(bare.end(), jpeg.begin() + static_cast<long>(at),
+                  jpeg.begin() + static_cast<long>(at + bytes));
+    }
+    at += bytes;
+  }
+  ASSERT_GT(removed, 0);
+  bare.insert(bare.end(), jpeg.begin() + static_cast<long>(at), jpeg.end());
+  ASSERT_TRUE(decode(bare)) << decoder_.problem();
+  EXPECT_LT(mean_error(), 1.5);
+}
+
+TEST_F(JpegDecoderTest, TruncatedImagesAreRefusedWhereverTheyEnd) {
+  const std::vector<std::uint8_t> jpeg = made_jpeg();
+  for (std::size_t bytes = 0; bytes + 2 < jpeg.size(); bytes += 1 + bytes / 16) {
+    const std::vector<std::uint8_t> part(jpeg.begin(), jpeg.begin() + static_cast<long>(bytes));
+    EXPECT_FALSE(decode(part)) << bytes << " of " << jpeg.size() << " bytes";
+    EXPECT_STRNE(decoder_.problem(), "") << bytes;
+  }
+  EXPECT_TRUE(decode(jpeg)) << "the decoder is fit for the next image: " << decoder_.problem();
+}
+
+TEST_F(JpegDecoderTest, AnotherSizeIsRefusedBeforeAnythingIsWritten) {
+  grey_.assign(grey_.size(), 0xab);
+  EXPECT_FALSE(decode(made_jpeg(), kWidth + 1));
+  EXPECT_THAT(decoder_.problem(), testing::HasSubstr("83x47"));
+  EXPECT_THAT(grey_, testing::Each(0xab));
+}
+
+TEST_F(JpegDecoderTest, DamagedBytesNeverHarmTheProgram) {
+  const std::vector<std::uint8_t> jpeg = made_jpeg();
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    std::mt19937 random(seed);
+    std::vector<std::uint8_t> damaged = jpeg;
+    for (int i = 0; i < 8; ++i) damaged[random() % damaged.size()] = static_cast<std::uint8_t>(random());
+    decode(damaged);  // any verdict, under the sanitizers
+  }
+  EXPECT_TRUE(decode(jpeg));
+  EXPECT_LT(mean_error(), 1.5);
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,169 @@
+// Each condition by the input that raises it, and the memory behind bumper, stall and target.
+#include "control/conditions.h"
+
+#include <gtest/gtest.h>
+
+namespace heel {
+namespace {
+
+constexpr TimeNs kFrame_ns = 33 * kNsPerMs;
+
+/// A healthy robot that sees the person in every frame.
+struct Bench {
+  SupervisorConfig config;
+  ConditionMonitor monitor;
+  ControlInput input;
+
+  Bench() {
+    input.now_ns = 10 * kNsPerS;
+    input.robot.phase = LinkPhase::Running;
+    input.robot.has_sip = true;
+    input.robot.motors_enabled = true;
+    input.has_pose = true;
+    input.pose.reason = PoseReason::Found;
+    input.pose.certainty = 0.4;
+    freshen();
+  }
+  void freshen() {
+    input.robot.odometry.t_ns = input.now_ns;
+    input.pose.t_capture_ns = input.now_ns;
+  }
+  Conditions frame(PoseNews news = PoseNews::Believed, double certainty = 0.4) {
+    input.now_ns += kFrame_ns;
+    freshen();
+    input.pose.certainty = certainty;
+    return monitor.observe(input, news, config);
+  }
+  Conditions idle(TimeNs dt_ns) {  // time passes, frames come, nobody in them
+    input.now_ns += dt_ns;
+    freshen();
+    return monitor.observe(input, PoseNews::Refused, config);
+  }
+  void start_following() {
+    for (int i = 0; i < config.frames_to_follow; ++i) frame();
+  }
+  Conditions same_tick() { return monitor.observe(input, PoseNews::None, config); }
+};
+
+TEST(Conditions, NoneWhileFollowing) {
+  Bench bench;
+  bench.start_following();
+  EXPECT_EQ(bench.frame(), 0);
+}
+
+TEST(Conditions, EachInputRaisesItsOwnBitAlone) {
+  struct Row {
+    Condition condition;
+    void (*cause)(ControlInput&);
+  };
+  const Row rows[] = {
+      {kShutdown, [](ControlInput& in) { in.shutdown = true; }},
+      {kLinkDown, [](ControlInput& in) { in.robot.phase = LinkPhase::Lost; }},
+      {kLinkDown, [](ControlInput& in) { in.robot.phase = LinkPhase::Closed; }},
+      {kLinkDown, [](ControlInput& in) { in.robot.phase = LinkPhase::Syncing; }},
+      {kLinkDown, [](ControlInput& in) { in.robot.phase = LinkPhase::Opening; }},
+      {kLinkDown, [](ControlInput& in) { in.robot.phase = LinkPhase::Enabling; }},
+      {kStaleSip, [](ControlInput& in) { in.robot.has_sip = false; }},
+      {kStaleSip, [](ControlInput& in) { in.robot.odometry.t_ns -= 501 * kNsPerMs; }},
+      {kStopButton, [](ControlInput& in) { in.robot.stop_button = true; }},
+      {kStopButton, [](ControlInput& in) { in.robot.e_stall = true; }},
+      {kMotorsOff, [](ControlInput& in) { in.robot.motors_enabled = false; }},
+      {kBumper, [](ControlInput& in) { in.robot.bumpers_front = 4; }},
+      {kBumper, [](ControlInput& in) { in.robot.bumpers_rear = 1; }},
+      {kStall, [](ControlInput& in) { in.robot.stall_left = true; }},
+      {kStall, [](ControlInput& in) { in.robot.stall_right = true; }},
+      {kStaleFrame, [](ControlInput& in) { in.has_pose = false; }},
+      {kStaleFrame, [](ControlInput& in) { in.pose.t_capture_ns -= 301 * kNsPerMs; }},
+  };
+  for (const Row& row : rows) {
+    Bench bench;
+    bench.start_following();
+    row.cause(bench.input);
+    EXPECT_EQ(bench.same_tick(), row.condition) << &row - rows;
+  }
+}
+
+TEST(Conditions, DisabledIsALiveLine) {
+  Bench bench;
+  bench.start_following();
+  bench.input.robot.phase = LinkPhase::Disabled;
+  EXPECT_EQ(bench.same_tick(), 0);
+}
+
+TEST(Conditions, TimeoutsAreInclusive) {
+  Bench bench;
+  bench.start_following();
+  bench.input.robot.odometry.t_ns = bench.input.now_ns - ns_from_seconds(bench.config.sip_timeout_s);
+  bench.input.pose.t_capture_ns = bench.input.now_ns - ns_from_seconds(bench.config.frame_timeout_s);
+  EXPECT_EQ(bench.same_tick(), 0);
+}
+
+TEST(Conditions, BumperAndStallHoldAfterTheyClear) {
+  Bench bench;
+  bench.start_following();
+  bench.input.robot.bumpers_front = 1;
+  bench.input.robot.stall_left = true;
+  EXPECT_EQ(bench.frame(), kBumper | kStall);
+  bench.input.robot.bumpers_front = 0;
+  bench.input.robot.stall_left = false;
+  const TimeNs cleared_ns = bench.input.now_ns;
+  while (bench.input.now_ns + kFrame_ns <= cleared_ns + ns_from_seconds(bench.config.bumper_hold_s)) {
+    ASSERT_EQ(bench.frame(), kBumper | kStall);
+  }
+  EXPECT_EQ(bench.frame(), 0);
+}
+
+TEST(Conditions, FollowingStartsOnlyAfterEnoughFramesInARow) {
+  Bench bench;
+  EXPECT_EQ(bench.frame(), kNoTargetYet);
+  EXPECT_EQ(bench.frame(), kNoTargetYet);
+  EXPECT_EQ(bench.frame(PoseNews::Refused), kNoTargetYet);  // starts the count anew
+  EXPECT_EQ(bench.frame(), kNoTargetYet);
+  EXPECT_EQ(bench.same_tick(), kNoTargetYet);  // a tick without a frame does not count
+  EXPECT_EQ(bench.frame(), kNoTargetYet);
+  EXPECT_EQ(bench.frame(), 0);
+}
+
+TEST(Conditions, FramesFarApartAreNotInARow) {
+  Bench bench;
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(bench.frame(), kNoTargetYet);
+    bench.input.now_ns += kNsPerS;
+    EXPECT_NE(bench.same_tick(), 0);
+  }
+}
+
+TEST(Conditions, CertaintyHasHysteresis) {
+  Bench bench;
+  const double between = 0.5 * (bench.config.certainty_follow + bench.config.certainty_drop);
+  for (int i = 0; i < 20; ++i)
+    EXPECT_EQ(bench.frame(PoseNews::Believed, between), kLowCertainty | kNoTargetYet);
+  bench.start_following();
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.frame(PoseNews::Believed, between), 0);
+  Conditions last = 0;
+  for (int i = 0; i < 100; ++i) last = bench.frame(PoseNews::Believed, 0.5 * bench.config.certainty_drop);
+  EXPECT_EQ(last, kLowCertainty | kTargetLost);
+  for (int i = 0; i < 20; ++i)
+    EXPECT_EQ(bench.frame(PoseNews::Believed, between), kLowCertainty | kTargetLost);
+}
+
+TEST(Conditions, LostAfterTheTimeoutAndFoundAgainByTheSameRule) {
+  Bench bench;
+  bench.start_following();
+  const TimeNs seen_ns = bench.input.now_ns;
+  const TimeNs timeout_ns = ns_from_seconds(bench.config.target_timeout_s);
+  EXPECT_EQ(bench.idle(timeout_ns), 0);
+  EXPECT_EQ(bench.input.now_ns - seen_ns, timeout_ns);
+  EXPECT_EQ(bench.idle(1), kTargetLost);
+  EXPECT_EQ(bench.frame(), kTargetLost);
+  EXPECT_EQ(bench.frame(), kTargetLost);
+  EXPECT_EQ(bench.frame(), 0);
+}
+
+TEST(Conditions, LostBeforeEverSeenIsNoTargetYet) {
+  Bench bench;
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.idle(kFrame_ns) & (kTargetLost | kNoTargetYet), kNoTargetYet);
+}
+
+}  // namespace
+}  // namespace heel

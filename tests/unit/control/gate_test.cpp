@@ -1,0 +1,164 @@
+// The gate: what it lets through, and for any input whatever, what it never lets through.
+#include "control/gate.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <limits>
+
+namespace heel {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr TimeNs kNow_ns = 100 * kNsPerS;
+constexpr TimeNs kTick_ns = 20 * kNsPerMs;
+
+VelocityCommand command(double v_m_s, double yaw_rate_rad_s, TimeNs t_issued_ns = kNow_ns) {
+  return {t_issued_ns, t_issued_ns + 200 * kNsPerMs, v_m_s, yaw_rate_rad_s, 0};
+}
+
+VelocityCommand pass(const VelocityCommand& wanted, const VelocityCommand& previous,
+                     StopStyle style = StopStyle::Go, double range_m = kInf) {
+  return pass_gate(wanted, previous, style, range_m, kNow_ns, GateConfig{});
+}
+
+TEST(Gate, LetsAModestCommandThroughUntouched) {
+  const auto out = pass(command(0.305, 0.31), command(0.3, 0.3, kNow_ns - kTick_ns));
+  EXPECT_DOUBLE_EQ(out.v_m_s, 0.305);
+  EXPECT_DOUBLE_EQ(out.yaw_rate_rad_s, 0.31);
+  EXPECT_EQ(out.limited_by, 0);
+}
+
+TEST(Gate, SpeedIsLimitedAndSaysSo) {
+  const auto out = pass(command(9, -9), command(0.7, -1.0, kNow_ns - kTick_ns));
+  EXPECT_DOUBLE_EQ(out.v_m_s, 0.7);
+  EXPECT_DOUBLE_EQ(out.yaw_rate_rad_s, -1.0);
+  EXPECT_EQ(out.limited_by, kGateSpeed);
+}
+
+TEST(Gate, SlewsFromThePresentCommand) {
+  const auto out = pass(command(0.7, 1.0), command(0.1, 0.0, kNow_ns - kTick_ns));
+  EXPECT_NEAR(out.v_m_s, 0.1 + 0.6 * 0.02, 1e-12);
+  EXPECT_NEAR(out.yaw_rate_rad_s, 2.5 * 0.02, 1e-12);
+  EXPECT_EQ(out.limited_by, kGateAcceleration);
+}
+
+TEST(Gate, ReversalStopsAtZeroFirst) {
+  EXPECT_EQ(pass(command(-0.5, 0), command(0.01, 0, kNow_ns - kTick_ns)).v_m_s, 0.0);
+  EXPECT_NEAR(pass(command(-0.5, 0), command(0.0, 0, kNow_ns - kTick_ns)).v_m_s, -0.012, 1e-12);
+}
+
+TEST(Gate, FirstCommandAndFirstAfterAGapAreZero) {
+  EXPECT_EQ(pass(command(0.7, 1.0), VelocityCommand{}).v_m_s, 0.0);
+  const auto out = pass(command(0.7, 1.0), command(0.5, 0.5, kNow_ns - kNsPerS));
+  EXPECT_EQ(out.v_m_s, 0.0);
+  EXPECT_EQ(out.yaw_rate_rad_s, 0.0);
+}
+
+TEST(Gate, ComesToRestWithinTheDeceleration) {
+  VelocityCommand last = command(0.7, -1.0, kNow_ns);
+  TimeNs now_ns = kNow_ns;
+  while (last.v_m_s != 0.0 || last.yaw_rate_rad_s != 0.0) {
+    now_ns += kTick_ns;
+    const auto next =
+        pass_gate(command(0.7, -1.0, now_ns), last, StopStyle::ComeToRest, kInf, now_ns, GateConfig{});
+    ASSERT_LE(last.v_m_s - next.v_m_s, 1.5 * 0.02 + 1e-12);
+    last = next;
+  }
+  EXPECT_LE(now_ns - kNow_ns, 500 * kNsPerMs);
+}
+
+TEST(Gate, AtOnceIsZeroNow) {
+  const auto out = pass(command(0.7, 1.0), command(0.7, 1.0, kNow_ns - kTick_ns), StopStyle::AtOnce);
+  EXPECT_EQ(out.v_m_s, 0.0);
+  EXPECT_EQ(out.yaw_rate_rad_s, 0.0);
+  EXPECT_GT(out.t_expires_ns, kNow_ns);
+}
+
+TEST(Gate, OldAndNotFiniteCommandsCountAsRestAndSaySo) {
+  const auto previous = command(0.7, 1.0, kNow_ns - kTick_ns);
+  const auto old = pass(command(0.7, 1.0, kNow_ns - kNsPerS), previous);
+  EXPECT_LT(old.v_m_s, 0.7);
+  EXPECT_TRUE(old.limited_by & kGateAge);
+  for (const auto& bad : {command(kNaN, 0), command(0, kNaN), command(kInf, 0), command(0, -kInf)}) {
+    const auto out = pass(bad, previous);
+    EXPECT_LT(out.v_m_s, 0.7);
+    EXPECT_LT(out.yaw_rate_rad_s, 1.0);
+    EXPECT_TRUE(out.limited_by & kGateNotFinite);
+  }
+}
+
+TEST(Gate, StopsShortOfTheSeparation) {
+  const GateConfig limits;
+  double range_m = 3.0;
+  VelocityCommand last = command(0, 0, kNow_ns);
+  TimeNs now_ns = kNow_ns;
+  for (int i = 0; i < 2000; ++i) {
+    now_ns += kTick_ns;
+    last = pass_gate(command(0.7, 0, now_ns), last, StopStyle::Go, range_m, now_ns, limits);
+    range_m -= last.v_m_s * 0.02;
+  }
+  EXPECT_GE(range_m, limits.separation_m - 1e-3);
+  EXPECT_LT(range_m, limits.separation_m + 0.1);
+  EXPECT_TRUE(last.limited_by & kGateSeparation);
+  // A range that is not a number is no permission.
+  EXPECT_EQ(pass(command(0.5, 0), command(0.0, 0, kNow_ns - kTick_ns), StopStyle::Go, kNaN).v_m_s, 0.0);
+  // Backing away is still allowed.
+  EXPECT_LT(pass(command(-0.5, 0), command(0, 0, kNow_ns - kTick_ns), StopStyle::Go, 0.3).v_m_s, 0.0);
+}
+
+double any_double() {
+  const auto special = rc::gen::element(kNaN, kInf, -kInf, 0.0, -0.0, 1e308, -1e308, 5e-324);
+  return *rc::gen::oneOf(special, rc::gen::arbitrary<double>(),
+                         rc::gen::map(rc::gen::inRange(-2000, 2000), [](int i) { return i * 1e-3; }));
+}
+
+TimeNs any_time() {
+  return kNow_ns + *rc::gen::oneOf(rc::gen::inRange<TimeNs>(-500 * kNsPerMs, 500 * kNsPerMs),
+                                   rc::gen::inRange<TimeNs>(-kNow_ns, kNow_ns));
+}
+
+VelocityCommand any_command() {
+  return {any_time(), any_time(), any_double(), any_double(), *rc::gen::arbitrary<std::uint8_t>()};
+}
+
+RC_GTEST_PROP(GateProperty, NothingEverExceedsALimitAndEverythingExpires, ()) {
+  const GateConfig limits;
+  const VelocityCommand wanted = any_command();
+  const VelocityCommand previous = any_command();
+  const auto style = *rc::gen::element(StopStyle::Go, StopStyle::ComeToRest, StopStyle::AtOnce);
+  const auto out = pass_gate(wanted, previous, style, any_double(), kNow_ns, limits);
+
+  RC_ASSERT(std::isfinite(out.v_m_s) && std::isfinite(out.yaw_rate_rad_s));
+  RC_ASSERT(std::abs(out.v_m_s) <= limits.v_max_m_s);
+  RC_ASSERT(std::abs(out.yaw_rate_rad_s) <= limits.yaw_rate_max_rad_s);
+  RC_ASSERT(out.t_issued_ns == kNow_ns);
+  RC_ASSERT(out.t_expires_ns == kNow_ns + ns_from_seconds(limits.command_lifetime_s));
+  if (style == StopStyle::AtOnce) RC_ASSERT(out.v_m_s == 0.0 && out.yaw_rate_rad_s == 0.0);
+}
+
+RC_GTEST_PROP(GateProperty, NoStepIsLargerThanTheAccelerationsAllow, ()) {
+  const GateConfig limits;
+  VelocityCommand last = command(0, 0, kNow_ns);
+  TimeNs now_ns = kNow_ns;
+  for (int i = 0; i < 50; ++i) {
+    now_ns += *rc::gen::inRange<TimeNs>(1, 150 * kNsPerMs);
+    const double dt_s =
+        std::min(seconds_from_ns(now_ns - last.t_issued_ns), seconds_from_ns(kLongestSlew_ns));
+    VelocityCommand wanted = any_command();
+    wanted.t_expires_ns = now_ns + 1;
+    const auto out = pass_gate(wanted, last, *rc::gen::element(StopStyle::Go, StopStyle::ComeToRest),
+                               any_double(), now_ns, limits);
+    const double gain = std::abs(out.v_m_s) - std::abs(last.v_m_s);
+    RC_ASSERT(gain <= limits.acceleration_m_s2 * dt_s + 1e-12);
+    RC_ASSERT(-gain <= limits.deceleration_m_s2 * dt_s + 1e-12);
+    RC_ASSERT(out.v_m_s * last.v_m_s >= 0.0);  // no change of sign in one step
+    RC_ASSERT(std::abs(out.yaw_rate_rad_s - last.yaw_rate_rad_s) <=
+              limits.yaw_acceleration_rad_s2 * dt_s + 1e-12);
+    last = out;
+  }
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,60 @@
+// The supervisor's table, every combination of conditions.
+#include "control/supervisor.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace heel {
+namespace {
+
+TEST(Supervisor, FollowsWhenNothingHolds) {
+  EXPECT_EQ(supervise(0).reason, StopReason::None);
+  EXPECT_EQ(supervise(0).style, StopStyle::Go);
+}
+
+TEST(Supervisor, EveryRowStandsOnceAndEveryReasonHasARow) {
+  Conditions seen = 0;
+  std::set<StopReason> reasons;
+  for (const auto& row : supervisor_table()) {
+    EXPECT_EQ(seen & row.condition, 0);
+    seen = static_cast<Conditions>(seen | row.condition);
+    EXPECT_TRUE(reasons.insert(row.reason).second);
+    EXPECT_NE(row.reason, StopReason::None);
+    EXPECT_NE(row.style, StopStyle::Go);
+  }
+  EXPECT_EQ(seen, kAllConditions);
+  EXPECT_EQ(reasons.size(), static_cast<std::size_t>(StopReason::LowCertainty));
+}
+
+/// The order written out again, independently of the table.
+StopReason expected_reason(unsigned c) {
+  if (c & kShutdown) return StopReason::Shutdown;
+  if (c & kLinkDown) return StopReason::LinkDown;
+  if (c & kStaleSip) return StopReason::StaleSip;
+  if (c & kStopButton) return StopReason::StopButton;
+  if (c & kMotorsOff) return StopReason::MotorsOff;
+  if (c & kBumper) return StopReason::Bumper;
+  if (c & kStall) return StopReason::Stall;
+  if (c & kStaleFrame) return StopReason::StaleFrame;
+  if (c & kLowCertainty) return StopReason::LowCertainty;
+  if (c & kTargetLost) return StopReason::TargetLost;
+  if (c & kNoTargetYet) return StopReason::NoTargetYet;
+  return StopReason::None;
+}
+
+TEST(Supervisor, EveryCombinationGivesTheFirstReasonAndItsStyle) {
+  for (unsigned conditions = 0; conditions <= kAllConditions; ++conditions) {
+    const Verdict verdict = supervise(static_cast<Conditions>(conditions));
+    ASSERT_EQ(verdict.reason, expected_reason(conditions)) << conditions;
+    const bool about_seeing_only =
+        (conditions & ~unsigned{kStaleFrame | kLowCertainty | kTargetLost | kNoTargetYet}) == 0;
+    const StopStyle style = conditions == 0     ? StopStyle::Go
+                            : about_seeing_only ? StopStyle::ComeToRest
+                                                : StopStyle::AtOnce;
+    ASSERT_EQ(verdict.style, style) << conditions;
+  }
+}
+
+}  // namespace
+}  // namespace heel

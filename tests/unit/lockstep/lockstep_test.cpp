@@ -1,0 +1,108 @@
+// Lock step: the daemon's stages follow the simulated person, and a run repeats to the bit.
+#include "heel/lockstep/lockstep.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "heel/error.h"
+#include "heel/lockstep/metrics.h"
+#include "heel/lockstep/run_record.h"
+
+namespace heel::sim {
+namespace {
+
+LockstepSettings short_walk() {
+  LockstepSettings settings;
+  settings.scenario = parse_scenario(R"(
+seed = 3
+duration_s = 8.0
+[person]
+walk_after_s = 1.0
+[[person.path]]
+step = "straight"
+length_m = 3.0
+[robot]
+x_m = -1.8
+[room]
+objects = 15
+)",
+                                     "short.toml");
+  apply_scenario(settings.scenario, settings.config);
+  settings.shirt = teach_from_world(settings.scenario, 1.5);
+  return settings;
+}
+
+/// Everything observable, as bytes.
+class Transcript : public LockstepObserver {
+ public:
+  void on_tick(const TickRecord& tick, const TruthMoment& truth) override {
+    append(tick.command.v_m_s);
+    append(tick.target.yaw_rad);
+    append(truth.robot.pose.x_m);
+    append(truth.world.back_m.x());
+  }
+  void on_pose(const FrameView& frame, const PoseEstimate& pose, const TruthMoment& /*truth*/) override {
+    frames.append(reinterpret_cast<const char*>(frame.grey), 640UL * 480UL / 16);
+    append(pose.yaw_rad);
+    append(pose.certainty);
+  }
+  void on_bytes_to_robot(std::span<const std::uint8_t> bytes, TimeNs t_ns) override {
+    append(static_cast<double>(t_ns));
+    wire.append(bytes.begin(), bytes.end());
+  }
+  std::string numbers, frames, wire;
+
+ private:
+  void append(double value) { numbers.append(reinterpret_cast<const char*>(&value), sizeof value); }
+};
+
+TEST(Lockstep, RepeatsToTheBit) {
+  LockstepSettings settings = short_walk();
+  settings.scenario.duration_s = 4.0;
+  Transcript first, second, other;
+  run_lockstep(settings, first);
+  run_lockstep(settings, second);
+  settings.scenario.seed = 4;
+  run_lockstep(settings, other);
+  EXPECT_GT(first.wire.size(), 1000U);
+  EXPECT_EQ(first.wire, second.wire);
+  EXPECT_EQ(first.numbers, second.numbers);
+  EXPECT_EQ(first.frames, second.frames);
+  EXPECT_NE(first.frames, other.frames);
+}
+
+TEST(Lockstep, FollowsAWalkingPerson) {
+  const LockstepSettings settings = short_walk();
+  RunRecord record("", settings);
+  const LockstepCounts counts = run_lockstep(settings, record);
+  const FollowMetrics metrics = record.metrics().evaluate();
+  EXPECT_EQ(counts.ticks, 401U);  // 50 Hz for 8 s, and the one that shuts down
+  EXPECT_NEAR(static_cast<double>(counts.frames), 239.0, 1.0);
+  EXPECT_GT(metrics.robot_path_m, 1.0);
+  EXPECT_LT(metrics.out_of_view_longest_s, 0.5);
+  EXPECT_LT(metrics.lateral_m.rms, 0.15);
+  EXPECT_LT(std::abs(metrics.yaw_error_rad.mean), 0.05);
+  EXPECT_LT(metrics.z_error_m.rms, 0.06);
+  EXPECT_GT(metrics.separation_m.lowest, 1.2);
+}
+
+TEST(Lockstep, SlowVisionLosesFramesButNotThePerson) {
+  LockstepSettings settings = short_walk();
+  settings.scenario.duration_s = 5.0;
+  settings.scenario.vision_latency_ms = 80.0;  // every third frame can be looked at
+  RunRecord record("", settings);
+  const LockstepCounts counts = run_lockstep(settings, record);
+  EXPECT_GT(counts.frames_overtaken, counts.frames / 3);
+  EXPECT_GT(record.metrics().evaluate().robot_path_m, 0.3);
+}
+
+TEST(Lockstep, PlainShirtIsRefusedWithTheReason) {
+  Scenario scenario = short_walk().scenario;
+  scenario.person.shirt = ShirtDesign::Plain;
+  EXPECT_THROW(teach_from_world(scenario, 1.5), Error);
+}
+
+}  // namespace
+}  // namespace heel::sim

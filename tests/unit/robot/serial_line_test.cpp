@@ -1,0 +1,230 @@
+// The line on a real pty and on a real TCP connection: bytes through, partial writes, loss, refusals.
+#include "robot/serial_line.h"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <pty.h>
+#include <sys/socket.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace heel {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A pty whose slave has a name.
+struct Pty {
+  int master = -1;
+  std::string slave_path;
+  Pty() {
+    int slave = -1;
+    char name[128] = {};
+    if (::openpty(&master, &slave, name, nullptr, nullptr) != 0) throw std::runtime_error("no pty");
+    slave_path = name;
+    ::close(slave);
+  }
+  ~Pty() { hang_up(); }
+  void hang_up() {
+    if (master >= 0) ::close(master);
+    master = -1;
+  }
+};
+
+/// A listening socket on a free port of this host.
+struct Listener {
+  int fd = -1;
+  int port = 0;
+  Listener() : fd(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof(address);
+    ::bind(fd, reinterpret_cast<sockaddr*>(&address), size);
+    ::listen(fd, 1);
+    ::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
+    port = ntohs(address.sin_port);
+  }
+  ~Listener() { ::close(fd); }
+};
+
+bool open_line(SerialLine& line, const std::string& address) {
+  return line.open(parse_robot_address(address), 38400);
+}
+
+std::vector<std::uint8_t> read_within(SerialLine& line, std::size_t size) {
+  std::vector<std::uint8_t> all;
+  std::array<std::uint8_t, 64> chunk{};
+  while (all.size() < size && line.wait_readable(2 * kNsPerS)) {
+    const auto got = line.read(chunk);
+    if (got.status == SerialLine::Status::Lost) break;
+    all.insert(all.end(), chunk.begin(), chunk.begin() + got.count);
+  }
+  return all;
+}
+
+/// Every byte value, so that nothing a terminal does to bytes goes unnoticed.
+std::vector<std::uint8_t> all_bytes() {
+  std::vector<std::uint8_t> bytes(256);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i);
+  return bytes;
+}
+
+void expect_bytes_both_ways(SerialLine& line, int peer) {
+  const auto bytes = all_bytes();
+  EXPECT_EQ(line.write(bytes).count, bytes.size());
+  EXPECT_TRUE(line.drain(kNsPerS));
+  std::vector<std::uint8_t> there(bytes.size());
+  std::size_t count = 0;
+  while (count < there.size()) {
+    const ssize_t got = ::read(peer, there.data() + count, there.size() - count);
+    ASSERT_GT(got, 0);
+    count += static_cast<std::size_t>(got);
+  }
+  EXPECT_EQ(there, bytes);
+  ASSERT_EQ(::write(peer, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+  EXPECT_EQ(read_within(line, bytes.size()), bytes);
+}
+
+TEST(SerialLinePty, BytesBothWaysUntouched) {
+  Pty pty;
+  SerialLine line;
+  ASSERT_TRUE(open_line(line, "pty:" + pty.slave_path)) << line.error();
+  expect_bytes_both_ways(line, pty.master);
+}
+
+TEST(SerialLinePty, NothingToReadIsNoLoss) {
+  Pty pty;
+  SerialLine line;
+  ASSERT_TRUE(open_line(line, "pty:" + pty.slave_path));
+  std::array<std::uint8_t, 16> chunk{};
+  const auto got = line.read(chunk);
+  EXPECT_EQ(got.count, 0u);
+  EXPECT_EQ(got.status, SerialLine::Status::Ok);
+  const auto begin = Clock::now();
+  EXPECT_FALSE(line.wait_readable(20 * kNsPerMs));
+  EXPECT_GE(Clock::now() - begin, std::chrono::milliseconds(20));
+}
+
+TEST(SerialLinePty, HangUpIsLossOnReadAndOnWrite) {
+  Pty pty;
+  SerialLine line;
+  ASSERT_TRUE(open_line(line, "pty:" + pty.slave_path));
+  pty.hang_up();
+  std::array<std::uint8_t, 16> chunk{};
+  EXPECT_EQ(line.read(chunk).status, SerialLine::Status::Lost);
+  EXPECT_EQ(line.write(std::span(chunk)).status, SerialLine::Status::Lost);
+}
+
+TEST(SerialLinePty, AFullDriverTakesNothingAndDoesNotBlock) {
+  Pty pty;
+  SerialLine line;
+  ASSERT_TRUE(open_line(line, "pty:" + pty.slave_path));
+  const std::vector<std::uint8_t> much(100'000, 0x55);
+  const auto begin = Clock::now();
+  std::size_t taken = 0;
+  SerialLine::Transfer put;
+  do {
+    put = line.write(much);
+    taken += put.count;
+  } while (put.count > 0);
+  EXPECT_EQ(put.status, SerialLine::Status::Ok);
+  EXPECT_GT(taken, 0u);
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(1));
+}
+
+speed_t rate_seen_by(int master) {
+  termios settings{};
+  ::tcgetattr(master, &settings);
+  return ::cfgetospeed(&settings);
+}
+
+TEST(SerialLinePty, ItsRateIsSeenAtTheOtherEnd) {
+  Pty pty;
+  SerialLine line;
+  ASSERT_TRUE(line.open(parse_robot_address("pty:" + pty.slave_path), 19200));
+  EXPECT_EQ(rate_seen_by(pty.master), B19200);
+  const std::pair<int, speed_t> rates[] = {
+      {9600, B9600}, {38400, B38400}, {57600, B57600}, {115200, B115200}, {19200, B19200}};
+  for (const auto& [baud, speed] : rates) {
+    EXPECT_TRUE(line.set_baud(baud));
+    EXPECT_EQ(rate_seen_by(pty.master), speed) << baud;
+  }
+  expect_bytes_both_ways(line, pty.master);  // still raw
+  pty.hang_up();
+  EXPECT_FALSE(line.set_baud(9600));
+  EXPECT_FALSE(line.is_open());
+}
+
+TEST(SerialLinePty, AnotherRateDropsWhatIsOnTheWay) {
+  Pty pty;
+  SerialLine line;
+  ASSERT_TRUE(open_line(line, "pty:" + pty.slave_path));
+  ASSERT_EQ(::write(pty.master, "old", 3), 3);
+  ASSERT_TRUE(line.wait_readable(kNsPerS));
+  EXPECT_TRUE(line.set_baud(9600));
+  EXPECT_FALSE(line.wait_readable(20 * kNsPerMs));
+}
+
+TEST(SerialLineTcp, BytesBothWaysAndLossWhenThePeerCloses) {
+  Listener listener;
+  SerialLine line;
+  ASSERT_TRUE(open_line(line, "tcp:127.0.0.1:" + std::to_string(listener.port))) << line.error();
+  const int peer = ::accept(listener.fd, nullptr, nullptr);
+  expect_bytes_both_ways(line, peer);
+  ::close(peer);
+  ASSERT_TRUE(line.wait_readable(2 * kNsPerS));
+  std::array<std::uint8_t, 16> chunk{};
+  EXPECT_EQ(line.read(chunk).status, SerialLine::Status::Lost);
+}
+
+TEST(SerialLineTcp, UnsentBytesShowThatNobodyTakesThem) {
+  Listener listener;
+  SerialLine line;
+  ASSERT_TRUE(open_line(line, "tcp:127.0.0.1:" + std::to_string(listener.port)));
+  const std::vector<std::uint8_t> much(100'000, 0x55);
+  while (line.write(much).count > 0) {
+  }
+  EXPECT_GT(line.unsent_bytes(), 0u);
+  EXPECT_FALSE(line.drain(10 * kNsPerMs));
+}
+
+struct Refusal {
+  const char* address;
+  const char* said;
+};
+
+TEST(SerialLineRefusal, OneLineNamingTheAddressAndTheReason) {
+  const Refusal refusals[] = {
+      {"pty:/nonexistent/pty", "No such file"},         {"pty:/dev/null", "is not a terminal"},
+      {"serial:/nonexistent/tty@9600", "No such file"}, {"serial:/dev/null@9600", "is not a serial port"},
+      {"tcp:127.0.0.1:1", "Connection refused"},
+  };
+  for (const Refusal& refusal : refusals) {
+    SerialLine line;
+    EXPECT_FALSE(open_line(line, refusal.address));
+    EXPECT_FALSE(line.is_open());
+    EXPECT_NE(line.error().find(refusal.said), std::string::npos) << line.error();
+    EXPECT_EQ(line.error().find(std::string("robot ") + refusal.address), 0u) << line.error();
+    EXPECT_EQ(line.error().find('\n'), std::string::npos);
+  }
+}
+
+TEST(SerialLineClosed, EverythingSaysLost) {
+  SerialLine line;
+  std::array<std::uint8_t, 4> chunk{};
+  EXPECT_EQ(line.read(chunk).status, SerialLine::Status::Lost);
+  EXPECT_EQ(line.write(chunk).status, SerialLine::Status::Lost);
+  EXPECT_FALSE(line.wait_readable(0));
+  EXPECT_EQ(line.unsent_bytes(), 0u);
+}
+
+}  // namespace
+}  // namespace heel

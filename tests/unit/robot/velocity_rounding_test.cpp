@@ -1,0 +1,46 @@
+// Whole units with the asked mean.
+#include "robot/velocity_rounding.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace heel {
+namespace {
+
+TEST(VelocityRounding, SumNeverStraysMoreThanHalfAUnit) {
+  rc::check("sum of commands follows sum asked", [] {
+    VelocityRounding rounding(1000);
+    double asked = 0.0;
+    long sent = 0;
+    const auto steps = *rc::gen::container<std::vector<int>>(rc::gen::inRange(-900'000, 900'000));
+    for (const int milli : steps) {
+      if (milli == 0) continue;
+      asked += milli * 1e-3;
+      sent += rounding.next(milli * 1e-3);
+      RC_ASSERT(std::abs(asked - static_cast<double>(sent)) <= 0.5 + 1e-6);
+    }
+  });
+}
+
+TEST(VelocityRounding, ZeroIsZeroAtOnceAndForgetsTheRest) {
+  VelocityRounding rounding(100);
+  EXPECT_EQ(rounding.next(0.4), 0);
+  EXPECT_EQ(rounding.next(0.0), 0);
+  EXPECT_EQ(rounding.next(0.4), 0);  // 0.8 in sum, had it been remembered
+  EXPECT_EQ(rounding.next(0.4), 1);
+}
+
+TEST(VelocityRounding, LimitAndNonsense) {
+  VelocityRounding rounding(100);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(rounding.next(1e12), 100);
+  EXPECT_EQ(rounding.next(-50.0), -50);  // nothing saved up at the limit
+  EXPECT_EQ(rounding.next(-1e300), -100);
+  EXPECT_EQ(rounding.next(std::numeric_limits<double>::quiet_NaN()), 0);
+  EXPECT_EQ(rounding.next(-std::numeric_limits<double>::infinity()), 0);
+}
+
+}  // namespace
+}  // namespace heel

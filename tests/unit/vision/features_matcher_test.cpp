@@ -1,0 +1,132 @@
+// The matcher against a plain exhaustive search in double precision.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "heel/matching.h"
+
+namespace heel::test {
+namespace {
+
+FeatureSet random_features(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  FeatureSet set;
+  for (int i = 0; i < count; ++i) {
+    Descriptor descriptor;
+    double norm2 = 0.0;
+    for (float& value : descriptor) {
+      value = static_cast<float>(normal(random));
+      norm2 += static_cast<double>(value) * value;
+    }
+    for (float& value : descriptor) value /= static_cast<float>(std::sqrt(norm2));
+    Feature feature;
+    feature.laplacian = random() % 3 == 0 ? std::int8_t{1} : std::int8_t{-1};
+    set.features.push_back(feature);
+    set.descriptors.push_back(descriptor);
+  }
+  return set;
+}
+
+/// Some of `ref`, shuffled and disturbed, among strangers.
+FeatureSet disturbed(const FeatureSet& ref, int strangers, double disturbance, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0.0, disturbance / 8.0);
+  FeatureSet cur = random_features(strangers, seed + 1);
+  for (std::size_t i = ref.features.size(); i-- > 0;) {
+    Descriptor descriptor = ref.descriptors[i];
+    double norm2 = 0.0;
+    for (float& value : descriptor) {
+      value += static_cast<float>(normal(random));
+      norm2 += static_cast<double>(value) * value;
+    }
+    for (float& value : descriptor) value /= static_cast<float>(std::sqrt(norm2));
+    cur.features.push_back(ref.features[i]);
+    cur.descriptors.push_back(descriptor);
+  }
+  return cur;
+}
+
+double distance(const Descriptor& a, const Descriptor& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += (double(a[k]) - b[k]) * (double(a[k]) - b[k]);
+  return std::sqrt(sum);
+}
+
+struct PlainNearest {
+  int index = -1;
+  double best = std::numeric_limits<double>::infinity();
+  double second = std::numeric_limits<double>::infinity();
+};
+
+PlainNearest plain_nearest(const FeatureSet& from, std::size_t i, const FeatureSet& to) {
+  PlainNearest nearest;
+  for (std::size_t j = 0; j < to.features.size(); ++j) {
+    if (to.features[j].laplacian != from.features[i].laplacian) continue;
+    const double d = distance(from.descriptors[i], to.descriptors[j]);
+    if (d < nearest.best) {
+      nearest.second = nearest.best;
+      nearest.best = d;
+      nearest.index = static_cast<int>(j);
+    } else if (d < nearest.second) {
+      nearest.second = d;
+    }
+  }
+  return nearest;
+}
+
+std::vector<Match> plain_match(const FeatureSet& ref, const FeatureSet& cur, const MatchSettings& settings) {
+  std::vector<Match> matches;
+  for (std::size_t i = 0; i < ref.features.size(); ++i) {
+    const PlainNearest nearest = plain_nearest(ref, i, cur);
+    if (nearest.index < 0 || !(nearest.best < static_cast<double>(settings.ratio) * nearest.second)) continue;
+    if (settings.mutual &&
+        plain_nearest(cur, static_cast<std::size_t>(nearest.index), ref).index != static_cast<int>(i))
+      continue;
+    matches.push_back({static_cast<std::int32_t>(i), nearest.index, static_cast<float>(nearest.best)});
+  }
+  return matches;
+}
+
+TEST(FeaturesMatcher, AgreesWithExhaustiveSearch) {
+  for (const bool mutual : {false, true}) {
+    for (const auto& [refs, strangers] :
+         {std::pair{0, 10}, {1, 0}, {1, 1}, {3, 5}, {7, 31}, {64, 64}, {301, 700}, {5, 1000}}) {
+      SCOPED_TRACE(std::to_string(refs) + " among " + std::to_string(strangers));
+      const FeatureSet ref = random_features(refs, 11);
+      const FeatureSet cur = disturbed(ref, strangers, 0.6, 12);
+      const MatchSettings settings{.ratio = 0.8f, .mutual = mutual};
+      Matcher matcher(refs, refs + strangers, settings);
+      std::vector<Match> matches;
+      matcher.match(ref, cur, matches);
+      const std::vector<Match> expected = plain_match(ref, cur, settings);
+      ASSERT_EQ(matches.size(), expected.size());
+      for (std::size_t i = 0; i < matches.size(); ++i) {
+        EXPECT_EQ(matches[i].ref, expected[i].ref);
+        EXPECT_EQ(matches[i].cur, expected[i].cur);
+        EXPECT_NEAR(matches[i].distance, expected[i].distance, 1e-4f);
+      }
+    }
+  }
+}
+
+TEST(FeaturesMatcher, NeverPairsOppositeSigns) {
+  FeatureSet ref = random_features(40, 21);
+  FeatureSet cur = ref;
+  for (Feature& feature : cur.features) feature.laplacian = static_cast<std::int8_t>(-feature.laplacian);
+  Matcher matcher(40, 40, {});
+  std::vector<Match> matches;
+  matcher.match(ref, cur, matches);
+  for (const Match& match : matches) {
+    EXPECT_EQ(ref.features[static_cast<std::size_t>(match.ref)].laplacian,
+              cur.features[static_cast<std::size_t>(match.cur)].laplacian);
+    EXPECT_NE(match.ref, match.cur);
+  }
+  matcher.match(ref, ref, matches);
+  EXPECT_EQ(matches.size(), 40U);
+}
+
+}  // namespace
+}  // namespace heel::test

@@ -1,0 +1,99 @@
+// The walked path against plane geometry.
+#include "heel-sim/world/walk.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "heel/error.h"
+
+namespace heel::sim {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+WalkItem straight(double length_m, double speed_m_s) {
+  WalkItem item;
+  item.length_m = length_m;
+  item.speed_m_s = speed_m_s;
+  return item;
+}
+
+WalkItem arc(double radius_m, double angle_rad) {
+  WalkItem item;
+  item.step = WalkStep::Arc;
+  item.radius_m = radius_m;
+  item.angle_rad = angle_rad;
+  return item;
+}
+
+TEST(Walk, EndsWhereGeometrySays) {
+  WalkState start;
+  start.heading_rad = kPi / 2;
+  const Walk walk(start, {straight(2, 0.5), arc(3, kPi / 2), straight(1, 0.5)});
+  const WalkState end = walk.at(walk.duration_s() + 5);
+  EXPECT_NEAR(end.x_m, -3 - 1, 1e-6);
+  EXPECT_NEAR(end.y_m, 2 + 3, 1e-6);
+  EXPECT_NEAR(end.heading_rad, kPi, 1e-9);
+  EXPECT_EQ(end.speed_m_s, 0.0);
+}
+
+TEST(Walk, RightBendTurnsClockwise) {
+  const Walk walk(WalkState{}, {arc(2, -kPi / 2)});
+  const WalkState end = walk.at(1e3);
+  EXPECT_NEAR(end.x_m, 2, 1e-6);
+  EXPECT_NEAR(end.y_m, -2, 1e-6);
+}
+
+TEST(Walk, ReachesWaypointsOnEverySide) {
+  for (int i = 0; i < 12; ++i) {
+    WalkItem to;
+    to.step = WalkStep::To;
+    to.x_m = 3 * std::cos(i * kPi / 6 + 0.1);
+    to.y_m = 3 * std::sin(i * kPi / 6 + 0.1);
+    const Walk walk(WalkState{}, {to});
+    const WalkState end = walk.at(1e3);
+    EXPECT_NEAR(end.x_m, to.x_m, 1e-6) << i;
+    EXPECT_NEAR(end.y_m, to.y_m, 1e-6) << i;
+    EXPECT_LT(walk.duration_s() * to.speed_m_s, 9.0) << i;  // no needless circle
+  }
+}
+
+TEST(Walk, RefusesAWaypointInsideItsTurningCircle) {
+  WalkItem to;
+  to.step = WalkStep::To;
+  to.y_m = 0.5;
+  EXPECT_THROW(Walk(WalkState{}, {to}), Error);
+}
+
+TEST(Walk, AccelerationIsBoundedAndSpeedReached) {
+  WalkItem pause;
+  pause.step = WalkStep::Pause;
+  pause.duration_s = 1;
+  const Walk walk(WalkState{}, {straight(3, 0.8), straight(3, 0.4), pause, straight(2, 0.5)});
+  double fastest = 0;
+  for (double t = 0; t < walk.duration_s(); t += 0.05) {
+    const double v0 = walk.at(t).speed_m_s;
+    const double v1 = walk.at(t + 0.05).speed_m_s;
+    EXPECT_LE(std::abs(v1 - v0), 0.6 * 0.05 + 0.1) << t;
+    const double moved =
+        std::hypot(walk.at(t + 0.05).x_m - walk.at(t).x_m, walk.at(t + 0.05).y_m - walk.at(t).y_m);
+    EXPECT_LE(moved, 0.8 * 0.05 + 1e-9) << t;
+    fastest = std::max(fastest, v0);
+  }
+  EXPECT_NEAR(fastest, 0.8, 1e-6);
+}
+
+TEST(Walk, GaitPhaseRunsOnlyWhileMoving) {
+  WalkItem pause;
+  pause.step = WalkStep::Pause;
+  pause.duration_s = 2;
+  const Walk walk(WalkState{}, {straight(2, 0.5), pause});
+  const double end = walk.duration_s();
+  EXPECT_GT(walk.at(end - 2).stride_rad, 2 * kPi);
+  EXPECT_EQ(walk.at(end - 1.9).stride_rad, walk.at(end).stride_rad);
+}
+
+}  // namespace
+}  // namespace heel::sim

@@ -1,0 +1,36 @@
+// Anti-aliased shapes on a canvas: each is a signed distance in texels, negative inside.
+#pragma once
+
+#include <cmath>
+
+#include "heel-sim/world/texture.h"
+
+namespace heel::sim {
+
+struct Box2 {
+  int x0, y0, x1, y1;  ///< [x0, x1) × [y0, y1)
+};
+
+/// Lays `grey` over every texel of `box` by the coverage of `distance(x, y)`, at the given opacity.
+template <typename Distance>
+void paint(Canvas& canvas, const Box2& box, float grey, const Distance& distance, float opacity = 1.f) {
+  for (int y = box.y0; y < box.y1; ++y)
+    for (int x = box.x0; x < box.x1; ++x)
+      canvas.blend(x, y, grey, opacity * static_cast<float>(0.5 - distance(x, y)));
+}
+
+inline Box2 box_around(double x, double y, double radius) {
+  const int r = static_cast<int>(std::ceil(radius)) + 2;
+  const int cx = static_cast<int>(std::lround(x));
+  const int cy = static_cast<int>(std::lround(y));
+  return {cx - r, cy - r, cx + r + 1, cy + r + 1};
+}
+
+/// Signed distance of a rectangle of half sides (hx, hy) about the origin, in its own axes.
+inline double rectangle_distance(double x, double y, double hx, double hy) {
+  const double dx = std::abs(x) - hx;
+  const double dy = std::abs(y) - hy;
+  return std::hypot(std::fmax(dx, 0.0), std::fmax(dy, 0.0)) + std::fmin(std::fmax(dx, dy), 0.0);
+}
+
+}  // namespace heel::sim

@@ -1,0 +1,139 @@
+#include "heel-sim/world/room.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "heel-sim/world/decor.h"
+#include "heel-sim/world/random.h"
+
+namespace heel::sim {
+namespace {
+
+constexpr double kCeilingM = 3.0;
+constexpr double kPatchM = 2.0;  ///< light is interpolated linearly over a patch
+
+double distance_to_walk(const FloorPlan& plan, const Eigen::Vector2d& point) {
+  double nearest = std::numeric_limits<double>::max();
+  for (const Eigen::Vector2d& walked : plan.walked_m) nearest = std::min(nearest, (walked - point).norm());
+  return nearest;
+}
+
+}  // namespace
+
+Room::Room(const RoomSettings& settings, const FloorPlan& plan, const Light& light, std::uint64_t seed)
+    : light_(light) {
+  Eigen::Vector2d low = plan.walked_m.front();
+  Eigen::Vector2d high = low;
+  for (const Eigen::Vector2d& point : plan.walked_m) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  low.array() -= settings.margin_m;
+  high.array() += settings.margin_m;
+  add_shell(low, high, derived_seed(seed, 0x21));
+  add_objects(settings, plan, low, high, derived_seed(seed, 0x22));
+}
+
+void Room::add_rectangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& right,
+                         const Eigen::Vector3d& down, const Texture& texture, double texels_per_m,
+                         const Eigen::Vector2d& texture_origin, double patch_m) {
+  const int columns = std::max(1, static_cast<int>(std::ceil(right.norm() / patch_m)));
+  const int rows = std::max(1, static_cast<int>(std::ceil(down.norm() / patch_m)));
+  const Eigen::Vector3f normal = down.cross(right).normalized().cast<float>();
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      StaticFace face;
+      face.texture = &texture;
+      face.texels_per_m = static_cast<float>(texels_per_m);
+      // Corner order: top left, bottom left, top right: counter-clockwise from outside.
+      constexpr std::array<std::array<int, 2>, 3> kCorners{{{0, 0}, {0, 1}, {1, 0}}};
+      for (std::size_t i = 0; i < kCorners.size(); ++i) {
+        const double u = static_cast<double>(column + kCorners[i][0]) / columns;
+        const double v = static_cast<double>(row + kCorners[i][1]) / rows;
+        face.corners_m[i] = (origin + u * right + v * down).cast<float>();
+        face.s_texel[i] = static_cast<float>(texture_origin.x() + u * right.norm() * texels_per_m);
+        face.t_texel[i] = static_cast<float>(texture_origin.y() + v * down.norm() * texels_per_m);
+        face.light[i] = light_.at(face.corners_m[i], normal);
+      }
+      faces_.push_back(face);
+    }
+  }
+}
+
+void Room::add_box(const Eigen::Vector2d& centre, const Eigen::Vector3d& size, double heading_rad,
+                   const Texture& texture) {
+  constexpr double kTexelsPerM = 350.0;
+  const Eigen::Vector3d along(std::cos(heading_rad), std::sin(heading_rad), 0.0);
+  const Eigen::Vector3d left(-along.y(), along.x(), 0.0);
+  const Eigen::Vector3d top(centre.x(), centre.y(), size.z());
+  const Eigen::Vector3d down(0.0, 0.0, -size.z());
+  const Eigen::Vector3d half_along = 0.5 * size.x() * along;
+  const Eigen::Vector3d half_left = 0.5 * size.y() * left;
+  // Seen from outside, `right` runs counter-clockwise about the box.
+  add_rectangle(top - half_along - half_left, 2.0 * half_along, down, texture, kTexelsPerM, {0, 0}, kPatchM);
+  add_rectangle(top + half_along - half_left, 2.0 * half_left, down, texture, kTexelsPerM, {170, 60},
+                kPatchM);
+  add_rectangle(top + half_along + half_left, -2.0 * half_along, down, texture, kTexelsPerM, {300, 0},
+                kPatchM);
+  add_rectangle(top - half_along + half_left, -2.0 * half_left, down, texture, kTexelsPerM, {80, 200},
+                kPatchM);
+  add_rectangle(top - half_along + half_left, 2.0 * half_along, -2.0 * half_left, texture, kTexelsPerM,
+                {0, 300}, kPatchM);
+}
+
+void Room::add_shell(const Eigen::Vector2d& low, const Eigen::Vector2d& high, std::uint64_t seed) {
+  const Eigen::Vector2d size = high - low;
+  const Texture& floor = textures_.emplace_back(draw_floor(derived_seed(seed, 1)));
+  const Texture& ceiling = textures_.emplace_back(draw_ceiling(derived_seed(seed, 2)));
+  add_rectangle({low.x(), high.y(), 0.0}, {size.x(), 0, 0}, {0, -size.y(), 0}, floor, 256.0, {0, 0}, kPatchM);
+  add_rectangle({low.x(), low.y(), kCeilingM}, {size.x(), 0, 0}, {0, size.y(), 0}, ceiling, 100.0, {0, 0},
+                kPatchM);
+  // The walls face inwards: `right` runs clockwise about the room.
+  const Eigen::Vector3d down(0, 0, -kCeilingM);
+  const std::array<Eigen::Vector3d, 4> corners{{{low.x(), low.y(), kCeilingM},
+                                                {low.x(), high.y(), kCeilingM},
+                                                {high.x(), high.y(), kCeilingM},
+                                                {high.x(), low.y(), kCeilingM}}};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Texture& wall = textures_.emplace_back(draw_wall(derived_seed(seed, 10 + i)));
+    add_rectangle(corners[i], corners[(i + 1) % 4] - corners[i], down, wall, 512.0 / kCeilingM, {0, 0},
+                  kPatchM);
+  }
+}
+
+void Room::add_objects(const RoomSettings& settings, const FloorPlan& plan, const Eigen::Vector2d& low,
+                       const Eigen::Vector2d& high, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<const Texture*> crates, shelves, screens;
+  for (int i = 0; i < 3; ++i) {
+    crates.push_back(&textures_.emplace_back(draw_crate(derived_seed(seed, 20 + i))));
+    shelves.push_back(&textures_.emplace_back(draw_shelf(derived_seed(seed, 30 + i))));
+    screens.push_back(&textures_.emplace_back(draw_screen(derived_seed(seed, 40 + i))));
+  }
+  int placed = 0;
+  // A crowded plan may have no room for all of them: the tries are bounded.
+  for (int tries = 0; tries < 50 * settings.objects && placed < settings.objects; ++tries) {
+    const Eigen::Vector2d centre(random.uniform(low.x() + 0.6, high.x() - 0.6),
+                                 random.uniform(low.y() + 0.6, high.y() - 0.6));
+    const double heading = random.uniform(0, std::numbers::pi);
+    const double kind = random.uniform();
+    Eigen::Vector3d size(random.uniform(0.4, 0.9), random.uniform(0.4, 0.9), random.uniform(0.4, 1.3));
+    const auto pick = static_cast<std::size_t>(random.index(3));
+    const Texture* texture = crates[pick];
+    if (kind > 0.65) {
+      size = {random.uniform(1.0, 1.5), 0.06, random.uniform(1.5, 2.0)};
+      texture = screens[pick];
+    } else if (kind > 0.4) {
+      size = {random.uniform(0.8, 1.2), 0.35, random.uniform(1.4, 2.2)};
+      texture = shelves[pick];
+    }
+    const double reach = 0.5 * size.head<2>().norm();
+    if (distance_to_walk(plan, centre) < settings.clearance_m + reach) continue;
+    add_box(centre, size, heading, *texture);
+    ++placed;
+  }
+}
+
+}  // namespace heel::sim

@@ -1,0 +1,28 @@
+// The subcommands of `heel`, one source file each. A command registers its options and, as callback, its
+// work.
+//
+// How a command ends:
+//   returns                     exit status 0
+//   throws heel::Error          bad usage or input: one line "heel NAME: …" on stderr, exit status 2
+//   throws CLI::RuntimeError(1) it worked, and the answer is no (nothing found, template refused); what there
+//                               is to say has been said already
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace heel::cli {
+
+inline constexpr int kExitNo = 1;
+inline constexpr int kExitBadInput = 2;
+
+/// Accepts finite numbers from `least` to `most`. (CLI::Range lets "nan" through.)
+CLI::Validator number_from(double least, double most);
+
+void add_calibrate_command(CLI::App& app);
+void add_teach_command(CLI::App& app);
+void add_pose_command(CLI::App& app);
+void add_features_command(CLI::App& app);
+void add_simulate_command(CLI::App& app);
+void add_report_command(CLI::App& app);
+
+}  // namespace heel::cli

@@ -1,0 +1,252 @@
+#include "lockstep.h"
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "frame_supply.h"
+#include "heel-sim/world/random.h"
+#include "heel/control.h"
+#include "heel/error.h"
+#include "heel/pose_estimator.h"
+#include "robot/arcos_session.h"
+
+namespace heel::sim {
+namespace {
+
+class Lockstep {
+ public:
+  Lockstep(const LockstepSettings& settings, LockstepObserver& observer);
+  LockstepCounts run();
+
+ private:
+  /// A frame taken but not yet seen by the vision stage.
+  struct Exposure {
+    std::uint64_t sequence = 0;
+    TimeNs t_ns = 0;  ///< middle
+    RobotMotion robot;
+    TruthMoment truth;
+  };
+  struct PoseUnderWay {
+    PoseEstimate pose;
+    TimeNs t_visible_ns = 0;
+  };
+
+  void advance_line(TimeNs t_ns);
+  void expose(TimeNs t_ns);
+  void see(const Exposure& exposure, TimeNs t_start_ns);
+  void tick(TimeNs t_ns, bool shutdown);
+  void send(std::span<const std::uint8_t> bytes, TimeNs t_ns);
+  void start_person_when_motors_run(TimeNs t_ns);
+  RobotMotion motion_at(TimeNs t_ns) const;
+  TruthMoment truth_at(TimeNs t_ns) const;
+
+  const Scenario scenario_;
+  const double control_rate_hz_;
+  LockstepObserver& observer_;
+  std::unique_ptr<World> world_;  ///< none when frames come from a file
+  std::unique_ptr<FrameSupply> frames_;
+  PoseEstimator vision_;
+  ControlStage control_;
+  ArcosSession session_;
+  P3At robot_;
+
+  TimeNs t_line_ns_ = 0;  ///< the line has been carried up to here
+  TimeNs t_vision_free_ns_ = 0;
+  std::optional<Exposure> waiting_;  ///< freshest wins
+  std::optional<PoseUnderWay> pose_under_way_;
+  PoseEstimate newest_pose_;
+  bool has_pose_ = false;
+  bool frames_ended_ = false;
+  LockstepCounts counts_;
+};
+
+Lockstep::Lockstep(const LockstepSettings& settings, LockstepObserver& observer)
+    : scenario_(settings.scenario),
+      control_rate_hz_(settings.config.control.rate_hz),
+      observer_(observer),
+      vision_(settings.shirt, settings.scenario.camera.model, settings.config.vision),
+      control_(settings.config),
+      session_(settings.config.robot),
+      robot_(robot_settings(settings.scenario), derived_seed(settings.scenario.seed, 0x60)) {
+  if (scenario_.camera.source == "sim") {
+    world_ = std::make_unique<World>(scenario_);
+    frames_ = make_world_supply(*world_);
+  } else {
+    frames_ = make_file_supply(scenario_.camera.source, scenario_.camera.model.width_px,
+                               scenario_.camera.model.height_px);
+  }
+}
+
+LockstepCounts Lockstep::run() {
+  const TimeNs tick_period_ns = ns_from_seconds(1.0 / control_rate_hz_);
+  const TimeNs frame_period_ns = ns_from_seconds(1.0 / scenario_.camera.rate_hz);
+  const TimeNs t_end_ns = ns_from_seconds(scenario_.duration_s);
+  TimeNs t_tick_ns = 0;
+  TimeNs t_frame_ns = frame_period_ns;
+  session_.line_opened(0);
+  while (t_tick_ns < t_end_ns && !frames_ended_) {
+    if (t_frame_ns < t_tick_ns) {
+      advance_line(t_frame_ns);
+      expose(t_frame_ns);
+      t_frame_ns += frame_period_ns;
+    } else {
+      advance_line(t_tick_ns);
+      tick(t_tick_ns, /*shutdown=*/false);
+      t_tick_ns += tick_period_ns;
+    }
+  }
+  advance_line(t_tick_ns);
+  tick(t_tick_ns, /*shutdown=*/true);
+  send(session_.close(t_tick_ns), t_tick_ns);
+  return counts_;
+}
+
+/// Bytes travel in steps of a millisecond, so that a SIP is stamped when it came, not at the next tick.
+void Lockstep::advance_line(TimeNs t_ns) {
+  while (t_line_ns_ + P3At::kStep_ns <= t_ns) {
+    t_line_ns_ += P3At::kStep_ns;
+    robot_.advance(t_line_ns_);
+    session_.receive(robot_.take_output(), t_line_ns_);
+  }
+  if (world_) start_person_when_motors_run(t_ns);
+}
+
+void Lockstep::start_person_when_motors_run(TimeNs t_ns) {
+  if (world_->walking() || !robot_.truth().motors_enabled) return;
+  world_->start_walk(seconds_from_ns(t_ns) + scenario_.walk_after_s);
+}
+
+RobotMotion Lockstep::motion_at(TimeNs t_ns) const {
+  const RobotTruth truth = robot_.truth();
+  // The model stands at the last whole millisecond.
+  const double dt_s = seconds_from_ns(t_ns - t_line_ns_);
+  RobotMotion motion{truth.pose.x_m, truth.pose.y_m, truth.pose.heading_rad, truth.v_m_s,
+                     truth.yaw_rate_rad_s};
+  motion.x_m += dt_s * truth.v_m_s * std::cos(truth.pose.heading_rad);
+  motion.y_m += dt_s * truth.v_m_s * std::sin(truth.pose.heading_rad);
+  motion.heading_rad += dt_s * truth.yaw_rate_rad_s;
+  return motion;
+}
+
+TruthMoment Lockstep::truth_at(TimeNs t_ns) const {
+  TruthMoment truth;
+  truth.t_ns = t_ns;
+  truth.robot = robot_.truth();
+  if (world_) {
+    truth.has_world = true;
+    truth.world = world_->truth(motion_at(t_ns), seconds_from_ns(t_ns));
+    truth.walking = truth.world.person.speed_m_s > 0.02;
+  }
+  return truth;
+}
+
+/// Vision takes the freshest frame as soon as it is free; a frame that is overtaken is never looked at.
+void Lockstep::expose(TimeNs t_ns) {
+  ++counts_.frames;
+  const Exposure exposure{counts_.frames, t_ns, motion_at(t_ns), truth_at(t_ns)};
+  const TimeNs t_ready_ns = t_ns + ns_from_seconds(0.5e-3 * scenario_.camera.sensor.exposure_ms);
+  if (waiting_ && t_ready_ns >= t_vision_free_ns_) {
+    // It became free since the last frame: that one was seen first.
+    see(*waiting_, t_vision_free_ns_);
+    waiting_.reset();
+  }
+  if (t_ready_ns >= t_vision_free_ns_) {
+    see(exposure, t_ready_ns);
+    return;
+  }
+  if (waiting_) ++counts_.frames_overtaken;
+  waiting_ = exposure;
+}
+
+void Lockstep::see(const Exposure& exposure, TimeNs t_start_ns) {
+  const FrameView frame = frames_->frame(exposure.sequence, exposure.t_ns, exposure.robot);
+  if (frame.grey == nullptr) {
+    frames_ended_ = true;
+    return;
+  }
+  t_vision_free_ns_ = t_start_ns + ns_from_seconds(1e-3 * scenario_.vision_latency_ms);
+  PoseUnderWay done{vision_.estimate(frame), t_vision_free_ns_};
+  done.pose.t_done_ns = t_vision_free_ns_;
+  // One frame is under way at a time: an older one has arrived by now.
+  if (pose_under_way_) {
+    newest_pose_ = pose_under_way_->pose;
+    has_pose_ = true;
+  }
+  pose_under_way_ = done;
+  observer_.on_pose(frame, done.pose, exposure.truth);
+}
+
+void Lockstep::tick(TimeNs t_ns, bool shutdown) {
+  if (waiting_ && t_ns >= t_vision_free_ns_) {
+    see(*waiting_, t_vision_free_ns_);
+    waiting_.reset();
+  }
+  if (pose_under_way_ && pose_under_way_->t_visible_ns <= t_ns) {
+    newest_pose_ = pose_under_way_->pose;
+    has_pose_ = true;
+    pose_under_way_.reset();
+  }
+  ControlInput input;
+  input.now_ns = t_ns;
+  input.robot = session_.state();
+  input.pose = newest_pose_;
+  input.has_pose = has_pose_;
+  input.shutdown = shutdown;
+  TickRecord record = control_.tick(input);
+  record.tick = counts_.ticks++;
+  send(session_.tick(record.command, t_ns), t_ns);
+  observer_.on_tick(record, truth_at(t_ns));
+}
+
+void Lockstep::send(std::span<const std::uint8_t> bytes, TimeNs t_ns) {
+  if (bytes.empty()) return;
+  robot_.receive(bytes, t_ns);
+  observer_.on_bytes_to_robot(bytes, t_ns);
+}
+
+}  // namespace
+
+LockstepCounts run_lockstep(const LockstepSettings& settings, LockstepObserver& observer) {
+  return Lockstep(settings, observer).run();
+}
+
+ShirtTemplate teach_from_world(const Scenario& scenario, double distance_m) {
+  const ReferenceView view = World(scenario).reference_view(distance_m);
+  ShirtTemplate shirt;
+  shirt.grey = view.grey;
+  shirt.camera = scenario.camera.model;
+  shirt.roi = view.roi;
+  shirt.distance_m = distance_m;
+  const TemplateVerdict verdict = judge_template(shirt);
+  if (!verdict.usable)
+    throw Error("scenario " + scenario.name + ": the shirt cannot be followed: " + verdict.reason);
+  return shirt;
+}
+
+void apply_scenario(const Scenario& scenario, Config& config) {
+  const ScenarioCamera& camera = scenario.camera;
+  config.camera.width_px = camera.model.width_px;
+  config.camera.height_px = camera.model.height_px;
+  config.camera.rate_hz = camera.rate_hz;
+  config.camera.mount_x_m = camera.mount_x_m;
+  config.camera.mount_y_m = camera.mount_y_m;
+  config.camera.mount_z_m = camera.mount_z_m;
+  config.camera.mount_pitch_rad = camera.mount_pitch_rad;
+  config.robot.address = "pty:lockstep@38400";
+  config.vision.ransac_budget_ms = 0.0;  // a deadline would make the run depend on the machine
+}
+
+P3AtSettings robot_settings(const Scenario& scenario) {
+  const ScenarioRobot& robot = scenario.robot;
+  P3AtSettings settings;
+  settings.boot_baud = 38400;
+  settings.start = {robot.x_m, robot.y_m, robot.heading_rad};
+  settings.chassis.true_track_m = robot.true_track_m;
+  settings.chassis.left_scale_error = robot.left_scale_error;
+  settings.chassis.right_scale_error = robot.right_scale_error;
+  for (const std::string& fault : robot.faults) settings.faults.push_back(parse_fault(fault));
+  return settings;
+}
+
+}  // namespace heel::sim

@@ -1,0 +1,67 @@
+// The daemon's own stages in lock step with the simulated world, in virtual time:
+//
+//   World ─picture→ PoseEstimator ─(modelled latency)→ ControlStage ─command→ ArcosSession ─bytes→ P3At
+//     ↑                                                    ↑ RobotState ──────────┘    ←bytes─┘   │
+//     └──────────────────────────────── true pose of the robot ───────────────────────────────────┘
+//
+// Nothing here reads a clock: the same scenario, configuration and template give the same run to the bit.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "heel-sim/robot/p3at.h"
+#include "heel-sim/world/scenario.h"
+#include "heel-sim/world/world.h"
+#include "heel/config.h"
+#include "heel/flow.h"
+#include "heel/shirt_template.h"
+
+namespace heel::sim {
+
+struct LockstepSettings {
+  Scenario scenario;
+  Config config;
+  ShirtTemplate shirt;
+};
+
+/// What is true at one moment. Without a world (frames from a file) only the robot's part is.
+struct TruthMoment {
+  TimeNs t_ns = 0;
+  RobotTruth robot;
+  bool has_world = false;
+  bool walking = false;
+  Truth world;
+};
+
+/// Is told of everything as it happens.
+class LockstepObserver {
+ public:
+  virtual ~LockstepObserver() = default;
+  virtual void on_tick(const TickRecord& /*tick*/, const TruthMoment& /*truth*/) {}
+  /// `truth` is that of the capture time.
+  virtual void on_pose(const FrameView& /*frame*/, const PoseEstimate& /*pose*/,
+                       const TruthMoment& /*truth*/) {}
+  virtual void on_bytes_to_robot(std::span<const std::uint8_t> /*bytes*/, TimeNs /*t_ns*/) {}
+};
+
+/// Counts of a run.
+struct LockstepCounts {
+  std::uint64_t ticks = 0;
+  std::uint64_t frames = 0;
+  std::uint64_t frames_overtaken = 0;  ///< vision was still busy
+};
+
+/// Runs the whole scenario. Throws heel::Error before it begins when something does not fit together.
+LockstepCounts run_lockstep(const LockstepSettings& settings, LockstepObserver& observer);
+
+/// The template as `heel teach` would make it from the world's reference view.
+ShirtTemplate teach_from_world(const Scenario& scenario, double distance_m);
+
+/// The configuration a scenario implies: camera and its mount as in the scenario.
+void apply_scenario(const Scenario& scenario, Config& config);
+
+/// What the scenario says of its robot.
+P3AtSettings robot_settings(const Scenario& scenario);
+
+}  // namespace heel::sim

@@ -1,0 +1,101 @@
+// heel, the operator's command: the subcommands' common frame (help, version, errors, exit status).
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <opencv2/core/utils/logger.hpp>
+#include <string>
+
+#include "commands.h"
+#include "heel/error.h"
+
+namespace {
+
+using namespace heel::cli;
+
+void add_commands(CLI::App& app) {
+  add_calibrate_command(app);
+  add_teach_command(app);
+  add_pose_command(app);
+  add_features_command(app);
+  add_simulate_command(app);
+  add_report_command(app);
+}
+
+/// Errors are one line each; OpenCV's and FFmpeg's own messages would come before them.
+void silence_libraries() {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
+}
+
+/// "heel teach" when a subcommand was being parsed or run, else "heel".
+std::string command_name(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  return chosen.empty() ? "heel" : "heel " + chosen.front()->get_name();
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+/// False when standard output is full or gone.
+bool flush_output() {
+  std::cout.flush();
+  return std::cout.good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+}
+
+int complain(const CLI::App& app, const std::string& text) {
+  flush_output();  // what was answered before the error stays before it
+  std::cerr << command_name(app) << ": " << one_line(text) << '\n';
+  return kExitBadInput;
+}
+
+std::string command_list(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  return names;
+}
+
+int run(CLI::App& app, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+    return EXIT_SUCCESS;
+  } catch (const CLI::Success& request) {  // --help, --version
+    return app.exit(request);
+  } catch (const CLI::RuntimeError& answer) {
+    return answer.get_exit_code();
+  } catch (const CLI::ParseError& error) {
+    if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-') {
+      return complain(
+          app, std::string("no command '") + argv[1] + "' (expected one of " + command_list(app) + ")");
+    }
+    return complain(app, one_line(error.what()) + " (see " + command_name(app) + " --help)");
+  } catch (const std::exception& error) {
+    return complain(app, error.what());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  silence_libraries();
+  CLI::App app{
+      "heel: a Pioneer P3-AT walks to heel, guided by the back of one person's shirt.\n"
+      "Exit status: 0 done; 1 the answer is no (not found, template refused); 2 bad usage or input."};
+  app.name("heel");
+  app.set_version_flag("--version", "heel " HEEL_VERSION);
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  add_commands(app);
+
+  const int status = run(app, argc, argv);
+  if (!flush_output())
+    return complain(app, "standard output cannot be written (expected a reader, and room)");
+  return status;
+}

@@ -1,0 +1,183 @@
+// heel pose: the vision stage over images, folders and videos; one answer a frame.
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "frame_input.h"
+#include "heel/error.h"
+#include "heel/pose_estimator.h"
+#include "image_file.h"
+#include "picture.h"
+#include "pose_output.h"
+
+namespace heel::cli {
+namespace {
+
+constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::string template_file;
+  std::string camera_file;
+  bool json = false;
+  bool oriented = false;
+  std::string picture_dir;
+  std::uint64_t first = 0;
+  std::uint64_t last = kNoLimit;
+  double rate_hz = 30.0;
+  VisionConfig vision;
+};
+
+FrameView view_of(const InputFrame& frame) {
+  FrameView view;
+  view.header.sequence = frame.number;
+  view.header.t_capture_ns = ns_from_seconds(frame.t_s);
+  view.header.width_px = static_cast<std::uint32_t>(frame.grey.cols);
+  view.header.height_px = static_cast<std::uint32_t>(frame.grey.rows);
+  view.grey = frame.grey.data;
+  view.stride_bytes = static_cast<std::uint32_t>(frame.grey.step);
+  return view;
+}
+
+PoseRow estimate(PoseEstimator& estimator, const InputFrame& frame) {
+  const auto start = std::chrono::steady_clock::now();
+  const PoseEstimate pose = estimator.estimate(view_of(frame));
+  const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+  return {frame.number, frame.t_s, pose, elapsed.count()};
+}
+
+void require_size(const InputFrame& frame, const CameraModel& camera, const std::string& camera_file) {
+  if (frame.grey.cols == camera.width_px && frame.grey.rows == camera.height_px) return;
+  throw Error(frame.file + ": " + std::to_string(frame.grey.cols) + "x" + std::to_string(frame.grey.rows) +
+              " pixels (expected " + std::to_string(camera.width_px) + "x" +
+              std::to_string(camera.height_px) + " as in " + camera_file + ")");
+}
+
+void write_pose_picture(const std::string& folder, const InputFrame& frame, const PoseEstimate& pose,
+                        const ShirtTemplate& shirt, const CameraModel& camera) {
+  char name[40];
+  std::snprintf(name, sizeof name, "frame_%06llu.png", static_cast<unsigned long long>(frame.number));
+  write_picture((std::filesystem::path(folder) / name).string(), draw_pose(frame.grey, pose, shirt, camera));
+}
+
+/// A counter on a terminal; silent in a file or a pipe.
+class Progress {
+ public:
+  explicit Progress(std::uint64_t frames)
+      : frames_(frames), shown_(isatty(STDERR_FILENO) == 1 && isatty(STDOUT_FILENO) == 0) {}
+  ~Progress() {
+    if (shown_) std::fputs("\r\033[K", stderr);
+  }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void show(std::uint64_t frame) const {
+    if (!shown_ || frame % 10 != 0) return;
+    if (frames_ > 0) {
+      std::fprintf(stderr, "\rframe %llu of %llu", static_cast<unsigned long long>(frame),
+                   static_cast<unsigned long long>(frames_));
+    } else {
+      std::fprintf(stderr, "\rframe %llu", static_cast<unsigned long long>(frame));
+    }
+  }
+
+ private:
+  std::uint64_t frames_;
+  bool shown_;
+};
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Error("--picture-dir: " + folder + ": " + error.message());
+}
+
+void run_pose(Options options) {
+  if (options.last < options.first) {
+    throw Error("--last " + std::to_string(options.last) + ": before --first " +
+                std::to_string(options.first) + " (expected the same frame or a later one)");
+  }
+  ShirtTemplate shirt = read_template(options.template_file);
+  if (options.oriented) shirt.oriented = true;
+  const CameraModel camera = read_camera_model(options.camera_file);
+  // Without a deadline the same input gives the same output, however busy the machine is.
+  options.vision.ransac_budget_ms = 0.0;
+  PoseEstimator estimator(shirt, camera, options.vision);
+  if (!options.picture_dir.empty()) make_folder(options.picture_dir);
+
+  FrameInput input(options.inputs, options.rate_hz);
+  const Progress progress(input.promised_frames());
+  PoseSummary summary;
+  InputFrame frame;
+  if (!options.json) std::puts(pose_table_head().c_str());
+  if (!input.skip(options.first)) {
+    throw Error("--first " + std::to_string(options.first) + ": the input ends before that frame");
+  }
+  while (input.next(frame)) {
+    if (frame.number > options.last) break;
+    require_size(frame, camera, options.camera_file);
+    const PoseRow row = estimate(estimator, frame);
+    std::puts((options.json ? pose_json(row) : pose_table_row(row)).c_str());
+    summary.add(row);
+    if (!options.picture_dir.empty()) {
+      write_pose_picture(options.picture_dir, frame, row.pose, shirt, camera);
+    }
+    progress.show(frame.number);
+  }
+  std::fflush(stdout);
+  std::fprintf(stderr, "heel pose: %s\n", summary.line().c_str());
+}
+
+}  // namespace
+
+void add_pose_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "pose",
+      "Where the shirt is, and which way it faces, in images, folders of images or videos.\n"
+      "With --json one object a line: frame (from 0), t_s, found, reason, certainty (inliers / template "
+      "features),\n"
+      "inliers, yaw_rad (positive: walking to the image's right), yaw_sigma_rad, t_over_d [3], position_m "
+      "[3] (null\n"
+      "when the template's distance is not known), H_cur_from_ref [9] (row-major, undistorted pixels), ms. "
+      "In frames\n"
+      "where the shirt is not found the five of the pose are null.");
+  command->add_option("inputs", options->inputs, "images, folders of images, videos")
+      ->required()
+      ->type_name("INPUT");
+  command->add_option("--template", options->template_file, "template file made by heel teach")
+      ->required()
+      ->type_name("T.heel");
+  command->add_option("--camera-info", options->camera_file, "the camera that took the input")
+      ->required()
+      ->type_name("CAM.yaml");
+  command->add_flag("--json", options->json, "one JSON object a line (default: a table)");
+  command
+      ->add_option("--picture-dir", options->picture_dir,
+                   "draw the shirt's outline on every frame, into this folder")
+      ->type_name("DIR");
+  command->add_option("--first", options->first, "first frame looked at")->type_name("N");
+  command->add_option("--last", options->last, "last frame looked at")->type_name("N");
+  command->add_option("--rate", options->rate_hz, "images follow each other at this rate (default 30)")
+      ->type_name("HZ")
+      ->check(number_from(0.001, 10000.0));
+  command->add_flag("--oriented", options->oriented, "oriented descriptors, whatever the template says");
+  command->add_option("--max", options->vision.max_features, "at most this many features a frame")
+      ->type_name("N")
+      ->check(CLI::Range(50, 5000))
+      ->capture_default_str();
+  command->add_option("--octaves", options->vision.octaves, "octaves of scale searched in a frame")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str();
+  command->callback([options] { run_pose(*options); });
+}
+
+}  // namespace heel::cli

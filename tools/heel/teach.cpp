@@ -1,0 +1,185 @@
+// heel teach: one view of a shirt's back → a template file, with a verdict on how well it can be followed.
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capture/frame_source.h"
+#include "commands.h"
+#include "frame_input.h"
+#include "heel/error.h"
+#include "heel/shirt_template.h"
+#include "image_file.h"
+#include "picture.h"
+
+namespace heel::cli {
+namespace {
+
+constexpr TimeNs kFrameTimeout_ns = 2 * kNsPerS;
+constexpr std::uint64_t kSettlingFrames = 30;  // a camera's automatic exposure has come to rest by then
+
+struct Options {
+  std::string image;
+  std::string camera_address;
+  std::vector<int> roi;
+  double distance_m = 0.0;
+  std::string camera_file;
+  std::string output;
+  std::string picture;
+  bool oriented = false;
+  int max_features = 0;
+  std::optional<std::uint64_t> frame;
+};
+
+std::uint64_t frame_wanted(const Options& options) {
+  const bool device = !options.camera_address.empty() && !options.camera_address.starts_with("file:");
+  return options.frame.value_or(device ? kSettlingFrames : 0);
+}
+
+std::vector<std::uint8_t> grey_from_file(const Options& options, int& width_px, int& height_px) {
+  FrameInput input({options.image}, 30.0);
+  InputFrame frame;
+  if (!input.skip(frame_wanted(options)) || !input.next(frame)) {
+    throw Error("--frame " + std::to_string(frame_wanted(options)) + ": " + options.image +
+                " ends before that frame");
+  }
+  width_px = frame.grey.cols;
+  height_px = frame.grey.rows;
+  return {frame.grey.datastart, frame.grey.dataend};
+}
+
+std::vector<std::uint8_t> grey_from_camera(const Options& options, int& width_px, int& height_px) {
+  CameraConfig config;
+  config.source = options.camera_address;
+  config.width_px = width_px;
+  config.height_px = height_px;
+  config.file_speed = 0.0;
+  const std::unique_ptr<FrameSource> source = open_frame_source(config);
+  const std::uint64_t wanted = frame_wanted(options);
+  FrameView view;
+  for (std::uint64_t seen = 0; seen <= wanted;) {
+    const FrameResult result = source->wait_frame(kFrameTimeout_ns, view);
+    if (result == FrameResult::Frame) {
+      ++seen;
+      continue;
+    }
+    throw Error(options.camera_address + ": " +
+                (source->problem().empty() ? to_string(result) : source->problem()) + " (expected frame " +
+                std::to_string(wanted) + ", saw " + std::to_string(seen) + ")");
+  }
+  width_px = static_cast<int>(view.header.width_px);
+  height_px = static_cast<int>(view.header.height_px);
+  std::vector<std::uint8_t> grey;
+  for (int y = 0; y < height_px; ++y) {
+    const std::uint8_t* row = view.grey + static_cast<std::size_t>(y) * view.stride_bytes;
+    grey.insert(grey.end(), row, row + width_px);
+  }
+  return grey;
+}
+
+Region parse_roi(const std::vector<int>& roi, const CameraModel& camera) {
+  const Region region{roi[0], roi[1], roi[2], roi[3]};
+  if (region.x_px < 0 || region.y_px < 0 || region.width_px < 1 || region.height_px < 1 ||
+      region.width_px > camera.width_px - region.x_px || region.height_px > camera.height_px - region.y_px) {
+    throw Error("--roi: " + std::to_string(roi[0]) + "," + std::to_string(roi[1]) + "," +
+                std::to_string(roi[2]) + "," + std::to_string(roi[3]) + " (expected X,Y,W,H inside the " +
+                std::to_string(camera.width_px) + "x" + std::to_string(camera.height_px) + " image)");
+  }
+  return region;
+}
+
+ShirtTemplate take_template(const Options& options) {
+  ShirtTemplate shirt;
+  shirt.camera = read_camera_model(options.camera_file);
+  int width_px = shirt.camera.width_px;
+  int height_px = shirt.camera.height_px;
+  shirt.grey = options.image.empty() ? grey_from_camera(options, width_px, height_px)
+                                     : grey_from_file(options, width_px, height_px);
+  if (width_px != shirt.camera.width_px || height_px != shirt.camera.height_px) {
+    throw Error((options.image.empty() ? options.camera_address : options.image) + ": " +
+                std::to_string(width_px) + "x" + std::to_string(height_px) + " pixels (expected " +
+                std::to_string(shirt.camera.width_px) + "x" + std::to_string(shirt.camera.height_px) +
+                " as in " + options.camera_file + ")");
+  }
+  shirt.roi = parse_roi(options.roi, shirt.camera);
+  shirt.distance_m = options.distance_m;
+  shirt.oriented = options.oriented;
+  if (options.max_features > 0) shirt.max_features = options.max_features;
+  return shirt;
+}
+
+void print_verdict(const ShirtTemplate& shirt, const TemplateVerdict& verdict) {
+  std::printf("%4d features in the %d x %d px region\n", verdict.features, shirt.roi.width_px,
+              shirt.roi.height_px);
+  std::printf("%4.0f %% of the region holds features\n", 100.0 * verdict.spread);
+  std::printf("%4.0f %% of the features look too much like another one\n", 100.0 * verdict.self_similarity);
+  std::printf("%4.0f %% of the features are still seen from twice the distance\n",
+              100.0 * verdict.coarse_share);
+}
+
+void run_teach(const Options& options) {
+  if (options.image.empty() == options.camera_address.empty()) {
+    throw Error("expected either --image or --camera (see heel teach --help)");
+  }
+  if (!options.picture.empty()) require_writable_picture_name(options.picture);
+  const ShirtTemplate shirt = take_template(options);
+  const TemplateVerdict verdict = judge_template(shirt);
+  if (!options.picture.empty())
+    write_picture(options.picture, draw_template(shirt, template_features(shirt)));
+  if (verdict.usable) write_template(shirt, options.output);
+  print_verdict(shirt, verdict);
+  if (!verdict.usable) {
+    std::printf("refused: %s\n", verdict.reason.c_str());
+    throw CLI::RuntimeError(kExitNo);
+  }
+  std::printf("wrote %s\n", options.output.c_str());
+}
+
+}  // namespace
+
+void add_teach_command(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "teach",
+      "Makes a template from one view of the back of a shirt, taken square on, and says how well it can be\n"
+      "followed. A shirt that cannot be followed is refused with the reason (exit status 1, nothing "
+      "written).");
+  command->add_option("--image", options->image, "photograph or video of the back")->type_name("I");
+  command
+      ->add_option("--camera", options->camera_address,
+                   "take it now: v4l2:PATH, libcamera:ID, file:PATH, sim:NAME")
+      ->type_name("SPEC");
+  command
+      ->add_option(
+          "--frame", options->frame,
+          "which frame of the video or camera, from 0 (default 0; a device's 30, its exposure settled)")
+      ->type_name("N");
+  command
+      ->add_option("--roi", options->roi,
+                   "the back in the image, pixels, without arms, collar and background")
+      ->required()
+      ->delimiter(',')
+      ->expected(4)
+      ->type_name("X,Y,W,H");
+  command
+      ->add_option("--distance", options->distance_m, "from the camera to the back, metres, along the view")
+      ->required()
+      ->type_name("M")
+      ->check(number_from(0.1, 100.0));
+  command->add_option("--camera-info", options->camera_file, "the camera (heel calibrate makes this file)")
+      ->required()
+      ->type_name("CAM.yaml");
+  command->add_option("-o,--output", options->output, "template file to write")
+      ->required()
+      ->type_name("T.heel");
+  command->add_option("--picture", options->picture, "also draw the region and its features")
+      ->type_name("P.png");
+  command->add_flag("--oriented", options->oriented, "descriptors that follow rotation in the image");
+  command->add_option("--max", options->max_features, "features kept, the strongest (default 300)")
+      ->type_name("N")
+      ->check(CLI::Range(20, 5000));
+  command->callback([options] { run_teach(*options); });
+}
+
+}  // namespace heel::cli
