@@ -10,6 +10,11 @@ function(heel_library name)
   target_link_libraries(${name} PUBLIC ${ARG_DEPENDS} PRIVATE heel_options ${ARG_PRIVATE_DEPENDS})
 endfunction()
 
+# heel_compile_alone(FILES …): never joined with others, because their names or macros would meet.
+function(heel_compile_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # heel_test(NAME SOURCES … DEPENDS … [SERIAL]): a GoogleTest program; each of its tests is a ctest entry.
 # SERIAL: its tests run in real time and are not to share the machine with others.
 # Tests that need ../shared-style data find it in HEEL_TEST_DATA and call GTEST_SKIP() without it.

@@ -214,7 +214,7 @@ std::string toml_value(const ConfigKey& key, const Config& config) {
       const std::string text = shortest(*f(c));
       return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
     }
-    std::string operator()(std::string* (*f)(Config&)) const { return quoted(*f(c)); }
+    std::string operator()(std::string* (*f)(Config&)) const { return heel::quoted(*f(c)); }
   };
   return std::visit(Writer{fields}, key.field);
 }

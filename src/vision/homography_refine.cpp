@@ -1,11 +1,13 @@
 #include "homography_refine.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "levenberg_marquardt.h"
+#include "projection.h"
 
 namespace heel {
 namespace {
@@ -13,11 +15,9 @@ namespace {
 using Vector9d = Eigen::Matrix<double, 9, 1>;
 using Matrix8d = Eigen::Matrix<double, 8, 8>;
 using Vector8d = Eigen::Matrix<double, 8, 1>;
-using Matrix23d = Eigen::Matrix<double, 2, 3>;
 
-constexpr int kMaxSteps = 20;
-constexpr double kConverged = 1e-5;  // relative decrease of the cost: far below what noise moves it by
-constexpr double kMaxDamping = 1e8;
+// Converged: far below what noise moves the cost by.
+constexpr DescentLimits kHomographyDescent{.max_steps = 20, .converged = 1e-5, .max_damping = 1e8};
 
 // A residual's derivative by the row-major entries of a 3 × 3 matrix Q, where it depends on Q through Q p
 // only, is M ⊗ pᵀ with M (2 × 3). Its normal matrix Mᵀ W M ⊗ p pᵀ is a product of two symmetric 3 × 3
@@ -52,15 +52,6 @@ class NormalEquations {
   std::array<std::array<double, 6>, 6> products_{};
   Vector9d gradient_ = Vector9d::Zero();
 };
-
-/// d (x/w, y/w) / d (x, y, w).
-Matrix23d projection_jacobian(const Eigen::Vector3d& point) {
-  const double inverse_w = 1.0 / point.z();
-  Matrix23d J;
-  J << inverse_w, 0.0, -point.x() * inverse_w * inverse_w,  //
-      0.0, inverse_w, -point.y() * inverse_w * inverse_w;
-  return J;
-}
 
 /// Tukey's biweight loss of a squared error: nearly linear below the limit, constant above it.
 double loss_px2(double error_px2, double limit_px2) {
@@ -106,11 +97,22 @@ NormalEquations linearise(std::span<const PointPair> pairs, const Eigen::Matrix3
   return equations;
 }
 
-Eigen::Matrix3d stepped(const Eigen::Matrix3d& H, const Vector8d& step) {
-  Eigen::Matrix3d result = H;
-  for (int i = 0; i < 8; ++i) result(i / 3, i % 3) += step(i);
-  return result;
-}
+/// The loss over the pairs as the minimiser sees it; H(2,2) stays what it is.
+struct LossDescent {
+  std::span<const PointPair> pairs;
+  double limit_px2;
+
+  double cost(const Eigen::Matrix3d& H) const { return total_loss_px2(pairs, H, limit_px2); }
+  GaussNewtonEquations<8> equations(const Eigen::Matrix3d& H) const {
+    const NormalEquations sums = linearise(pairs, H, limit_px2);
+    return {sums.matrix(), sums.gradient()};
+  }
+  Eigen::Matrix3d stepped(const Eigen::Matrix3d& H, const Vector8d& step) const {
+    Eigen::Matrix3d result = H;
+    for (int i = 0; i < 8; ++i) result(i / 3, i % 3) += step(i);
+    return result;
+  }
+};
 
 }  // namespace
 
@@ -118,31 +120,7 @@ double refine_homography(std::span<const PointPair> pairs, double limit_px2,
                          Eigen::Matrix3d& H_cur_from_ref) {
   Eigen::Matrix3d H = H_cur_from_ref / H_cur_from_ref(2, 2);
   if (!H.allFinite()) return total_loss_px2(pairs, H_cur_from_ref, limit_px2);
-  double cost = total_loss_px2(pairs, H, limit_px2);
-  double damping = 1e-4;
-  for (int step_count = 0; step_count < kMaxSteps && damping < kMaxDamping; ++step_count) {
-    const NormalEquations equations = linearise(pairs, H, limit_px2);
-    const Matrix8d N = equations.matrix();
-    const Vector8d gradient = equations.gradient();
-    bool improved = false;
-    double decrease = 0.0;
-    while (!improved && damping < kMaxDamping) {
-      Matrix8d damped = N;
-      damped.diagonal() *= 1.0 + damping;
-      const Eigen::Matrix3d trial = stepped(H, damped.ldlt().solve(-gradient));
-      const double trial_cost = total_loss_px2(pairs, trial, limit_px2);
-      improved = trial_cost < cost;
-      if (improved) {
-        decrease = cost - trial_cost;
-        cost = trial_cost;
-        H = trial;
-        damping *= 0.1;
-      } else {
-        damping *= 10.0;
-      }
-    }
-    if (decrease <= kConverged * cost) break;
-  }
+  const double cost = levenberg_marquardt(LossDescent{pairs, limit_px2}, kHomographyDescent, H);
   H_cur_from_ref = H;
   return cost;
 }

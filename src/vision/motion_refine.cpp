@@ -1,21 +1,20 @@
 #include "motion_refine.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "levenberg_marquardt.h"
+#include "projection.h"
+
 namespace heel {
 namespace {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix23d = Eigen::Matrix<double, 2, 3>;
 using Matrix26d = Eigen::Matrix<double, 2, 6>;
 
-constexpr int kMaxSteps = 30;
-constexpr double kConverged = 1e-8;  // relative decrease of the cost
-constexpr double kMaxDamping = 1e10;
+constexpr DescentLimits kMotionDescent{.max_steps = 30, .converged = 1e-8, .max_damping = 1e10};
 constexpr double kBehindCost = 1e12;  // px², of a point that would lie behind the camera
 
 struct Pose {
@@ -23,21 +22,10 @@ struct Pose {
   Eigen::Vector3d t;
 };
 
-struct Linearised {
-  Matrix6d N = Matrix6d::Zero();
-  Vector6d gradient = Vector6d::Zero();
-};
-
 Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   Eigen::Matrix3d S;
   S << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
   return S;
-}
-
-Matrix23d projection_jacobian(const Eigen::Vector3d& p) {
-  Matrix23d J;
-  J << 1.0 / p.z(), 0.0, -p.x() / (p.z() * p.z()), 0.0, 1.0 / p.z(), -p.y() / (p.z() * p.z());
-  return J;
 }
 
 /// Inverse covariance of a forward residual, noise 1 px in both images: (I + D Dᵀ)⁻¹, D = d cur / d ref.
@@ -47,7 +35,7 @@ Eigen::Matrix2d whitening(const Eigen::Matrix3d& H, const Eigen::Vector2d& ref_p
 }
 
 /// Evaluates the problem's cost, and on request its Gauss–Newton equations.
-double evaluate(const FrontalProblem& problem, const Pose& pose, Linearised* equations) {
+double evaluate(const FrontalProblem& problem, const Pose& pose, GaussNewtonEquations<6>* equations) {
   const Eigen::Matrix3d K_ref_inverse = problem.K_ref.inverse();
   double cost = 0.0;
   for (const PointPair& pair : problem.pairs) {
@@ -71,13 +59,26 @@ double evaluate(const FrontalProblem& problem, const Pose& pose, Linearised* equ
   return cost;
 }
 
-Pose stepped(const Pose& pose, const Vector6d& step) {
+Pose turned_and_moved(const Pose& pose, const Vector6d& step) {
   const Eigen::Vector3d omega = step.head<3>();
   const double angle = omega.norm();
   const Eigen::Matrix3d turn =
       angle > 0.0 ? Eigen::AngleAxisd(angle, omega / angle).toRotationMatrix() : Eigen::Matrix3d::Identity();
   return {turn * pose.R, pose.t + step.tail<3>()};
 }
+
+/// The problem as the minimiser sees it.
+struct PoseDescent {
+  const FrontalProblem& problem;
+
+  double cost(const Pose& pose) const { return evaluate(problem, pose, nullptr); }
+  GaussNewtonEquations<6> equations(const Pose& pose) const {
+    GaussNewtonEquations<6> equations;
+    evaluate(problem, pose, &equations);
+    return equations;
+  }
+  Pose stepped(const Pose& pose, const Vector6d& step) const { return turned_and_moved(pose, step); }
+};
 
 /// d yaw / d ω for R = exp(ω) R̂: yaw = atan2(c_x, c_z) with c = R (0,0,1), dc = ω × c.
 Eigen::Vector3d yaw_gradient(const Eigen::Matrix3d& R) {
@@ -94,31 +95,9 @@ double wrapped(double angle_rad) {
 }  // namespace
 
 FrontalMotion refine_frontal_motion(const FrontalProblem& problem, const PlaneMotion& start) {
+  const PoseDescent descent{problem};
   Pose pose{start.R_cur_from_ref, start.t_over_d};
-  double cost = evaluate(problem, pose, nullptr);
-  double damping = 1e-4;
-  for (int step_count = 0; step_count < kMaxSteps && damping < kMaxDamping; ++step_count) {
-    Linearised equations;
-    evaluate(problem, pose, &equations);
-    double decrease = 0.0;
-    bool improved = false;
-    while (!improved && damping < kMaxDamping) {
-      Matrix6d damped = equations.N;
-      damped.diagonal() *= 1.0 + damping;
-      const Pose trial = stepped(pose, damped.ldlt().solve(-equations.gradient));
-      const double trial_cost = evaluate(problem, trial, nullptr);
-      improved = trial_cost < cost;
-      if (improved) {
-        decrease = cost - trial_cost;
-        cost = trial_cost;
-        pose = trial;
-        damping *= 0.1;
-      } else {
-        damping *= 10.0;
-      }
-    }
-    if (decrease <= kConverged * cost) break;
-  }
+  const double cost = levenberg_marquardt(descent, kMotionDescent, pose);
 
   FrontalMotion motion;
   motion.R_cur_from_ref = Eigen::Quaterniond(pose.R).normalized().toRotationMatrix();
@@ -126,9 +105,7 @@ FrontalMotion refine_frontal_motion(const FrontalProblem& problem, const PlaneMo
   motion.cost_px2 = cost;
   const double variance = cost / std::max(1.0, 2.0 * static_cast<double>(problem.pairs.size()) - 6.0);
   motion.noise_px = std::sqrt(variance);
-  Linearised equations;
-  evaluate(problem, pose, &equations);
-  motion.covariance = variance * equations.N.inverse();
+  motion.covariance = variance * descent.equations(pose).N.inverse();
   return motion;
 }
 

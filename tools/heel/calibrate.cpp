@@ -22,7 +22,7 @@ constexpr double kMinTurn_deg =
     20.0;  // between some two views: boards all parallel leave the focal length open
 constexpr double kMaxFocalSigmaShare = 0.02;  // above: the views do not fix the focal length
 
-struct Options {
+struct CalibrateOptions {
   std::vector<std::string> images;
   std::string board;
   double square_m = 0.0;
@@ -75,7 +75,7 @@ std::string joined(const std::vector<std::string>& names) {
 }
 
 /// The views in which the whole board is seen. Those in which it is not are named.
-std::vector<View> find_views(const Options& options, cv::Size board, cv::Size& image_size) {
+std::vector<View> find_views(const CalibrateOptions& options, cv::Size board, cv::Size& image_size) {
   std::vector<View> views;
   std::vector<std::string> without_board;
   for (const std::string& image : options.images) {
@@ -128,7 +128,8 @@ double largest_turn_deg(const std::vector<cv::Mat>& rotations) {
   return std::acos(smallest_cosine) * 180.0 / CV_PI;
 }
 
-Calibration solve(std::vector<View>& views, cv::Size board, cv::Size image_size, const Options& options) {
+Calibration solve(std::vector<View>& views, cv::Size board, cv::Size image_size,
+                  const CalibrateOptions& options) {
   std::vector<std::vector<cv::Point2f>> corners_px;
   for (const View& view : views) corners_px.push_back(view.corners_px);
   const std::vector<std::vector<cv::Point3f>> points_m(views.size(), board_points(board, options.square_m));
@@ -209,7 +210,7 @@ void print_report(const std::vector<View>& views, const Calibration& result, con
   std::printf("wrote %s\n", output.c_str());
 }
 
-void calibrate(const Options& options) {
+void calibrate(const CalibrateOptions& options) {
   const cv::Size board = parse_board(options.board);
   cv::Size image_size;
   std::vector<View> views = find_views(options, board, image_size);
@@ -223,7 +224,7 @@ void calibrate(const Options& options) {
 }  // namespace
 
 void add_calibrate_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command =
       app.add_subcommand("calibrate",
                          "Camera calibration from photographs of a chessboard; writes ROS camera_info YAML.\n"

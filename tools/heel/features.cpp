@@ -15,13 +15,13 @@
 namespace heel::cli {
 namespace {
 
-struct Options {
+struct FeaturesOptions {
   std::string image;
   std::string output;
   FeatureSettings settings;
 };
 
-void write_features(const Options& options) {
+void write_features(const FeaturesOptions& options) {
   const cv::Mat grey = read_grey_image(options.image);
   FrameView frame;
   frame.header.width_px = static_cast<std::uint32_t>(grey.cols);
@@ -43,7 +43,7 @@ void write_features(const Options& options) {
 }  // namespace
 
 void add_features_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FeaturesOptions>();
   options->settings = {.octaves = 3, .max_features = 5000, .threshold = 2e-5f, .spread = false};
   CLI::App* command = app.add_subcommand(
       "features",

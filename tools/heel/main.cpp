@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <string>
 
@@ -22,8 +23,10 @@ void add_commands(CLI::App& app) {
   add_report_command(app);
 }
 
-/// Errors are one line each; OpenCV's and FFmpeg's own messages would come before them.
-void silence_libraries() {
+/// One thread, so that results repeat to the bit on any number of cores. Errors are one line each; OpenCV's
+/// and FFmpeg's own messages would come before them.
+void quieten_libraries() {
+  cv::setNumThreads(1);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
 }
@@ -84,7 +87,7 @@ int run(CLI::App& app, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  silence_libraries();
+  quieten_libraries();
   CLI::App app{
       "heel: a Pioneer P3-AT walks to heel, guided by the back of one person's shirt.\n"
       "Exit status: 0 done; 1 the answer is no (not found, template refused); 2 bad usage or input."};

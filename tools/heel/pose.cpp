@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
-struct Options {
+struct PoseOptions {
   std::vector<std::string> inputs;
   std::string template_file;
   std::string camera_file;
@@ -99,7 +99,7 @@ void make_folder(const std::string& folder) {
   if (error) throw Error("--picture-dir: " + folder + ": " + error.message());
 }
 
-void run_pose(Options options) {
+void run_pose(PoseOptions options) {
   if (options.last < options.first) {
     throw Error("--last " + std::to_string(options.last) + ": before --first " +
                 std::to_string(options.first) + " (expected the same frame or a later one)");
@@ -138,7 +138,7 @@ void run_pose(Options options) {
 }  // namespace
 
 void add_pose_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PoseOptions>();
   CLI::App* command = app.add_subcommand(
       "pose",
       "Where the shirt is, and which way it faces, in images, folders of images or videos.\n"

@@ -12,7 +12,7 @@
 namespace heel::cli {
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::string directory;
   bool json = false;
   sim::FollowCriteria criteria;
@@ -29,7 +29,7 @@ void write_figure(const std::string& path, const cv::Mat& figure) {
   if (!cv::imwrite(path, figure)) throw Error(path + ": cannot write (expected a writable folder)");
 }
 
-void run_report(const Options& options) {
+void run_report(const ReportOptions& options) {
   const std::string& directory = options.directory;
   const sim::MetricsCollector run = report::read_run(directory);
   const sim::FollowMetrics metrics = run.evaluate();
@@ -50,7 +50,7 @@ void run_report(const Options& options) {
 }  // namespace
 
 void add_report_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportOptions>();
   CLI::App* command = app.add_subcommand("report",
                                          "Draws path.png, errors.png and frames.png and writes summary.txt "
                                          "and summary.json into a run's folder");

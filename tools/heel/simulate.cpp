@@ -14,7 +14,7 @@
 namespace heel::cli {
 namespace {
 
-struct Options {
+struct SimulateOptions {
   std::string scenario;
   std::string config_file;
   std::string template_file;
@@ -26,7 +26,7 @@ struct Options {
   sim::FollowCriteria criteria;
 };
 
-sim::LockstepSettings settings_of(const Options& options) {
+sim::LockstepSettings settings_of(const SimulateOptions& options) {
   sim::LockstepSettings settings;
   settings.scenario = sim::read_scenario(options.scenario);
   if (options.seed >= 0) settings.scenario.seed = static_cast<std::uint64_t>(options.seed);
@@ -66,7 +66,7 @@ void print_table(const sim::FollowMetrics& m, const sim::LockstepCounts& counts,
               static_cast<unsigned long long>(counts.frames_overtaken), speed);
 }
 
-void run_simulate(const Options& options) {
+void run_simulate(const SimulateOptions& options) {
   const sim::LockstepSettings settings = settings_of(options);
   sim::RunRecord record(options.out, settings);
   const auto begin = std::chrono::steady_clock::now();
@@ -93,7 +93,7 @@ void run_simulate(const Options& options) {
 }  // namespace
 
 void add_simulate_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateOptions>();
   CLI::App* command = app.add_subcommand(
       "simulate",
       "Runs a scenario in lock step with the simulated world; exit status 1 when a limit is not met");

@@ -19,7 +19,7 @@ namespace {
 constexpr TimeNs kFrameTimeout_ns = 2 * kNsPerS;
 constexpr std::uint64_t kSettlingFrames = 30;  // a camera's automatic exposure has come to rest by then
 
-struct Options {
+struct TeachOptions {
   std::string image;
   std::string camera_address;
   std::vector<int> roi;
@@ -32,12 +32,12 @@ struct Options {
   std::optional<std::uint64_t> frame;
 };
 
-std::uint64_t frame_wanted(const Options& options) {
+std::uint64_t frame_wanted(const TeachOptions& options) {
   const bool device = !options.camera_address.empty() && !options.camera_address.starts_with("file:");
   return options.frame.value_or(device ? kSettlingFrames : 0);
 }
 
-std::vector<std::uint8_t> grey_from_file(const Options& options, int& width_px, int& height_px) {
+std::vector<std::uint8_t> grey_from_file(const TeachOptions& options, int& width_px, int& height_px) {
   FrameInput input({options.image}, 30.0);
   InputFrame frame;
   if (!input.skip(frame_wanted(options)) || !input.next(frame)) {
@@ -49,7 +49,7 @@ std::vector<std::uint8_t> grey_from_file(const Options& options, int& width_px, 
   return {frame.grey.datastart, frame.grey.dataend};
 }
 
-std::vector<std::uint8_t> grey_from_camera(const Options& options, int& width_px, int& height_px) {
+std::vector<std::uint8_t> grey_from_camera(const TeachOptions& options, int& width_px, int& height_px) {
   CameraConfig config;
   config.source = options.camera_address;
   config.width_px = width_px;
@@ -89,7 +89,7 @@ Region parse_roi(const std::vector<int>& roi, const CameraModel& camera) {
   return region;
 }
 
-ShirtTemplate take_template(const Options& options) {
+ShirtTemplate take_template(const TeachOptions& options) {
   ShirtTemplate shirt;
   shirt.camera = read_camera_model(options.camera_file);
   int width_px = shirt.camera.width_px;
@@ -118,7 +118,7 @@ void print_verdict(const ShirtTemplate& shirt, const TemplateVerdict& verdict) {
               100.0 * verdict.coarse_share);
 }
 
-void run_teach(const Options& options) {
+void run_teach(const TeachOptions& options) {
   if (options.image.empty() == options.camera_address.empty()) {
     throw Error("expected either --image or --camera (see heel teach --help)");
   }
@@ -139,7 +139,7 @@ void run_teach(const Options& options) {
 }  // namespace
 
 void add_teach_command(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TeachOptions>();
   CLI::App* command = app.add_subcommand(
       "teach",
       "Makes a template from one view of the back of a shirt, taken square on, and says how well it can be\n"

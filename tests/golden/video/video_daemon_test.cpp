@@ -12,12 +12,13 @@
 
 #include "golden/video/frame_commands.h"
 #include "golden/video/video_scene.h"
-#include "loopback/daemon/process.h"
+#include "process/process.h"
+#include "sanitized.h"
 
 namespace heel::golden {
 namespace {
 
-using loopback::Process;
+using test::Process;
 
 constexpr int kFirst = 890;  // some seconds before the back is seen: the line is to stand by then
 constexpr int kLast = 1195;
@@ -67,9 +68,9 @@ std::vector<std::string> unmet(const FrameCommands& commands, const FrameCommand
 class VideoDrivesHeeld : public ::testing::Test {
  protected:
   void SetUp() override {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    GTEST_SKIP() << "sanitized vision cannot keep up with the video in real time; test_golden_video runs";
-#endif
+    if (test::kSanitized) {
+      GTEST_SKIP() << "sanitized vision cannot keep up with the video in real time; test_golden_video runs";
+    }
     if (video_path().empty()) GTEST_SKIP() << "no person/one-by-one.mp4 in HEEL_TEST_DATA";
   }
 };

@@ -4,10 +4,10 @@
 
 #include <fstream>
 
-#include "process.h"
+#include "process/process.h"
 #include "scene.h"
 
-namespace heel::loopback {
+namespace heel::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -87,4 +87,4 @@ TEST(HeeldCheck, PrintsTheCommittedExampleAndManual) {
 }
 
 }  // namespace
-}  // namespace heel::loopback
+}  // namespace heel::test

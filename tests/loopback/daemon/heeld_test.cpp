@@ -7,10 +7,10 @@
 #include <fstream>
 #include <memory>
 
-#include "process.h"
+#include "process/process.h"
 #include "scene.h"
 
-namespace heel::loopback {
+namespace heel::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -177,4 +177,4 @@ TEST_F(Heeld, StopButtonHoldsTheRobotAndIsNamed) {
 }
 
 }  // namespace
-}  // namespace heel::loopback
+}  // namespace heel::test

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "heel/shirt_template.h"
-#include "process.h"
+#include "process/process.h"
+#include "sanitized.h"
 
-namespace heel::loopback {
+namespace heel::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,11 +75,9 @@ void Scene::write_pictures(int frames, double distance_m) const {
 
 // Sanitizers make vision ten times slower and leave the rest of the behaviour as it is: pictures come more
 // slowly then, and count as fresh for longer.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr const char* kPace = "rate_hz = 5\n[supervisor]\nframe_timeout_s = 3\ntarget_timeout_s = 3\n";
-#else
-constexpr const char* kPace = "rate_hz = 25\n[supervisor]\nframe_timeout_s = 0.3\ntarget_timeout_s = 0.4\n";
-#endif
+constexpr const char* kPace =
+    kSanitized ? "rate_hz = 5\n[supervisor]\nframe_timeout_s = 3\ntarget_timeout_s = 3\n"
+               : "rate_hz = 25\n[supervisor]\nframe_timeout_s = 0.3\ntarget_timeout_s = 0.4\n";
 
 std::string Scene::write_config(const std::string& more) const {
   const std::string file = path("heel.toml");
@@ -133,4 +132,4 @@ Truth newest_truth(const std::string& csv_path) {
   return row_of(header, last);
 }
 
-}  // namespace heel::loopback
+}  // namespace heel::test

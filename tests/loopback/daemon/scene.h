@@ -7,7 +7,7 @@
 
 #include "temporary_folder.h"
 
-namespace heel::loopback {
+namespace heel::test {
 
 class Scene {
  public:
@@ -20,7 +20,7 @@ class Scene {
 
  private:
   void write_pictures(int frames, double distance_m) const;
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 /// A row of heel-sim's truth.
@@ -32,4 +32,4 @@ std::vector<Truth> all_truth(const std::string& csv_path);
 /// The newest complete row; zero when there is none yet.
 Truth newest_truth(const std::string& csv_path);
 
-}  // namespace heel::loopback
+}  // namespace heel::test

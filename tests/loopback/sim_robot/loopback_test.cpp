@@ -7,11 +7,11 @@
 #include <map>
 #include <sstream>
 
+#include "process/process.h"
 #include "raw_client.h"
-#include "sim_process.h"
 #include "temporary_folder.h"
 
-namespace heel::sim::test {
+namespace heel::test {
 namespace {
 
 constexpr int kOpen = 1, kClose = 2, kEnable = 4, kVel = 11, kConfig = 18, kHostBaud = 50;
@@ -24,17 +24,17 @@ bool motors_on(const Bytes& sip) {
 /// A running heel-sim; `address` is what it announced.
 struct Sim {
   Sim(const std::string& robot, std::vector<std::string> options = {}) : process(arguments(robot, options)) {
-    if (!process.wait_for("\n")) return;
-    const std::string& line = process.printed();
+    if (!process.says("\n")) return;
+    const std::string line = process.output();
     const std::size_t start = line.find("ready at ");
     if (start != std::string::npos) address = line.substr(start + 9, line.find('\n', start) - start - 9);
   }
   static std::vector<std::string> arguments(const std::string& robot, std::vector<std::string> options) {
-    options.insert(options.begin(), {"--robot", robot});
+    options.insert(options.begin(), {HEEL_SIM_PROGRAM, "--robot", robot});
     return options;
   }
 
-  SimProcess process;
+  Process process;
   std::string address;
 };
 
@@ -44,14 +44,14 @@ class AnyLine : public testing::TestWithParam<const char*> {
   std::string robot() const {
     return std::string(GetParam()) == "pty" ? "pty:" + folder.file("robot") : "tcp:0";
   }
-  heel::test::TemporaryFolder folder;
+  TemporaryFolder folder;
 };
 INSTANTIATE_TEST_SUITE_P(Lines, AnyLine, testing::Values("pty", "tcp"));
 
 TEST_P(AnyLine, SyncsOpensMovesStopsByWatchdogResumesAndCloses) {
   Sim sim(robot());
   RawClient client = RawClient::at(sim.address);
-  ASSERT_TRUE(client.sync()) << sim.process.printed();
+  ASSERT_TRUE(client.sync()) << sim.process.output();
   const std::string echo(client.packets.back().begin() + 1, client.packets.back().end());
   EXPECT_NE(echo.find(std::string("Pioneer\0p3at-sh", 15)), std::string::npos);
 
@@ -71,7 +71,7 @@ TEST_P(AnyLine, SyncsOpensMovesStopsByWatchdogResumesAndCloses) {
   EXPECT_EQ(i16_at(moving, 7), 200);
   EXPECT_GT(i16_at(moving, 1), 100) << "XPOS, mm";
 
-  EXPECT_TRUE(sim.process.wait_for("watchdog stop"));
+  EXPECT_TRUE(sim.process.says("watchdog stop"));
   client.listen(1.5);
   EXPECT_EQ(client.wait_for(kSip)[0], 0x32);
   client.send(0);  // PULSE
@@ -79,13 +79,13 @@ TEST_P(AnyLine, SyncsOpensMovesStopsByWatchdogResumesAndCloses) {
   EXPECT_EQ(i16_at(client.wait_for(kSip), 7), 200) << "the old motion resumes";
 
   client.send(kClose);
-  EXPECT_TRUE(sim.process.wait_for("closed"));
+  EXPECT_TRUE(sim.process.says("closed"));
   client.listen(0.2);
   const std::size_t before = client.packets.size();
   client.listen(0.5);
   EXPECT_EQ(client.packets.size(), before);
   for (const char* event : {"client connected", "synced", "opened", "enabled", "watchdog over"}) {
-    EXPECT_NE(sim.process.printed().find(event), std::string::npos) << event;
+    EXPECT_NE(sim.process.output().find(event), std::string::npos) << event;
   }
 }
 
@@ -97,7 +97,7 @@ TEST_P(AnyLine, AClientMayGoAndAnotherFindsTheRobotStillOpen) {
     first.send(kOpen);
     ASSERT_FALSE(first.wait_for(kSip).empty());
   }
-  ASSERT_TRUE(sim.process.wait_for("client gone"));
+  ASSERT_TRUE(sim.process.says("client gone"));
   sleep_s(1.5);
   RawClient second = RawClient::at(sim.address);
   second.listen(0.06);
@@ -122,18 +122,18 @@ TEST_P(AnyLine, PacketsTakeTheirLineTime) {
   Sim sim(robot());
   RawClient client = RawClient::at(sim.address);
   ASSERT_TRUE(client.sync());
-  const double start_s = now_s();
+  const double start_s = monotonic_s();
   client.send(kConfig, 1);
   const Bytes config = client.wait_for({0x20});
   ASSERT_FALSE(config.empty());
   const double line_s = (9.0 + static_cast<double>(config.size()) + 5.0) / 960.0;
-  EXPECT_GT(now_s() - start_s, line_s - 0.005);
-  EXPECT_LT(now_s() - start_s, line_s + 0.5);
+  EXPECT_GT(monotonic_s() - start_s, line_s - 0.005);
+  EXPECT_LT(monotonic_s() - start_s, line_s + 0.5);
 }
 
 TEST_P(AnyLine, FaultsComeFromTheCommandLine) {
   Sim sim(robot(), {"--fault", "left_open@0", "--fault", "bumper@0.2=4"});
-  ASSERT_TRUE(sim.process.wait_for("fault bumper"));
+  ASSERT_TRUE(sim.process.says("fault bumper"));
   RawClient client = RawClient::at(sim.address);
   client.wait_for(kSip);
   EXPECT_EQ(client.wait_for(kSip).at(13), 4 << 1) << "front bumpers in the high byte";
@@ -146,7 +146,7 @@ TEST_P(AnyLine, TruthHasARowEvery20Ms) {
   {
     RawClient client = RawClient::at(sim.address);
     client.send(0);
-    EXPECT_EQ(sim.process.wait_for_exit(), 0);
+    EXPECT_EQ(sim.process.wait(), 0);
   }
   std::istringstream lines(heel::test::read_text(path));
   std::string line;
@@ -170,7 +170,7 @@ TEST_P(AnyLine, TruthHasARowEvery20Ms) {
 }
 
 TEST(Pty, KeepsItsRateAndAWrongOneIsGarbageBothWays) {
-  heel::test::TemporaryFolder folder;
+  TemporaryFolder folder;
   Sim sim("pty:" + folder.file("robot"));
   RawClient client = RawClient::at(sim.address);
   client.set_rate(B38400);
@@ -194,7 +194,7 @@ TEST(Pty, KeepsItsRateAndAWrongOneIsGarbageBothWays) {
 }
 
 TEST(Pty, HostBaudAsTheAriaClientDoesIt) {
-  heel::test::TemporaryFolder folder;
+  TemporaryFolder folder;
   Sim sim("pty:" + folder.file("robot"));
   RawClient client = RawClient::at(sim.address);
   client.set_rate(B9600);
@@ -207,26 +207,26 @@ TEST(Pty, HostBaudAsTheAriaClientDoesIt) {
   sleep_s(0.01);
   client.send(0);
   EXPECT_FALSE(client.wait_for(kSip, 0.9).empty());
-  EXPECT_TRUE(sim.process.wait_for("baud 38400"));
+  EXPECT_TRUE(sim.process.says("baud 38400"));
   client.packets.clear();
   client.listen(1.0);
   EXPECT_GE(client.packets.size(), 8u);
 }
 
 TEST(Pty, TheSymlinkGoesWithTheProcessAndAStaleOneIsReplaced) {
-  heel::test::TemporaryFolder folder;
+  TemporaryFolder folder;
   const std::string path = folder.file("robot");
   for (const int number : {SIGTERM, SIGINT, SIGHUP}) {
     Sim sim("pty:" + path);
     EXPECT_TRUE(std::filesystem::is_symlink(path));
     sim.process.signal(number);
-    EXPECT_EQ(sim.process.wait_for_exit(), 0);
+    EXPECT_EQ(sim.process.wait(), 0);
     EXPECT_FALSE(std::filesystem::is_symlink(path));
   }
   {
     Sim killed("pty:" + path);
     killed.process.signal(SIGKILL);
-    killed.process.wait_for_exit();
+    killed.process.wait();
   }
   EXPECT_TRUE(std::filesystem::is_symlink(path)) << "nobody could remove it";
   Sim again("pty:" + path);
@@ -235,13 +235,13 @@ TEST(Pty, TheSymlinkGoesWithTheProcessAndAStaleOneIsReplaced) {
 }
 
 TEST(Pty, AnotherProcessesLinkIsLeftAlone) {
-  heel::test::TemporaryFolder folder;
+  TemporaryFolder folder;
   const std::string path = folder.file("robot");
   Sim older("pty:" + path);
   Sim newer("pty:" + path);
   ASSERT_NE(newer.address, "");
   older.process.signal(SIGTERM);
-  EXPECT_EQ(older.process.wait_for_exit(), 0);
+  EXPECT_EQ(older.process.wait(), 0);
   EXPECT_TRUE(std::filesystem::is_symlink(path));
   RawClient client = RawClient::at(newer.address);
   EXPECT_TRUE(client.sync());
@@ -266,9 +266,11 @@ struct BadOption {
 class BadOptions : public testing::TestWithParam<BadOption> {};
 
 TEST_P(BadOptions, AreRefusedByNameAndExpectation) {
-  SimProcess process(GetParam().arguments);
-  EXPECT_GT(process.wait_for_exit(), 0);
-  EXPECT_NE(process.printed().find(GetParam().complaint), std::string::npos) << process.printed();
+  std::vector<std::string> argv = GetParam().arguments;
+  argv.insert(argv.begin(), HEEL_SIM_PROGRAM);
+  Process process(argv);
+  EXPECT_GT(process.wait(), 0);
+  EXPECT_NE(process.output().find(GetParam().complaint), std::string::npos) << process.output();
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -286,4 +288,4 @@ INSTANTIATE_TEST_SUITE_P(
                     BadOption{{"--robot", "tcp:0", "--truth", "/no-such-folder/t.csv"}, "cannot write"}));
 
 }  // namespace
-}  // namespace heel::sim::test
+}  // namespace heel::test

@@ -12,9 +12,9 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "sim_process.h"
+#include "process/process.h"
 
-namespace heel::sim::test {
+namespace heel::test {
 namespace {
 
 unsigned checksum_of(const Bytes& body) {
@@ -122,14 +122,14 @@ void RawClient::parse() {
 }
 
 void RawClient::listen(double seconds) {
-  const double end_s = now_s() + seconds;
-  for (double left_s = seconds; left_s > 0.0; left_s = end_s - now_s()) read_some(left_s);
+  const double end_s = monotonic_s() + seconds;
+  for (double left_s = seconds; left_s > 0.0; left_s = end_s - monotonic_s()) read_some(left_s);
 }
 
 Bytes RawClient::wait_for(const std::vector<int>& ids, double timeout_s) {
-  const double end_s = now_s() + timeout_s;
+  const double end_s = monotonic_s() + timeout_s;
   std::size_t looked_at = packets.size();
-  while (now_s() < end_s) {
+  while (monotonic_s() < end_s) {
     read_some(0.05);
     for (; looked_at < packets.size(); ++looked_at) {
       if (std::find(ids.begin(), ids.end(), packets[looked_at][0]) != ids.end()) return packets[looked_at];
@@ -150,4 +150,4 @@ bool RawClient::sync() {
   return true;
 }
 
-}  // namespace heel::sim::test
+}  // namespace heel::test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace heel::sim::test {
+namespace heel::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -56,4 +56,4 @@ class RawClient {
 
 int i16_at(const Bytes& body, std::size_t offset);
 
-}  // namespace heel::sim::test
+}  // namespace heel::test

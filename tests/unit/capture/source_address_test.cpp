@@ -4,6 +4,7 @@
 
 #include "capture/frame_source.h"
 #include "heel/error.h"
+#include "sanitized.h"
 
 namespace heel {
 namespace {
@@ -55,9 +56,9 @@ TEST(FrameSourceFactory, OpeningWhatIsNotThereIsOneLineThatNamesIt) {
 }
 
 TEST(FrameSourceFactory, ALibcameraCameraThatIsNotThereIsNamed) {
-#if defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "libcamera's own threads are not built for the thread sanitizer";
-#endif
+  if (test::kThreadSanitizer) {
+    GTEST_SKIP() << "libcamera's own threads are not built for the thread sanitizer";
+  }
   CameraConfig config;
   config.source = "libcamera:no such camera";
   try {

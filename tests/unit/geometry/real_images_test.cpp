@@ -12,6 +12,7 @@
 #include <string>
 
 #include "heel/pose_estimator.h"
+#include "sanitized.h"
 
 namespace {
 
@@ -127,23 +128,26 @@ TEST(PersonFromBehind, FoundWhereSheIsAndNowhereElse) {
   const ShirtTemplate shirt = taught_from(frames[1000], back, false);
   heel::PoseEstimator estimator(shirt, shirt.camera, lock_step_config());
 
-  int certain = 0, outside = 0;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  const std::size_t step = heel::test::kThreadSanitizer ? 50 : heel::test::kSanitized ? 5 : 1;
+  int looked_at = 0, certain = 0, others = 0, found_in_others = 0;
+  for (std::size_t i = 0; i < frames.size(); i += step) {
+    const bool in_view = i >= 950 && i <= 1170;
+    ++(in_view ? looked_at : others);
     const PoseEstimate pose = estimator.estimate(view_of(frames[i]));
     if (!pose.found()) continue;
-    if (i >= 950 && i <= 1170) {
+    if (in_view) {
       certain += pose.certainty > 0.1;
     } else {
-      ++outside;
+      ++found_in_others;
     }
     EXPECT_TRUE(i >= 925 && i <= 1185) << "frame " << i << ": " << pose.inliers << " inliers";
     const Eigen::Vector2d centre = (homography_of(pose) * Eigen::Vector3d(449.5, 177.0, 1.0)).hnormalized();
     EXPECT_TRUE(centre.x() > 400 && centre.x() < 490 && centre.y() > 140 && centre.y() < 340)
         << "frame " << i << ": the middle of the back at " << centre.transpose();
   }
-  std::cout << frames.size() << " frames: certain in " << certain << " of 221, found in " << outside
-            << " others\n";
-  EXPECT_GE(certain, 210);  // 95 %
+  std::cout << looked_at + others << " frames: certain in " << certain << " of " << looked_at << ", found in "
+            << found_in_others << " of " << others << " others\n";
+  EXPECT_GE(certain, 0.95 * looked_at);
 }
 
 }  // namespace

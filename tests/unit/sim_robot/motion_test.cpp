@@ -12,12 +12,6 @@ using arcos::CommandId;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A fast line, so that commands arrive within a millisecond of being sent.
-P3AtSettings fast_exact_settings() {
-  P3AtSettings settings = exact_settings();
-  settings.boot_baud = 115200;
-  return settings;
-}
-
 class Motion : public testing::Test {
  protected:
   void SetUp() override { client.open_and_enable(); }

@@ -11,12 +11,6 @@ namespace {
 
 using arcos::CommandId;
 
-P3AtSettings fast_exact_settings() {
-  P3AtSettings settings = exact_settings();
-  settings.boot_baud = 115200;
-  return settings;
-}
-
 arcos::Sip sip_after(VirtualClient& client, int ms = 250) {
   client.run_fed_ms(ms);
   return client.last_sip();

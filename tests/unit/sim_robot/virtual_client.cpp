@@ -18,6 +18,12 @@ P3AtSettings exact_settings() {
   return settings;
 }
 
+P3AtSettings fast_exact_settings() {
+  P3AtSettings settings = exact_settings();
+  settings.boot_baud = 115200;
+  return settings;
+}
+
 void VirtualClient::run_ms(int ms) {
   for (int i = 0; i < ms; ++i) {
     t_ns += kNsPerMs;

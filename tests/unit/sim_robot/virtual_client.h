@@ -22,6 +22,8 @@ std::vector<std::uint8_t> from_hex(const std::string& hex);
 
 /// A robot without slip and drift: its true motion is its odometry.
 P3AtSettings exact_settings();
+/// … and with a line at 115200 baud.
+P3AtSettings fast_exact_settings();
 
 struct Received {
   TimeNs t_ns = 0;

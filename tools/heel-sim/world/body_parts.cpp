@@ -10,8 +10,6 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// One level of a rounded part of the body: an ellipse about (x_m, 0).
 struct Ellipse {
   double z_m, x_m, half_depth_m, half_width_m;
@@ -44,7 +42,7 @@ Mesh rounded(std::span<const Ellipse> profile) {
     const Ellipse& here = profile[at];
     const Ellipse& above = profile[k > 0 ? at - 1 : at];
     const Ellipse& below = profile[std::min(at + 1, profile.size() - 1)];
-    const double angle = 2.0 * kPi * j / kSegments;
+    const double angle = 2.0 * std::numbers::pi * j / kSegments;
     const double c = std::cos(angle), s = std::sin(angle);
     const Eigen::Vector3d around(-here.half_depth_m * s, here.half_width_m * c, 0.0);
     const Eigen::Vector3d up((above.half_depth_m - below.half_depth_m) * c + above.x_m - below.x_m,
@@ -71,7 +69,7 @@ Mesh limb(double length_m, double top_radius_m, double bottom_radius_m) {
   Mesh mesh = tube(kRings, kSegments, [&](int k, int j) {
     const double share = static_cast<double>(k) / (kRings - 1);
     const double radius = top_radius_m + share * (bottom_radius_m - top_radius_m);
-    const double angle = 2.0 * kPi * j / kSegments;
+    const double angle = 2.0 * std::numbers::pi * j / kSegments;
     MeshVertex vertex;
     vertex.position_m =
         Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), -share * length_m).cast<float>();
@@ -110,7 +108,7 @@ Texture head_surface(std::uint64_t seed) {
   for (int y = 0; y < canvas.height(); ++y)
     for (int x = 0; x < canvas.width(); ++x) {
       const double hairline_m =
-          0.735 + 0.06 * std::cos(2.0 * kPi * x / kPartTexels) + 0.003 * random.normal();
+          0.735 + 0.06 * std::cos(2.0 * std::numbers::pi * x / kPartTexels) + 0.003 * random.normal();
       canvas.at(x, y) = part_z_m(kHeadProfile, y) > hairline_m ? uneven(kHairGrey, 12.0, random)
                                                                : uneven(kSkinGrey, 2.0, random);
     }

@@ -10,7 +10,6 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kHipHeightM = 0.92;
 constexpr double kShoulderZM = 0.50;  ///< above the hips
 constexpr double kArmPivotYM = 0.235;
@@ -46,7 +45,7 @@ Profile profile_at(double z_m) {
 /// the middle of the back (0.5), and the right.
 Eigen::Vector3d torso_point(double around, double z_m) {
   const Profile profile = profile_at(z_m);
-  const double angle = 2.0 * kPi * around;
+  const double angle = 2.0 * std::numbers::pi * around;
   const auto power = [](double value) {
     return std::copysign(std::pow(std::abs(value), 2.0 / kTorsoExponent), value);
   };
@@ -126,7 +125,7 @@ PersonPose Person::pose(const WalkState& walk, double clock_s) const {
 
   PersonPose pose;
   pose.walk = walk;
-  pose.ripple_rad = stride + 0.25 * 2.0 * kPi * clock_s;  // fifteen breaths a minute
+  pose.ripple_rad = stride + 0.25 * 2.0 * std::numbers::pi * clock_s;  // fifteen breaths a minute
   const Eigen::Vector3d hips(walk.x_m - side * std::sin(walk.heading_rad),
                              walk.y_m + side * std::cos(walk.heading_rad), kHipHeightM + bob);
   const Eigen::AngleAxisd turn(yaw, Eigen::Vector3d::UnitZ());

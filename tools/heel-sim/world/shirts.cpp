@@ -13,8 +13,6 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Fine irregularity of woven cloth: no print is perfectly even.
 void weave(Canvas& canvas, double strength, Random& random) {
   for (int y = 0; y < canvas.height(); ++y)
@@ -100,7 +98,7 @@ void draw_bold(Canvas& canvas, Random& random) {
       const bool light =
           canvas.at(ground_x, ground_y) < 120.f ? random.uniform() < 0.85 : random.uniform() < 0.15;
       const auto grey = static_cast<float>(light ? random.uniform(180, 240) : random.uniform(15, 65));
-      print_shape(canvas, random.index(6), x, y, radius, random.uniform(0, 2 * kPi), grey);
+      print_shape(canvas, random.index(6), x, y, radius, random.uniform(0, 2 * std::numbers::pi), grey);
     }
 }
 

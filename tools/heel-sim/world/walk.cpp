@@ -10,7 +10,6 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kStepS = 0.01;
 constexpr double kAccelerationM_S2 = 0.6;
 
@@ -59,7 +58,7 @@ void legs_to(const WalkState& from, const WalkItem& item, std::vector<Leg>& legs
   // Tangent point on the circle about (0, radius): the angle turned so far.
   const double centre_bearing = std::atan2(lateral - item.radius_m, ahead);
   const double turn = centre_bearing + std::asin(std::min(1.0, item.radius_m / to_centre));
-  const double turned = turn < -1e-9 ? turn + 2.0 * kPi : std::max(turn, 0.0);
+  const double turned = turn < -1e-9 ? turn + 2.0 * std::numbers::pi : std::max(turn, 0.0);
   legs.push_back({turned * item.radius_m, side / item.radius_m, item.speed_m_s, 0.0, 0.0});
   legs.push_back({std::sqrt(std::max(0.0, to_centre * to_centre - item.radius_m * item.radius_m)), 0.0,
                   item.speed_m_s, 0.0, 0.0});
@@ -99,7 +98,7 @@ std::vector<Leg> legs_of(WalkState state, const std::vector<WalkItem>& items) {
 double stride_rate_rad_s(double speed_m_s) {
   if (speed_m_s < 0.02) return 0.0;
   const double steps_per_s = 0.9 + 0.75 * speed_m_s;
-  return kPi * steps_per_s;
+  return std::numbers::pi * steps_per_s;
 }
 
 }  // namespace
@@ -143,7 +142,7 @@ void Walk::wait(double duration_s, double turn_rad) {
   const int steps = static_cast<int>(std::lround(duration_s / kStepS));
   for (int i = 1; i <= steps; ++i) {
     const double share = static_cast<double>(i) / steps;
-    state.heading_rad = from_rad + turn_rad * (0.5 - 0.5 * std::cos(kPi * share));
+    state.heading_rad = from_rad + turn_rad * (0.5 - 0.5 * std::cos(std::numbers::pi * share));
     samples_.push_back(state);
   }
 }

@@ -8,7 +8,9 @@
 namespace heel::report {
 namespace {
 
-constexpr double kDeg = 180.0 / M_PI;
+double degrees(double rad) {
+  return rad * 180.0 / M_PI;
+}
 
 /// Lines of a name and a value.
 class Lines {
@@ -57,8 +59,8 @@ std::string summary_text(const sim::FollowMetrics& m, const std::vector<std::str
     lines.add("certainty", "%.2f median, 90 %% of frames between %.2f and %.2f", m.certainty.p50,
               m.certainty.p05, m.certainty.p95);
   if (m.yaw_error_rad.count > 0) {
-    lines.add("yaw error", "%.2f degrees RMS, mean %+.2f", kDeg * m.yaw_error_rad.rms,
-              kDeg * m.yaw_error_rad.mean);
+    lines.add("yaw error", "%.2f degrees RMS, mean %+.2f", degrees(m.yaw_error_rad.rms),
+              degrees(m.yaw_error_rad.mean));
     lines.add("position error", "%.0f mm sideways, %.0f mm in height, %.0f mm in distance (RMS)",
               1e3 * m.x_error_m.rms, 1e3 * m.y_error_m.rms, 1e3 * m.z_error_m.rms);
   }

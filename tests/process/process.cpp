@@ -10,12 +10,13 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
 
-namespace heel::loopback {
+namespace heel::test {
 
 void sleep_s(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -34,12 +35,14 @@ std::string content_of(const std::string& path) {
 
 Process::Process(const std::vector<std::string>& argv, const std::string& log_path,
                  const std::map<std::string, std::string>& environment)
-    : log_path_(log_path) {
+    : log_path_(log_path), log_is_ours_(log_path.empty()) {
   std::vector<char*> arguments;
   for (const auto& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
-  const int log = open(log_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (log < 0) throw std::runtime_error("cannot write " + log_path);
+  if (log_is_ours_) log_path_ = std::filesystem::temp_directory_path() / "heel-test-XXXXXX";
+  const int log = log_is_ours_ ? mkostemp(log_path_.data(), O_CLOEXEC)
+                               : open(log_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (log < 0) throw std::runtime_error("cannot write " + log_path_);
   pid_ = fork();
   if (pid_ == 0) {
     dup2(log, STDOUT_FILENO);
@@ -55,10 +58,11 @@ Process::Process(const std::vector<std::string>& argv, const std::string& log_pa
 Process::~Process() {
   if (running()) signal(SIGKILL);
   wait(5.0);
+  if (log_is_ours_) unlink(log_path_.c_str());
 }
 
 void Process::signal(int number) const {
-  kill(pid_, number);
+  if (!ended_) kill(pid_, number);
 }
 
 bool Process::running() {
@@ -76,7 +80,15 @@ std::string Process::output() const {
 }
 
 bool Process::says(const std::string& text, double timeout_s) {
-  return eventually([&] { return output().find(text) != std::string::npos; }, timeout_s);
+  bool found = false;
+  eventually(
+      [&] {
+        const bool ended = !running();  // asked first: what it wrote before its end is then in the output
+        found = output().find(text) != std::string::npos;
+        return found || ended;
+      },
+      timeout_s);
+  return found;
 }
 
 NotifySocket::NotifySocket(const std::string& path) : path_(path) {
@@ -112,4 +124,4 @@ bool NotifySocket::receives(const std::string& text, double timeout_s) {
       timeout_s);
 }
 
-}  // namespace heel::loopback
+}  // namespace heel::test

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-namespace heel::loopback {
+namespace heel::test {
 
 class Process {
  public:
-  /// Starts `argv`; standard output and error go to `log_path`.
-  Process(const std::vector<std::string>& argv, const std::string& log_path,
-          const std::map<std::string, std::string>& environment = {});
+  /// Starts `argv`; standard output and error go to `log_path`, by default a file that goes with this object.
+  explicit Process(const std::vector<std::string>& argv, const std::string& log_path = {},
+                   const std::map<std::string, std::string>& environment = {});
   /// Kills what is still running.
   ~Process();
   Process(const Process&) = delete;
@@ -22,16 +22,17 @@ class Process {
   void signal(int number) const;
   bool running();
   /// Exit status, or −signal; −1000 when it has not ended within `timeout_s`.
-  int wait(double timeout_s);
+  int wait(double timeout_s = 10.0);
 
   /// What it has written so far.
   std::string output() const;
   /// True as soon as the output holds `text`, false after the timeout or when it ended without.
-  bool says(const std::string& text, double timeout_s);
+  bool says(const std::string& text, double timeout_s = 10.0);
 
  private:
   pid_t pid_ = -1;
   std::string log_path_;
+  bool log_is_ours_ = false;
   bool ended_ = false;
   int status_ = 0;
 };
@@ -72,4 +73,4 @@ bool eventually(Condition condition, double timeout_s) {
 
 std::string content_of(const std::string& path);
 
-}  // namespace heel::loopback
+}  // namespace heel::test
