@@ -56,6 +56,7 @@ struct PoseEstimate {
   TimeNs t_done_ns = 0;     ///< when vision finished
   PoseReason reason = PoseReason::TooFewFeatures;
 
+  bool tracked = false;  ///< found where the frame before said; the rest of the frame was not looked at
   std::uint32_t frame_features = 0;
   std::uint32_t template_features = 0;
   std::uint32_t matches = 0;

@@ -5,12 +5,19 @@
 
 #include "heel/camera_model.h"
 #include "heel/config.h"
+#include "heel/features.h"
 #include "heel/flow.h"
 #include "heel/shirt_template.h"
 
 namespace heel {
 
-/// Pure but for its preallocated memory: the same frame gives the same estimate.
+/// Where and at which sizes the shirt is expected in a frame.
+struct ExpectedView {
+  Region region;  ///< pixels of the frame; may reach beyond it
+  double sigma_min_px = 0.0, sigma_max_px = 0.0;
+};
+
+/// Pure but for its preallocated memory: the same frame (and expectation) gives the same estimate.
 /// `t_done_ns` is left 0 for the caller, who owns the clock.
 class PoseEstimator {
  public:
@@ -20,7 +27,14 @@ class PoseEstimator {
   PoseEstimator(PoseEstimator&&) noexcept;
   PoseEstimator& operator=(PoseEstimator&&) noexcept;
 
+  /// Searches the whole frame, at every size at which the robot may follow.
   PoseEstimate estimate(const FrameView& frame);
+  /// Searches only where the shirt is expected.
+  PoseEstimate estimate(const FrameView& frame, const ExpectedView& expected);
+
+  /// Where the shirt can be at `t_ns`, when it was found as in `last` (found, same camera, not later than
+  /// `t_ns`) and moves no faster than `vision.tracking_rate_rad_s` through the view.
+  ExpectedView expected_view(const PoseEstimate& last, TimeNs t_ns) const;
 
  private:
   struct Impl;

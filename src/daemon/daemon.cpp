@@ -56,7 +56,7 @@ class Daemon {
   FrameRing frames_;
   Mailbox<PoseEstimate> poses_;
   std::unique_ptr<FrameSource> source_;
-  PoseEstimator estimator_;
+  PoseTracker tracker_;
   CaptureLoop capture_;
   VisionLoop vision_;
   ControlLoop control_;
@@ -77,10 +77,10 @@ Daemon::Daemon(LoadedConfig loaded, Signals& signals)
       frames_(static_cast<std::uint32_t>(inputs_.camera.width_px),
               static_cast<std::uint32_t>(inputs_.camera.height_px)),
       source_(make_frame_source(loaded_.config.camera)),
-      estimator_(inputs_.shirt, inputs_.camera, loaded_.config.vision),
+      tracker_(inputs_.shirt, inputs_.camera, loaded_.config.vision),
       capture_(*source_, frames_, feeds_.capture_events,
                CaptureLoopSettings{.begin_again = loaded_.config.camera.at_end == "loop"}),
-      vision_(frames_, estimator_, poses_, feeds_.poses),
+      vision_(frames_, tracker_, poses_, feeds_.poses),
       control_(loaded_.config, poses_, feeds_),
       telemetry_(feeds_, loaded_.config.telemetry) {}
 

@@ -8,16 +8,16 @@ namespace {
 constexpr TimeNs kLongestWait_ns = 100 * kNsPerMs;  // how soon stop() is seen at the latest
 }
 
-VisionLoop::VisionLoop(FrameRing& frames, PoseEstimator& estimator, Mailbox<PoseEstimate>& to_control,
+VisionLoop::VisionLoop(FrameRing& frames, PoseTracker& tracker, Mailbox<PoseEstimate>& to_control,
                        RecordQueue<PoseEstimate>& to_telemetry)
-    : frames_(frames), estimator_(estimator), to_control_(to_control), to_telemetry_(to_telemetry) {}
+    : frames_(frames), tracker_(tracker), to_control_(to_control), to_telemetry_(to_telemetry) {}
 
 void VisionLoop::run() {
   while (!stop_.load(std::memory_order_relaxed)) {
     if (!frames_.wait(kLongestWait_ns)) continue;
     const FrameView* frame = frames_.take();
     if (frame == nullptr) continue;
-    PoseEstimate pose = estimator_.estimate(*frame);
+    PoseEstimate pose = tracker_.estimate(*frame);
     pose.t_done_ns = monotonic_now_ns();
     to_control_.post(pose);
     to_telemetry_.push(pose);

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "heel/pose_estimator.h"
+#include "heel/pose_tracker.h"
 #include "runtime/frame_ring.h"
 #include "runtime/mailbox.h"
 #include "runtime/record_queue.h"
@@ -13,7 +13,7 @@ namespace heel {
 class VisionLoop {
  public:
   /// Everything is borrowed and must outlive run().
-  VisionLoop(FrameRing& frames, PoseEstimator& estimator, Mailbox<PoseEstimate>& to_control,
+  VisionLoop(FrameRing& frames, PoseTracker& tracker, Mailbox<PoseEstimate>& to_control,
              RecordQueue<PoseEstimate>& to_telemetry);
 
   /// Until stop(). Does not allocate, lock or format.
@@ -23,7 +23,7 @@ class VisionLoop {
 
  private:
   FrameRing& frames_;
-  PoseEstimator& estimator_;
+  PoseTracker& tracker_;
   Mailbox<PoseEstimate>& to_control_;
   RecordQueue<PoseEstimate>& to_telemetry_;
   std::atomic<bool> stop_{false};

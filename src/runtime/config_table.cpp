@@ -86,6 +86,8 @@ const ConfigKey kKeys[] = {
     number(HEEL_KEY(vision, ransac_budget_ms), "ms", {0, 1000}, No, "Deadline of the sampling; 0 for none, which makes results repeatable."),
     number(HEEL_KEY(vision, distance_min_m), "m", {0.2, 20}, No, "Nearest distance at which the person is looked for."),
     number(HEEL_KEY(vision, distance_max_m), "m", {0.5, 30}, No, "Farthest distance at which the person is looked for."),
+    flag(HEEL_KEY(vision, tracking), No, "Look first where the last frame says the person must be, and everywhere only when they are not there."),
+    number(HEEL_KEY(vision, tracking_rate_rad_s), "rad/s", {0.1, 20}, No, "How fast the person may cross the view, the robot's own turning included; faster looks farther round the last place."),
 
     number(HEEL_KEY(estimate, acceleration_m_s2), "m/s²", {0.05, 20}, Yes, "How hard the person changes speed (one standard deviation); larger follows faster and smooths less."),
     number(HEEL_KEY(estimate, yaw_acceleration_rad_s2), "rad/s²", {0.05, 50}, Yes, "How hard the person changes direction (one standard deviation)."),

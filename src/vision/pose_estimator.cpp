@@ -1,11 +1,12 @@
 // One frame's way through, in the order of M. Burke and W. Brink, "Estimating Target Orientation with a
-// Single Camera for Use in a Human-Following Robot" (PRASA 2010); see PoseEstimator::estimate at the end.
+// Single Camera for Use in a Human-Following Robot" (PRASA 2010); see Impl::estimate at the end.
 #include "heel/pose_estimator.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,12 @@ constexpr double kScaleMargin = 1.2;  // the template's distance is measured by 
 // Inliers' features change size as the homography says; those of a fit by chance change anyhow.
 constexpr double kMaxScaleDisagreement = 1.5;
 constexpr int kGuidedRounds = 2;
+// Round the expected view: what a homography found from few pairs is off at the outline, by share of its
+// size; and how far features' scales lie from what it predicts, with what the target may come nearer in a
+// second.
+constexpr double kViewMargin = 0.15;
+constexpr double kViewScaleMargin = 1.3;
+constexpr double kApproach_1_s = 1.0;
 
 /// Smallest and largest magnification of the template for which the target is looked for.
 struct ScaleRange {
@@ -97,7 +104,9 @@ struct PoseEstimator::Impl {
   Impl(const ShirtTemplate& shirt, const CameraModel& current_camera, const VisionConfig& given);
 
   void pair_up(const std::vector<Match>& from);
-  PoseReason find_pairs(const FrameView& frame, PoseEstimate& pose);
+  PoseEstimate estimate(const FrameView& frame, const ExpectedView& search);
+  ExpectedView expected_view(const Eigen::Matrix3d& H_cur_from_ref, double dt_s) const;
+  PoseReason find_pairs(const FrameView& frame, const ExpectedView& search, PoseEstimate& pose);
   PoseReason find_homography(PoseEstimate& pose);
   PoseReason check_shape();
   PoseReason match_again(PoseEstimate& pose);
@@ -116,6 +125,7 @@ struct PoseEstimator::Impl {
   Eigen::Matrix3d K_ref, K_ref_inverse, K_cur, K_cur_inverse;
   ScaleRange range;
   ShapeLimits shape_limits;
+  ExpectedView anywhere;  // every size at which the robot may follow
 
   // The stages, and what travels between them.
   FeatureExtractor extractor;
@@ -160,6 +170,9 @@ PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current
   shape_limits.scale_min = range.min * kTiltShrink;
   shape_limits.scale_max = range.max * kScaleMargin;
 
+  anywhere.sigma_min_px = extractor.settings().sigma_min_px;
+  anywhere.sigma_max_px = extractor.settings().sigma_max_px;
+
   extractor.reserve(frame_features);
   frame_px.reserve(static_cast<std::size_t>(config.max_features));
   matches.reserve(count);
@@ -170,9 +183,41 @@ PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current
   disagreement.reserve(count);
 }
 
+/// The outline's bounding box and the features' scales under H, with room for what may have changed in
+/// `dt_s`.
+ExpectedView PoseEstimator::Impl::expected_view(const Eigen::Matrix3d& H_cur_from_ref, double dt_s) const {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& corner : outline_px)
+    box.extend(camera.distort_px((H_cur_from_ref * corner.homogeneous()).hnormalized()));
+  const double moved_px = config.tracking_rate_rad_s * dt_s * std::max(camera.fx, camera.fy);
+  const Eigen::Vector2d margin_px = kViewMargin * box.sizes() + Eigen::Vector2d::Constant(moved_px);
+
+  ExpectedView view;
+  const Eigen::Vector2d first = (box.min() - margin_px).array().floor();
+  const Eigen::Vector2d size = (box.sizes() + 2.0 * margin_px).array().ceil();
+  view.region = {static_cast<int>(first.x()), static_cast<int>(first.y()), static_cast<int>(size.x()),
+                 static_cast<int>(size.y())};
+
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
+  for (std::size_t i = 0; i < reference.features.size(); ++i) {
+    const double sigma = reference.features[i].sigma_px * local_scale(H_cur_from_ref, reference_px[i]);
+    smallest = std::min(smallest, sigma);
+    largest = std::max(largest, sigma);
+  }
+  const double scale_margin = kViewScaleMargin * (1.0 + kApproach_1_s * dt_s);
+  view.sigma_min_px = std::max(anywhere.sigma_min_px, smallest / scale_margin);
+  view.sigma_max_px = std::min(anywhere.sigma_max_px, largest * scale_margin);
+  return view;
+}
+
 /// Steps 1–4: features of the frame, their nearest neighbours in the template, lens distortion removed.
-PoseReason PoseEstimator::Impl::find_pairs(const FrameView& frame, PoseEstimate& pose) {
-  extractor.extract(frame, frame_features);
+PoseReason PoseEstimator::Impl::find_pairs(const FrameView& frame, const ExpectedView& search,
+                                           PoseEstimate& pose) {
+  FeatureSettings settings = extractor.settings();
+  settings.sigma_min_px = static_cast<float>(search.sigma_min_px);
+  settings.sigma_max_px = static_cast<float>(search.sigma_max_px);
+  extractor.set_settings(settings);
+  extractor.extract(frame, search.region, frame_features);
   frame_px.clear();
   pose.frame_features = static_cast<std::uint32_t>(frame_features.features.size());
   if (frame_features.features.size() < 4) return PoseReason::TooFewFeatures;
@@ -280,22 +325,37 @@ PoseEstimator::PoseEstimator(PoseEstimator&&) noexcept = default;
 PoseEstimator& PoseEstimator::operator=(PoseEstimator&&) noexcept = default;
 
 PoseEstimate PoseEstimator::estimate(const FrameView& frame) {
+  return impl_->estimate(frame, impl_->anywhere);
+}
+
+PoseEstimate PoseEstimator::estimate(const FrameView& frame, const ExpectedView& expected) {
+  return impl_->estimate(frame, expected);
+}
+
+ExpectedView PoseEstimator::expected_view(const PoseEstimate& last, TimeNs t_ns) const {
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> H_cur_from_ref(
+      last.H_cur_from_ref.data());
+  return impl_->expected_view(H_cur_from_ref, seconds_from_ns(t_ns - last.t_capture_ns));
+}
+
+/// The paper's steps, in its order.
+PoseEstimate PoseEstimator::Impl::estimate(const FrameView& frame, const ExpectedView& search) {
   PoseEstimate pose;
   pose.frame_sequence = frame.header.sequence;
   pose.t_capture_ns = frame.header.t_capture_ns;
-  pose.template_features = static_cast<std::uint32_t>(impl_->reference.features.size());
+  pose.template_features = static_cast<std::uint32_t>(reference.features.size());
 
-  if (frame.header.width_px != static_cast<std::uint32_t>(impl_->camera.width_px) ||
-      frame.header.height_px != static_cast<std::uint32_t>(impl_->camera.height_px)) {
+  if (frame.header.width_px != static_cast<std::uint32_t>(camera.width_px) ||
+      frame.header.height_px != static_cast<std::uint32_t>(camera.height_px)) {
     pose.reason = PoseReason::WrongFrameSize;
     return pose;
   }
-  pose.reason = impl_->find_pairs(frame, pose);
-  if (pose.found()) pose.reason = impl_->find_homography(pose);
-  if (pose.found()) pose.reason = impl_->check_shape();
-  if (pose.found()) pose.reason = impl_->match_again(pose);
-  if (pose.found()) pose.reason = impl_->check_shape();
-  if (pose.found()) pose.reason = impl_->find_motion(pose);
+  pose.reason = find_pairs(frame, search, pose);
+  if (pose.found()) pose.reason = find_homography(pose);
+  if (pose.found()) pose.reason = check_shape();
+  if (pose.found()) pose.reason = match_again(pose);
+  if (pose.found()) pose.reason = check_shape();
+  if (pose.found()) pose.reason = find_motion(pose);
   return pose;
 }
 

@@ -2,16 +2,13 @@
 // Skipped where the data are absent (HEEL_TEST_DATA, else ../shared/data beside the source).
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <string>
 
 #include "heel/pose_estimator.h"
+#include "oxford_pairs.h"
 #include "sanitized.h"
 
 namespace {
@@ -19,11 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using heel::PoseEstimate;
 using heel::ShirtTemplate;
-
-fs::path data_folder() {
-  const char* given = std::getenv("HEEL_TEST_DATA");
-  return given != nullptr ? fs::path(given) : fs::path(HEEL_SOURCE_DIR).parent_path() / "shared" / "data";
-}
+using heel::test::view_of;
 
 /// The camera is not known: any focal length gives the same homography.
 ShirtTemplate taught_from(const cv::Mat& image, const heel::Region& roi, bool oriented) {
@@ -39,15 +32,6 @@ ShirtTemplate taught_from(const cv::Mat& image, const heel::Region& roi, bool or
   return shirt;
 }
 
-heel::FrameView view_of(const cv::Mat& image) {
-  heel::FrameView view;
-  view.header.width_px = static_cast<std::uint32_t>(image.cols);
-  view.header.height_px = static_cast<std::uint32_t>(image.rows);
-  view.grey = image.data;
-  view.stride_bytes = static_cast<std::uint32_t>(image.step);
-  return view;
-}
-
 Eigen::Matrix3d homography_of(const PoseEstimate& pose) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.H_cur_from_ref.data());
 }
@@ -60,7 +44,6 @@ heel::VisionConfig lock_step_config() {
 
 struct Pair {
   const char* set;
-  const char* extension;
   int to;
   bool oriented;
 };
@@ -69,52 +52,37 @@ std::string pair_name(const testing::TestParamInfo<Pair>& tested) {
   return tested.param.set + std::to_string(tested.param.to);
 }
 
-class OxfordPair : public testing::TestWithParam<Pair> {};
+class OxfordPairTest : public testing::TestWithParam<Pair> {};
 
-TEST_P(OxfordPair, CornerErrorBelowThreePixels) {
-  const Pair& pair = GetParam();
-  const fs::path folder = data_folder() / "oxford" / pair.set;
-  if (!fs::exists(folder)) GTEST_SKIP() << "no test data at " << folder;
-  const cv::Mat first = cv::imread(folder / (std::string("img1") + pair.extension), cv::IMREAD_GRAYSCALE);
-  const cv::Mat other =
-      cv::imread(folder / ("img" + std::to_string(pair.to) + pair.extension), cv::IMREAD_GRAYSCALE);
-  ASSERT_FALSE(first.empty());
-  ASSERT_EQ(first.size(), other.size());
-  Eigen::Matrix3d truth;
-  std::ifstream file(folder / ("H1to" + std::to_string(pair.to) + "p"));
-  for (int i = 0; i < 9; ++i) file >> truth(i / 3, i % 3);
-  ASSERT_TRUE(file);
+TEST_P(OxfordPairTest, CornerErrorBelowThreePixels) {
+  const auto [set, to, oriented] = GetParam();
+  if (!heel::test::has_oxford_set(set)) GTEST_SKIP() << "no test data at " << heel::test::data_folder();
+  const heel::test::OxfordPair pair = heel::test::load_oxford_pair(set, to);
+  ASSERT_EQ(pair.reference.size(), pair.current.size());
 
-  const ShirtTemplate whole = taught_from(first, {0, 0, first.cols, first.rows}, pair.oriented);
+  const ShirtTemplate whole =
+      taught_from(pair.reference, {0, 0, pair.reference.cols, pair.reference.rows}, oriented);
   const PoseEstimate pose =
-      heel::PoseEstimator(whole, whole.camera, lock_step_config()).estimate(view_of(other));
+      heel::PoseEstimator(whole, whole.camera, lock_step_config()).estimate(view_of(pair.current));
   ASSERT_TRUE(pose.found()) << to_string(pose.reason);
-  const Eigen::Matrix3d H = homography_of(pose);
-  double error_px = 0.0;
-  for (const Eigen::Vector2d& corner :
-       {Eigen::Vector2d(0, 0), Eigen::Vector2d(first.cols - 1, 0),
-        Eigen::Vector2d(first.cols - 1, first.rows - 1), Eigen::Vector2d(0, first.rows - 1)})
-    error_px +=
-        ((H * corner.homogeneous()).hnormalized() - (truth * corner.homogeneous()).hnormalized()).norm() / 4;
+  const double error_px = heel::test::mean_corner_error_px(pair, homography_of(pose));
   RecordProperty("corner_error_px", std::to_string(error_px));
-  std::cout << pair.set << " 1-" << pair.to << ": corner error " << error_px << " px, " << pose.inliers
-            << " inliers\n";
+  std::cout << pair.name() << ": corner error " << error_px << " px, " << pose.inliers << " inliers\n";
   EXPECT_LT(error_px, 3.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Real, OxfordPair,
-                         testing::Values(Pair{"graf", ".ppm", 2, false}, Pair{"graf", ".ppm", 3, false},
-                                         Pair{"boat", ".pgm", 2, true}, Pair{"boat", ".pgm", 3, true},
-                                         Pair{"boat", ".pgm", 4, true}, Pair{"boat", ".pgm", 5, true},
-                                         Pair{"leuven", ".ppm", 2, false}, Pair{"leuven", ".ppm", 3, false},
-                                         Pair{"leuven", ".ppm", 4, false}, Pair{"leuven", ".ppm", 5, false},
-                                         Pair{"leuven", ".ppm", 6, false}),
+INSTANTIATE_TEST_SUITE_P(Real, OxfordPairTest,
+                         testing::Values(Pair{"graf", 2, false}, Pair{"graf", 3, false},
+                                         Pair{"boat", 2, true}, Pair{"boat", 3, true}, Pair{"boat", 4, true},
+                                         Pair{"boat", 5, true}, Pair{"leuven", 2, false},
+                                         Pair{"leuven", 3, false}, Pair{"leuven", 4, false},
+                                         Pair{"leuven", 5, false}, Pair{"leuven", 6, false}),
                          pair_name);
 
 // The knit back of frame 1000. Looking at the frames: it comes into view whole at about 925, walks away and
 // stands until 1175, and turns away until about 1185; nobody else in the film wears it.
 TEST(PersonFromBehind, FoundWhereSheIsAndNowhereElse) {
-  const fs::path path = data_folder() / "person" / "one-by-one.mp4";
+  const fs::path path = heel::test::data_folder() / "person" / "one-by-one.mp4";
   if (!fs::exists(path)) GTEST_SKIP() << "no test data at " << path;
   std::vector<cv::Mat> frames;
   cv::VideoCapture video(path.string());

@@ -139,6 +139,7 @@ TEST(CsvColumns, APoseLandsUnderItsNames) {
   estimate.frame_sequence = 99;
   estimate.t_capture_ns = 1'000'000'000;
   estimate.t_done_ns = 1'020'000'000;
+  estimate.tracked = true;
   estimate.certainty = 0.375;
   estimate.has_distance = true;
   for (std::size_t i = 0; i < 9; ++i) {
@@ -155,6 +156,7 @@ TEST(CsvColumns, APoseLandsUnderItsNames) {
   EXPECT_EQ(row.at("done_s"), "1.020000000");
   EXPECT_EQ(row.at("frame"), "99");
   EXPECT_EQ(row.at("found"), "1");
+  EXPECT_EQ(row.at("tracked"), "1");
   EXPECT_EQ(row.at("certainty"), "0.375");
   for (int i = 0; i < 9; ++i) {
     const std::string n = "_" + std::to_string(i);

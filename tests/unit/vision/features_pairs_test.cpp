@@ -3,13 +3,11 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 
 #include "heel/matching.h"
+#include "oxford_pairs.h"
 #include "test_image.h"
 
 namespace heel::test {
@@ -109,21 +107,8 @@ struct RealPair {
 };
 
 TEST(FeaturesRealPairs, MatchTheOxfordImages) {
-  const char* data = std::getenv("HEEL_TEST_DATA");
-  const std::string root = data != nullptr ? data : std::string(HEEL_SOURCE_DIR) + "/../shared/data";
-  if (!std::ifstream(root + "/oxford/graf/H1to2p")) GTEST_SKIP() << "no test data at " << root;
+  if (!has_oxford_set("graf")) GTEST_SKIP() << "no test data at " << data_folder();
   const FeatureSettings settings{.octaves = 3, .max_features = 500, .oriented = true, .spread = false};
-  const auto load = [&](const std::string& set, int index) {
-    const std::string ending = set == "boat" ? ".pgm" : ".ppm";
-    const cv::Mat grey =
-        cv::imread(root + "/oxford/" + set + "/img" + std::to_string(index) + ending, cv::IMREAD_GRAYSCALE);
-    FrameView frame;
-    frame.header.width_px = static_cast<std::uint32_t>(grey.cols);
-    frame.header.height_px = static_cast<std::uint32_t>(grey.rows);
-    frame.grey = grey.data;
-    frame.stride_bytes = static_cast<std::uint32_t>(grey.step[0]);
-    return extract(frame, settings);
-  };
   // Floors a little below what was measured when this was written.
   for (const RealPair& pair : {RealPair{"graf", 2, 170, 0.85},
                                {"graf", 3, 60, 0.7},
@@ -133,15 +118,14 @@ TEST(FeaturesRealPairs, MatchTheOxfordImages) {
                                {"leuven", 2, 280, 0.93},
                                {"leuven", 4, 190, 0.93},
                                {"leuven", 6, 140, 0.9}}) {
-    SCOPED_TRACE(pair.set + std::string(" 1-") + std::to_string(pair.index));
-    std::array<double, 9> H{};
-    std::ifstream file(root + "/oxford/" + pair.set + "/H1to" + std::to_string(pair.index) + "p");
-    for (double& value : H) file >> value;
-    ASSERT_TRUE(file);
-    const Score result = score(load(pair.set, 1), load(pair.set, pair.index), [&](Point p) {
-      const double w = H[6] * p[0] + H[7] * p[1] + H[8];
-      return Point{(H[0] * p[0] + H[1] * p[1] + H[2]) / w, (H[3] * p[0] + H[4] * p[1] + H[5]) / w};
-    });
+    const OxfordPair images = load_oxford_pair(pair.set, pair.index);
+    SCOPED_TRACE(images.name());
+    const auto mapped = [&](Point p) {
+      const Eigen::Vector2d q = (images.H_cur_from_ref * Eigen::Vector3d(p[0], p[1], 1.0)).hnormalized();
+      return Point{q.x(), q.y()};
+    };
+    const Score result = score(extract(view_of(images.reference), settings),
+                               extract(view_of(images.current), settings), mapped);
     EXPECT_GE(result.correct, pair.min_correct);
     EXPECT_GE(result.precision(), pair.min_precision);
   }

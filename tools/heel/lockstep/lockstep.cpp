@@ -8,7 +8,7 @@
 #include "heel-sim/world/random.h"
 #include "heel/control.h"
 #include "heel/error.h"
-#include "heel/pose_estimator.h"
+#include "heel/pose_tracker.h"
 #include "robot/arcos_session.h"
 
 namespace heel::sim {
@@ -46,7 +46,7 @@ class Lockstep {
   LockstepObserver& observer_;
   std::unique_ptr<World> world_;  ///< none when frames come from a file
   std::unique_ptr<FrameSupply> frames_;
-  PoseEstimator vision_;
+  PoseTracker vision_;
   ControlStage control_;
   ArcosSession session_;
   P3At robot_;

@@ -1,6 +1,6 @@
 // The daemon's own stages in lock step with the simulated world, in virtual time:
 //
-//   World ─picture→ PoseEstimator ─(modelled latency)→ ControlStage ─command→ ArcosSession ─bytes→ P3At
+//   World ─picture→ PoseTracker ─(modelled latency)→ ControlStage ─command→ ArcosSession ─bytes→ P3At
 //     ↑                                                    ↑ RobotState ──────────┘    ←bytes─┘   │
 //     └──────────────────────────────── true pose of the robot ───────────────────────────────────┘
 //
