@@ -61,7 +61,7 @@ class Transcript : public LockstepObserver {
 
 TEST(Lockstep, RepeatsToTheBit) {
   LockstepSettings settings = short_walk();
-  settings.scenario.duration_s = test::kThreadSanitizer ? 1.0 : 4.0;
+  settings.scenario.duration_s = test::kSanitized ? 1.0 : 4.0;
   Transcript first, second, other;
   run_lockstep(settings, first);
   run_lockstep(settings, second);
