@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kBacklogBytes = 200;
 constexpr TimeNs kStuckNs = kNsPerS;
 constexpr TimeNs kShutdownNs = 250 * kNsPerMs;
+constexpr TimeNs kAdapterNs = 20 * kNsPerMs;  // a USB adapter's own buffering
 
 }  // namespace
 
@@ -131,6 +132,9 @@ void RobotLink::shutdown(TimeNs now_ns) {
     }
   }
   line->drain(left_ns());
+  // A driver counts as sent what it has handed to the adapter, and closing the line throws that away.
+  const TimeNs on_the_wire_ns = static_cast<TimeNs>(last_words.size()) * 10 * kNsPerS / line_baud_;
+  sleep_until_ns(monotonic_now_ns() + std::min(left_ns(), on_the_wire_ns + kAdapterNs));
 }
 
 }  // namespace heel

@@ -140,6 +140,18 @@ TEST(Session, AHangUpForgetsAHandshakeButNotAnOpenSession) {
   EXPECT_EQ(client.robot.truth().session, Session::Open);
 }
 
+TEST(Session, WhatIsOnTheWireWhenTheClientHangsUpStillArrives) {
+  for (int ms = 0; ms < 10; ++ms) {  // CLOSE takes 6 ms at 9600 baud
+    VirtualClient client(exact_settings());
+    client.open();
+    client.command(CommandId::Close);
+    client.run_ms(ms);
+    client.robot.line_dropped();
+    client.run_ms(30);
+    EXPECT_EQ(client.robot.truth().session, Session::Waiting) << "hung up after " << ms << " ms";
+  }
+}
+
 TEST(Session, SurvivesGarbageAndUnknownCommands) {
   VirtualClient client(exact_settings());
   client.send_hex("00fffafbfafb03000001fafb");  // noise, a wrong checksum, a lone header

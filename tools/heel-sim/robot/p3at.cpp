@@ -73,7 +73,6 @@ std::vector<std::uint8_t> P3At::take_output() {
 }
 
 void P3At::line_dropped() {
-  parser_.reset();
   if (session_ != Session::Open && session_ != Session::Maintenance) session_ = Session::Waiting;
 }
 

@@ -76,7 +76,8 @@ class P3At {
   /// agrees.
   void set_host_baud(int baud) { line_.set_host_baud(baud); }
   int baud() const { return line_.robot_baud(); }
-  /// The client hung up. An open robot cannot tell; a half-made handshake is forgotten.
+  /// The client hung up. An open robot cannot tell, and what is on the wire still arrives; a half-made
+  /// handshake is forgotten.
   void line_dropped();
   /// Client bytes still under way: a caller that respects the line's rate stops reading when this grows.
   std::size_t input_backlog() const { return line_.input_backlog(); }
