@@ -171,12 +171,13 @@ void run(P3At& robot, RobotServer& server, TruthCsv* truth, Surroundings* surrou
   TimeNs t_progress_ns = 0;
   while (g_stop == 0) {
     const TimeNs t_ns = monotonic_now_ns() - t_start_ns;
+    server.listen(t_ns);
     // Rows stand at even times also where this process was held up.
     for (; truth != nullptr && t_row_ns <= t_ns; t_row_ns += row_ns) {
       robot.advance(t_row_ns);
       truth->write_row();
     }
-    server.step(t_ns);
+    server.speak(t_ns);
     if (surroundings != nullptr) {
       surroundings->motion.set(robot.truth());
       start_walk_when_motors_run(robot.truth(), surroundings->world);

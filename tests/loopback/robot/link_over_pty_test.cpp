@@ -134,14 +134,18 @@ TEST(LinkOverPty, SipsAreStampedAsTheyComeNotAtTheTick) {
   LinkBench bench(address);
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 10.0));
   // One long wait in place of many ticks: what came meanwhile bears the times at which it came.
-  const TimeNs begin_ns = monotonic_now_ns();
-  const TimeNs deadline_ns = begin_ns + kNsPerS;
-  const std::uint64_t sips = bench.link.state().sips;
-  bench.link.listen_until(deadline_ns);
-  EXPECT_GE(monotonic_now_ns(), deadline_ns);
-  EXPECT_GT(bench.link.state().sips, sips);
-  EXPECT_GT(bench.link.state().odometry.t_ns, begin_ns);
-  EXPECT_LT(bench.link.state().odometry.t_ns, deadline_ns);
+  int before_the_deadline = 0;  // on a busy machine not each time
+  for (int i = 0; i < 5; ++i) {
+    const TimeNs begin_ns = monotonic_now_ns();
+    const TimeNs deadline_ns = begin_ns + 300 * kNsPerMs;
+    const std::uint64_t sips = bench.link.state().sips;
+    bench.link.listen_until(deadline_ns);
+    EXPECT_GE(monotonic_now_ns(), deadline_ns);
+    EXPECT_GT(bench.link.state().sips, sips);
+    EXPECT_GT(bench.link.state().odometry.t_ns, begin_ns);
+    before_the_deadline += bench.link.state().odometry.t_ns < deadline_ns;
+  }
+  EXPECT_GT(before_the_deadline, 0);
 }
 
 TEST(LinkOverPty, HungUpAndBack) {

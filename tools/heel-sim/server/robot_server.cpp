@@ -7,10 +7,14 @@ constexpr std::size_t kMostBacklog = 2048;  // more stays with the client's kern
 
 }  // namespace
 
-void RobotServer::step(TimeNs t_ns) {
+void RobotServer::listen(TimeNs t_ns) {
   watch_client(t_ns);
   read_client(t_ns);
+}
+
+void RobotServer::speak(TimeNs t_ns) {
   robot_.advance(t_ns);
+  t_last_ns_ = t_ns;
   const std::vector<std::uint8_t> out = robot_.take_output();
   if (!out.empty()) transport_.write(out);
   for (const RobotEvent& event : robot_.take_events()) on_event_(event.t_ns, describe(event));
@@ -34,12 +38,12 @@ void RobotServer::read_client(TimeNs t_ns) {
   // count as sent at the rate the robot understands, if it is one of the two.
   const int baud = transport_.host_baud();
   const bool sent_before = baud != host_baud_ && host_baud_ == robot_.baud();
-  if (sent_before && size > 0) robot_.receive(bytes, t_ns);
+  if (sent_before && size > 0) robot_.receive(bytes, t_last_ns_);
   if (baud != host_baud_) {
     host_baud_ = baud;
     robot_.set_host_baud(baud);
   }
-  if (!sent_before && size > 0) robot_.receive(bytes, t_ns);
+  if (!sent_before && size > 0) robot_.receive(bytes, t_last_ns_);
 }
 
 }  // namespace heel::sim

@@ -27,7 +27,15 @@ class RobotServer {
         on_received_(std::move(on_received)) {}
 
   /// Bytes in, robot on to `t_ns`, bytes out, events told. Call every millisecond or so.
-  void step(TimeNs t_ns);
+  void step(TimeNs t_ns) {
+    listen(t_ns);
+    speak(t_ns);
+  }
+  /// The halves of a step. Where the process was held up before `t_ns`, what it finds on the line was sent
+  /// meanwhile: the robot has it from the time of the last step on, not after a pause in which its watchdog
+  /// would have run out.
+  void listen(TimeNs t_ns);
+  void speak(TimeNs t_ns);
 
  private:
   void watch_client(TimeNs t_ns);
@@ -37,6 +45,7 @@ class RobotServer {
   Transport& transport_;
   EventSink on_event_;
   ByteSink on_received_;
+  TimeNs t_last_ns_ = 0;  ///< the robot has been carried up to here
   bool client_present_ = false;
   int host_baud_ = 0;
   std::array<std::uint8_t, 1024> buffer_{};
