@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "heel/flow.h"
+#include "heel/stage_times.h"
 
 namespace heel {
 
@@ -62,6 +63,9 @@ class FeatureExtractor {
   /// Features of `frame` inside `region` (clipped to the frame; the whole frame by default), strongest first.
   void extract(const FrameView& frame, FeatureSet& out) { extract(frame, Region{}, out); }
   void extract(const FrameView& frame, const Region& region, FeatureSet& out);
+
+  /// From now on `times`, which must outlive this, hears of the steps; null: nobody does.
+  void measure(StageTimes* times);
 
  private:
   struct Impl;

@@ -36,6 +36,9 @@ class PoseEstimator {
   /// `t_ns`) and moves no faster than `vision.tracking_rate_rad_s` through the view.
   ExpectedView expected_view(const PoseEstimate& last, TimeNs t_ns) const;
 
+  /// From now on `times`, which must outlive this, hears of the steps; null: nobody does.
+  void measure(StageTimes* times);
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -15,6 +15,9 @@ class PoseTracker {
 
   PoseEstimate estimate(const FrameView& frame);
 
+  /// As PoseEstimator.
+  void measure(StageTimes* times) { estimator_.measure(times); }
+
  private:
   bool expects_it_in(const FrameView& frame) const;
 

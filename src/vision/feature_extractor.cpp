@@ -50,6 +50,7 @@ struct FeatureExtractor::Impl {
   IntegralImage integral;
   FastHessian hessian;
   KeypointSelection selection;
+  StageTimes* times = nullptr;
 };
 
 FeatureExtractor::FeatureExtractor(int max_width_px, int max_height_px, const FeatureSettings& settings) {
@@ -74,6 +75,10 @@ void FeatureExtractor::set_settings(const FeatureSettings& settings) {
   impl_->settings.max_features = std::clamp(settings.max_features, 1, impl_->max_features);
 }
 
+void FeatureExtractor::measure(StageTimes* times) {
+  impl_->times = times;
+}
+
 void FeatureExtractor::reserve(FeatureSet& out) const {
   out.features.reserve(static_cast<std::size_t>(impl_->max_features));
   out.descriptors.reserve(static_cast<std::size_t>(impl_->max_features));
@@ -93,20 +98,24 @@ void FeatureExtractor::extract(const FrameView& frame, const Region& region, Fea
   if (frame.grey == nullptr || searched.width_px == 0 || searched.height_px == 0) return;
 
   s.integral.compute(frame);
+  mark(s.times, VisionStage::Integral);
   s.selection.start(s.settings.threshold);
   s.hessian.detect(s.integral, searched, s.settings, s.selection);
+  mark(s.times, VisionStage::Hessian);
   const auto wanted = static_cast<std::size_t>(s.settings.max_features);
   if (s.settings.spread) {
     s.selection.strongest_spread(wanted, searched, out.features);
   } else {
     s.selection.strongest(wanted, out.features);
   }
+  mark(s.times, VisionStage::Selection);
   out.descriptors.resize(out.features.size());
   for (std::size_t i = 0; i < out.features.size(); ++i) {
     Feature& feature = out.features[i];
     if (s.settings.oriented) feature.angle_rad = dominant_orientation(s.integral, feature);
     describe(s.integral, feature, !s.settings.oriented, out.descriptors[i]);
   }
+  mark(s.times, VisionStage::Description);
 }
 
 }  // namespace heel

@@ -141,6 +141,7 @@ struct PoseEstimator::Impl {
   std::vector<PointPair> inliers;
   std::vector<Eigen::Vector2d> inliers_ref;  // normalised
   std::vector<double> disagreement;          // of the inliers' scales
+  StageTimes* times = nullptr;
 };
 
 PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current_camera,
@@ -223,11 +224,13 @@ PoseReason PoseEstimator::Impl::find_pairs(const FrameView& frame, const Expecte
   if (frame_features.features.size() < 4) return PoseReason::TooFewFeatures;
 
   matcher.match(reference, frame_features, matches);
+  mark(times, VisionStage::Matching);
   pose.matches = static_cast<std::uint32_t>(matches.size());
   if (matches.size() < 4) return PoseReason::TooFewMatches;
 
   for (const Feature& feature : frame_features.features) frame_px.push_back(undistorted(camera, feature));
   pair_up(matches);
+  mark(times, VisionStage::Undistortion);
   return PoseReason::Found;
 }
 
@@ -241,6 +244,7 @@ void PoseEstimator::Impl::pair_up(const std::vector<Match>& from) {
 /// Steps 5 and 6: the homography most pairs agree on, and the certainty.
 PoseReason PoseEstimator::Impl::find_homography(PoseEstimate& pose) {
   homography = homography_estimator.estimate(pairs, inlier_mask);
+  mark(times, VisionStage::Homography);
   if (homography.status != HomographyStatus::Ok) return PoseReason::NoHomography;
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.H_cur_from_ref.data()) =
       homography.H_cur_from_ref;
@@ -279,6 +283,7 @@ PoseReason PoseEstimator::Impl::match_again(PoseEstimate& pose) {
     guided_matcher.match(homography.H_cur_from_ref, reference, reference_px, frame_features, frame_px,
                          matches);
     pair_up(matches);
+    mark(times, VisionStage::GuidedMatching);
     const PoseReason reason = find_homography(pose);
     if (reason != PoseReason::Found) return reason;
   }
@@ -338,6 +343,11 @@ ExpectedView PoseEstimator::expected_view(const PoseEstimate& last, TimeNs t_ns)
   return impl_->expected_view(H_cur_from_ref, seconds_from_ns(t_ns - last.t_capture_ns));
 }
 
+void PoseEstimator::measure(StageTimes* times) {
+  impl_->times = times;
+  impl_->extractor.measure(times);
+}
+
 /// The paper's steps, in its order.
 PoseEstimate PoseEstimator::Impl::estimate(const FrameView& frame, const ExpectedView& search) {
   PoseEstimate pose;
@@ -356,6 +366,7 @@ PoseEstimate PoseEstimator::Impl::estimate(const FrameView& frame, const Expecte
   if (pose.found()) pose.reason = match_again(pose);
   if (pose.found()) pose.reason = check_shape();
   if (pose.found()) pose.reason = find_motion(pose);
+  mark(times, VisionStage::Motion);
   return pose;
 }
 

@@ -161,4 +161,11 @@ std::uint64_t FrameInput::promised_frames() const {
   return frames;
 }
 
+void require_size(const InputFrame& frame, const CameraModel& camera, const std::string& camera_file) {
+  if (frame.grey.cols == camera.width_px && frame.grey.rows == camera.height_px) return;
+  throw Error(frame.file + ": " + std::to_string(frame.grey.cols) + "x" + std::to_string(frame.grey.rows) +
+              " pixels (expected " + std::to_string(camera.width_px) + "x" +
+              std::to_string(camera.height_px) + " as in " + camera_file + ")");
+}
+
 }  // namespace heel::cli

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "heel/camera_model.h"
+
 namespace heel::cli {
 
 struct InputFrame {
@@ -16,6 +18,9 @@ struct InputFrame {
   std::string file;  ///< the image or video it came from
   cv::Mat grey;      ///< 8-bit, continuous
 };
+
+/// Throws heel::Error naming the frame's file unless it has the camera's size.
+void require_size(const InputFrame& frame, const CameraModel& camera, const std::string& camera_file);
 
 class FrameInput {
  public:

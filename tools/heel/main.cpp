@@ -21,6 +21,7 @@ void add_commands(CLI::App& app) {
   add_features_command(app);
   add_simulate_command(app);
   add_report_command(app);
+  add_bench_command(app);
 }
 
 /// One thread, so that results repeat to the bit on any number of cores. Errors are one line each; OpenCV's
@@ -31,10 +32,11 @@ void quieten_libraries() {
   setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
 }
 
-/// "heel teach" when a subcommand was being parsed or run, else "heel".
+/// "heel teach" or "heel bench vision" when such a subcommand was being parsed or run, else "heel".
 std::string command_name(const CLI::App& app) {
+  std::string name = app.get_name();
   const auto chosen = app.get_subcommands();
-  return chosen.empty() ? "heel" : "heel " + chosen.front()->get_name();
+  return chosen.empty() ? name : name + " " + command_name(*chosen.front());
 }
 
 std::string one_line(std::string text) {

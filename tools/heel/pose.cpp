@@ -53,13 +53,6 @@ PoseRow estimate(PoseEstimator& estimator, const InputFrame& frame) {
   return {frame.number, frame.t_s, pose, elapsed.count()};
 }
 
-void require_size(const InputFrame& frame, const CameraModel& camera, const std::string& camera_file) {
-  if (frame.grey.cols == camera.width_px && frame.grey.rows == camera.height_px) return;
-  throw Error(frame.file + ": " + std::to_string(frame.grey.cols) + "x" + std::to_string(frame.grey.rows) +
-              " pixels (expected " + std::to_string(camera.width_px) + "x" +
-              std::to_string(camera.height_px) + " as in " + camera_file + ")");
-}
-
 void write_pose_picture(const std::string& folder, const InputFrame& frame, const PoseEstimate& pose,
                         const ShirtTemplate& shirt, const CameraModel& camera) {
   char name[40];

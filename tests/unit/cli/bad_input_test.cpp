@@ -61,6 +61,14 @@ class Files {
     return changed({"pose", "--template", at("shirt.heel"), "--camera-info", at("camera.yaml"), "--json"},
                    otherwise);
   }
+  std::vector<std::string> bench(const std::vector<std::string>& otherwise) const {
+    return changed({"bench", "vision", "--json"}, otherwise);
+  }
+  /// With the options that pictures of one's own need.
+  std::vector<std::string> own(std::vector<std::string> more) const {
+    more.insert(more.end(), {"--template", at("shirt.heel"), "--camera-info", at("camera.yaml")});
+    return more;
+  }
 
  private:
   static std::vector<std::string> changed(std::vector<std::string> good,
@@ -150,6 +158,24 @@ TEST(BadInput, IsRefusedInOneLineThatNamesIt) {
       {{"calibrate", "--board", "9x6", "--square", "0.03", "-o", f.at("c.yaml")},
        "heel calibrate: ",
        "images"},
+      // ── bench vision ──
+      {{"bench"}, "heel bench: ", "subcommand"},
+      {f.bench({"--frobnicate"}), "heel bench vision: ", "--frobnicate"},
+      {f.bench({"--frames", "0"}), "heel bench vision: ", "--frames"},
+      {f.bench({"--size", "640"}), "heel bench vision: ", "--size: '640' (expected WxH"},
+      {f.bench({"--size", "640x480x2"}), "heel bench vision: ", "--size: '640x480x2'"},
+      {f.bench({"--size", "64x48"}), "heel bench vision: ", "--size: '64x48'"},
+      {f.bench({"--picture", f.at("bench.xyz")}),
+       "heel bench vision: ", "bench.xyz: unknown kind of picture"},
+      {f.bench({"--template", f.at("shirt.heel")}),
+       "heel bench vision: ", "--template: given without an input"},
+      {f.bench({image}), "heel bench vision: ", "--template: missing"},
+      {f.bench({image, "--template", f.at("shirt.heel")}), "heel bench vision: ", "--camera-info: missing"},
+      {f.bench(f.own({image, "--size", "640x480"})), "heel bench vision: ", "--size: given with an input"},
+      {f.bench(f.own({f.at("absent.mp4")})), "heel bench vision: ", "absent.mp4: cannot read: No such file"},
+      {f.bench(f.own({f.at("small.png")})),
+       "heel bench vision: ", "small.png: 320x240 pixels (expected 640x480"},
+      {f.bench(f.own({image})), "heel bench vision: ", "back.png: frames: 1 (expected 2 or more"},
   };
   for (const Row& row : rows) {
     std::string line;

@@ -3,86 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <opencv2/imgproc.hpp>
+
+#include "canvas.h"
 
 namespace heel::report {
 namespace {
 
-constexpr int kScale = 2;  ///< drawn larger, then reduced
 constexpr int kLeft = 78, kRight = 18, kTop = 62, kBottom = 54;
 constexpr double kLegendYPx = 46;
-const cv::Scalar kInk(40, 40, 40);
-const cv::Scalar kGrid(225, 225, 225);
-
-double nice_step(double size, int wanted) {
-  const double raw = size / wanted;
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= raw) return factor * power;
-  return 10.0 * power;
-}
-
-class Canvas {
- public:
-  Canvas(int width_px, int height_px)
-      : picture_(height_px * kScale, width_px * kScale, CV_8UC3, cv::Scalar::all(255)) {}
-
-  void line(cv::Point2d a, cv::Point2d b, const cv::Scalar& bgr, double width_px) {
-    cv::line(picture_, fixed(a), fixed(b), bgr, std::max(1, static_cast<int>(std::lround(width_px * kScale))),
-             cv::LINE_AA, kShift);
-  }
-  void dot(cv::Point2d at, const cv::Scalar& bgr, double radius_px) {
-    cv::circle(picture_, fixed(at), static_cast<int>(radius_px * kScale * (1 << kShift)), bgr, cv::FILLED,
-               cv::LINE_AA, kShift);
-  }
-  enum class Align { Left, Centre, Right };
-  static double text_width_px(const std::string& text, double size) {
-    int baseline = 0;
-    return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size * kScale, 2, &baseline).width /
-           static_cast<double>(kScale);
-  }
-  void text(const std::string& text, cv::Point2d at, double size, Align align, bool bold = false) {
-    const int thickness = bold ? 3 : 2;
-    int baseline = 0;
-    const cv::Size extent =
-        cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size * kScale, thickness, &baseline);
-    double x = at.x * kScale;
-    if (align == Align::Centre) x -= 0.5 * extent.width;
-    if (align == Align::Right) x -= extent.width;
-    cv::putText(picture_, text, cv::Point(static_cast<int>(x), static_cast<int>(at.y * kScale)),
-                cv::FONT_HERSHEY_SIMPLEX, size * kScale, kInk, thickness, cv::LINE_AA);
-  }
-  /// Text running upwards, centred on `at`.
-  void text_upwards(const std::string& text, cv::Point2d at, double size) {
-    int baseline = 0;
-    const cv::Size extent = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size * kScale, 2, &baseline);
-    cv::Mat label(extent.height + 2 * baseline, extent.width, CV_8UC3, cv::Scalar::all(255));
-    cv::putText(label, text, {0, extent.height + baseline / 2}, cv::FONT_HERSHEY_SIMPLEX, size * kScale, kInk,
-                2, cv::LINE_AA);
-    cv::rotate(label, label, cv::ROTATE_90_COUNTERCLOCKWISE);
-    const cv::Point corner(static_cast<int>(at.x * kScale) - label.cols / 2,
-                           std::max(0, static_cast<int>(at.y * kScale) - label.rows / 2));
-    const cv::Rect place = cv::Rect(corner, label.size()) & cv::Rect({0, 0}, picture_.size());
-    label(cv::Rect({0, 0}, place.size())).copyTo(picture_(place));
-  }
-  void box(cv::Rect2d area, const cv::Scalar& bgr) {
-    cv::rectangle(picture_, cv::Point(area.tl() * kScale), cv::Point(area.br() * kScale), bgr, kScale,
-                  cv::LINE_AA);
-  }
-  cv::Mat reduced() const {
-    cv::Mat out;
-    cv::resize(picture_, out, {}, 1.0 / kScale, 1.0 / kScale, cv::INTER_AREA);
-    return out;
-  }
-
- private:
-  static constexpr int kShift = 4;
-  static cv::Point fixed(cv::Point2d p) {
-    return {static_cast<int>(std::lround(p.x * kScale * (1 << kShift))),
-            static_cast<int>(std::lround(p.y * kScale * (1 << kShift)))};
-  }
-  cv::Mat picture_;
-};
 
 void widen(Span& span, double value) {
   span = {std::min(span.low, value), std::max(span.high, value)};

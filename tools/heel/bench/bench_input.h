@@ -1,0 +1,36 @@
+// What vision is measured on: a sequence of frames, the camera that took them and the shirt looked for.
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "heel/flow.h"
+#include "heel/shirt_template.h"
+
+namespace heel::bench {
+
+struct BenchFrame {
+  cv::Mat grey;  ///< 8-bit, continuous
+  TimeNs t_capture_ns = 0;
+
+  FrameView view(std::uint64_t sequence) const;
+};
+
+struct BenchInput {
+  std::string source;  ///< for people: where the frames come from
+  ShirtTemplate shirt;
+  CameraModel camera;
+  std::vector<BenchFrame> frames;  ///< the first is for warming up only
+};
+
+inline constexpr double kWorldRateHz = 30.0;
+/// What the simulated world is rendered for at most: the person's path is so long.
+inline constexpr int kMaxWorldFrames = 600;
+
+/// A person walks a figure of eight through a cluttered room, the camera following, `size` pixels, 30 Hz. The
+/// pictures depend on nothing that is measured. Throws heel::Error when the shirt cannot be taught from such
+/// pictures (too small).
+BenchInput walk_in_a_room(cv::Size size, int frames);
+
+}  // namespace heel::bench

@@ -1,0 +1,18 @@
+// The machine a benchmark ran on, as far as it bears on the times.
+#pragma once
+
+#include <string>
+
+namespace heel::bench {
+
+struct Machine {
+  std::string cpu;  ///< as the kernel names it
+  unsigned cores = 0;
+  std::string simd;        ///< the instruction set Highway has chosen
+  std::string opencv;      ///< version
+  double load_1min = 0.0;  ///< load average when asked
+};
+
+Machine this_machine();
+
+}  // namespace heel::bench

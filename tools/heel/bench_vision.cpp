@@ -1,0 +1,124 @@
+// heel bench vision: the vision stages beside OpenCV's features, matcher and homography, in one run.
+#include <unistd.h>
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "commands.h"
+#include "frame_input.h"
+#include "heel/bench/vision_report.h"
+#include "heel/error.h"
+#include "image_file.h"
+
+namespace heel::cli {
+namespace {
+
+constexpr int kDefaultFrames = 60;
+constexpr int kLeastSidePx = 240, kMostSidePx = 2160;
+constexpr double kImageRateHz = 30.0;
+
+struct BenchVisionOptions {
+  std::vector<std::string> inputs;
+  std::string template_file;
+  std::string camera_file;
+  std::string size;
+  int frames = kDefaultFrames;
+  bool json = false;
+  std::string picture;
+};
+
+cv::Size parse_size(const std::string& text) {
+  int width = 0, height = 0;
+  char rest = 0;
+  const bool whole = std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2;
+  if (!whole || width < kLeastSidePx || height < kLeastSidePx || width > 2 * kMostSidePx ||
+      height > kMostSidePx || width < height)
+    throw Error("--size: '" + text + "' (expected WxH, from 240x240 to 4320x2160, not higher than wide)");
+  return {width, height};
+}
+
+/// The first `frames` + 1 of somebody's own pictures.
+bench::BenchInput own_input(const BenchVisionOptions& options) {
+  if (options.template_file.empty() || options.camera_file.empty())
+    throw Error(std::string(options.template_file.empty() ? "--template" : "--camera-info") +
+                ": missing (expected with an input)");
+  bench::BenchInput input;
+  input.shirt = read_template(options.template_file);
+  input.camera = read_camera_model(options.camera_file);
+  input.source = options.inputs.front();
+  FrameInput frames(options.inputs, kImageRateHz);
+  InputFrame frame;
+  while (input.frames.size() <= static_cast<std::size_t>(options.frames) && frames.next(frame)) {
+    require_size(frame, input.camera, options.camera_file);
+    input.frames.push_back({frame.grey.clone(), ns_from_seconds(frame.t_s)});
+  }
+  return input;
+}
+
+bench::BenchInput input_of(const BenchVisionOptions& options) {
+  if (!options.inputs.empty()) {
+    if (!options.size.empty()) throw Error("--size: given with an input (expected one of the two)");
+    return own_input(options);
+  }
+  for (const auto& [name, value] :
+       {std::pair{"--template", options.template_file}, std::pair{"--camera-info", options.camera_file}})
+    if (!value.empty())
+      throw Error(std::string(name) + ": given without an input (expected images or a video)");
+  const cv::Size size = parse_size(options.size.empty() ? "640x480" : options.size);
+  return bench::walk_in_a_room(size, options.frames + 1);
+}
+
+/// A counter on a terminal.
+void show_progress(std::size_t frame, std::size_t frames) {
+  if (isatty(STDERR_FILENO) != 1) return;
+  std::fprintf(stderr, frame == frames ? "\r\033[K" : "\rframe %zu of %zu", frame, frames);
+}
+
+void run_bench_vision(const BenchVisionOptions& options) {
+  if (!options.picture.empty()) require_writable_picture_name(options.picture);
+  const bench::BenchInput input = input_of(options);
+  bench::VisionReport report;
+  report.machine = bench::this_machine();
+  report.source = input.source;
+  report.frames = input.frames.empty() ? 0 : input.frames.size() - 1;
+  report.size = {input.camera.width_px, input.camera.height_px};
+  report.bench =
+      bench::measure_vision(input, [&](std::size_t frame) { show_progress(frame, report.frames); });
+  std::cout << (options.json ? bench::to_json(report).dump(2) + "\n" : bench::table(report));
+  if (!options.picture.empty()) write_picture(options.picture, bench::bars(report));
+}
+
+}  // namespace
+
+void add_bench_vision_command(CLI::App& bench) {
+  auto options = std::make_shared<BenchVisionOptions>();
+  CLI::App* command = bench.add_subcommand(
+      "vision",
+      "Each stage of vision, a frame searched everywhere and one tracked, beside cv::ORB, AKAZE, SIFT,\n"
+      "BFMatcher, findHomography and decomposeHomographyMat: thread CPU time, all in turns on every frame.\n"
+      "Ratios are of medians; goals hold at 640x480. Exit status 0 whatever is reached.");
+  command
+      ->add_option("inputs", options->inputs,
+                   "images, folders of images, videos to measure on (default: a person's walk through a\n"
+                   "simulated room)")
+      ->type_name("INPUT");
+  command->add_option("--template", options->template_file, "with an input: template file")
+      ->type_name("T.heel");
+  command->add_option("--camera-info", options->camera_file, "with an input: the camera that took it")
+      ->type_name("CAM.yaml");
+  command->add_option("--frames", options->frames, "frames measured, after one for warming up")
+      ->type_name("N")
+      ->check(CLI::Range(1, bench::kMaxWorldFrames))
+      ->capture_default_str();
+  command->add_option("--size", options->size, "of the simulated pictures (default 640x480)")
+      ->type_name("WxH");
+  command->add_flag("--json", options->json, "one JSON object (default: a table)");
+  command->add_option("--picture", options->picture, "draw the times as bars")->type_name("P.png");
+  command->callback([options] { run_bench_vision(*options); });
+}
+
+}  // namespace heel::cli
