@@ -41,35 +41,75 @@ HWY_INLINE hn::Vec<F32> lerp(hn::Vec<F32> a, hn::Vec<F32> b, hn::Vec<F32> t) {
   return hn::Add(a, hn::Mul(t, hn::Sub(b, a)));
 }
 
+// Where the columns of an upright grid lie in the integral image, four at a time: the column before each grid
+// line, as an index, and how far beyond that the line lies.
+using F4 = hn::FixedTag<float, 4>;
+using I4 = hn::RebindToSigned<F4>;
+using U4 = hn::RebindToUnsigned<F4>;
+
+struct GridColumns {
+  static constexpr int kPadded = (kGridLines + 3) / 4 * 4;
+  HWY_ALIGN std::array<std::int32_t, kPadded> index;
+  HWY_ALIGN std::array<float, kPadded> fraction;
+  HWY_ALIGN std::array<std::uint32_t, 2 * kPadded> base;  // what the base line holds there: left, right, left …
+};
+
+// The two sums left and right of each of two grid lines: one 64-bit read a grid line where a gather of single
+// values would need two.
+HWY_INLINE hn::Vec<U4> load_pairs(const std::uint32_t* line, const std::int32_t* index) {
+  const hn::FixedTag<std::uint32_t, 2> d2;
+  return hn::Combine(U4(), hn::LoadU(d2, line + index[1]), hn::LoadU(d2, line + index[0]));
+}
+
+void place_columns(const IntegralImage& integral, float x0, float first, float spacing_px,
+                   const std::uint32_t* base, GridColumns& columns) {
+  const F4 d;
+  const I4 di;
+  for (int i = 0; i < GridColumns::kPadded; i += 4) {
+    const auto step = hn::Add(hn::Iota(d, static_cast<float>(i)), hn::Set(d, first));
+    const auto x = hn::Add(hn::Set(d, x0), hn::Mul(step, hn::Set(d, spacing_px)));
+    const auto index = hn::Min(hn::Max(hn::ConvertTo(di, hn::Floor(x)), hn::Zero(di)),
+                               hn::Set(di, integral.width_px() - 1));
+    hn::Store(index, di, columns.index.data() + i);
+    hn::Store(hn::Sub(x, hn::ConvertTo(d, index)), d, columns.fraction.data() + i);
+    hn::Store(load_pairs(base, columns.index.data() + i), U4(), columns.base.data() + 2 * i);
+    hn::Store(load_pairs(base, columns.index.data() + i + 2), U4(), columns.base.data() + 2 * i + 4);
+  }
+}
+
 void SampleUprightGrid(const IntegralImage& integral, float x_px, float y_px, float spacing_px, int lines,
                        Patch& grid) {
-  const F32 d;
+  const F4 d;
   const float first = -0.5f * static_cast<float>(lines - 1);
   const float x0 = x_px + 0.5f, y0 = y_px + 0.5f;  // pixel centres in the integral image
   const int base_y = std::min(std::max(static_cast<int>(y0), 0), integral.height_px());
   const std::uint32_t* base = integral.row(base_y);
-  const std::size_t base_x =
-      static_cast<std::size_t>(std::min(std::max(static_cast<int>(x0), 0), integral.width_px()));
-  for (int i = 0; i < lines; i += static_cast<int>(hn::Lanes(d))) {
-    const auto step = hn::Add(hn::Iota(d, static_cast<float>(i)), hn::Set(d, first));
-    const Lines x =
-        split(hn::Add(hn::Set(d, x0), hn::Mul(step, hn::Set(d, spacing_px))), integral.width_px());
-    const auto base_left = hn::GatherIndex(U32(), base, x.index);
-    const auto base_right = hn::GatherIndex(U32(), base + 1, x.index);
-    for (int j = 0; j < lines; ++j) {
-      const float y = y0 + (first + static_cast<float>(j)) * spacing_px;
-      const float y_floor = std::floor(y);
-      const int row = std::min(std::max(static_cast<int>(y_floor), 0), integral.height_px() - 1);
-      const std::uint32_t* upper = integral.row(row);
-      const std::uint32_t* lower = integral.row(row + 1);
-      const auto at = [&](const std::uint32_t* line, std::size_t offset, hn::Vec<U32> base_value) {
-        const auto origin = hn::Set(U32(), line[base_x] - base[base_x]);
-        return difference(hn::Sub(hn::GatherIndex(U32(), line + offset, x.index), base_value), origin);
+  const int base_x = std::min(std::max(static_cast<int>(x0), 0), integral.width_px());
+  GridColumns columns;
+  place_columns(integral, x0, first, spacing_px, base, columns);
+  for (int j = 0; j < lines; ++j) {
+    const float y = y0 + (first + static_cast<float>(j)) * spacing_px;
+    const int row = std::min(std::max(static_cast<int>(std::floor(y)), 0), integral.height_px() - 1);
+    const std::uint32_t* upper = integral.row(row);
+    const std::uint32_t* lower = integral.row(row + 1);
+    const auto upper_origin = hn::Set(U4(), upper[base_x] - base[base_x]);
+    const auto lower_origin = hn::Set(U4(), lower[base_x] - base[base_x]);
+    const auto down = hn::Set(d, y - static_cast<float>(row));
+    // Both neighbours of two grid lines at height y, left and right in turn.
+    const auto between_rows = [&](int i) {
+      const auto base_sums = hn::Load(U4(), columns.base.data() + 2 * i);
+      const auto at = [&](const std::uint32_t* line, hn::Vec<U4> origin) {
+        const auto sums = hn::Sub(load_pairs(line, columns.index.data() + i), base_sums);
+        return hn::ConvertTo(d, hn::BitCast(I4(), hn::Sub(sums, origin)));
       };
-      const auto top = lerp(at(upper, 0, base_left), at(upper, 1, base_right), x.fraction);
-      const auto bottom = lerp(at(lower, 0, base_left), at(lower, 1, base_right), x.fraction);
-      hn::StoreU(lerp(top, bottom, hn::Set(d, y - static_cast<float>(row))), d,
-                 grid.data() + j * kPatchStride + i);
+      const auto top = at(upper, upper_origin);
+      return hn::Add(top, hn::Mul(down, hn::Sub(at(lower, lower_origin), top)));
+    };
+    for (int i = 0; i < lines; i += 4) {
+      const auto low = between_rows(i), high = between_rows(i + 2);
+      const auto left = hn::ConcatEven(d, high, low), right = hn::ConcatOdd(d, high, low);
+      const auto across = hn::Load(d, columns.fraction.data() + i);
+      hn::StoreU(hn::Add(left, hn::Mul(across, hn::Sub(right, left))), d, grid.data() + j * kPatchStride + i);
     }
   }
 }

@@ -20,6 +20,7 @@ inline constexpr int kCells = 4;                    // subregions along a side
 inline constexpr int kCellSide = 9;
 inline constexpr int kCellStep = 5;
 static_assert(kCellStep * (kCells - 1) + kCellSide == kResponses);
+static_assert(kCellSide <= 2 * kCellStep);  // a response belongs to two subregions at most
 
 struct Weights {
   std::array<float, kCellSide> inside{};  // of a response in its subregion
@@ -52,40 +53,66 @@ using Four = hn::FixedTag<float, 4>;
 
 constexpr int kColumns = 32;  // kResponses rounded up to whole vectors
 
-// Sums down the columns of one row of subregions: [column][Σdx, Σdy, Σ|dx|, Σ|dy|].
-HWY_INLINE void sum_columns(const Patch& cells, int first_row, float* sums) {
+// Haar responses of side two cells, from the four cells round each one's centre.
+struct Haar {
+  hn::Vec<F32> dx, dy;
+};
+
+HWY_INLINE Haar haar_responses(const float* cells) {
   const F32 d;
-  for (int i = 0; i < kResponses; i += static_cast<int>(hn::Lanes(d))) {
-    auto sum_dx = hn::Zero(d), sum_dy = sum_dx, sum_abs_dx = sum_dx, sum_abs_dy = sum_dx;
-    const float* row = cells.data() + first_row * kPatchStride + i;
-    for (int k = 0; k < kCellSide; ++k, row += kPatchStride) {
-      // A Haar response of side two cells, from the four cells round its centre.
-      const auto top_left = hn::LoadU(d, row), top_right = hn::LoadU(d, row + 1);
-      const auto bottom_left = hn::LoadU(d, row + kPatchStride);
-      const auto bottom_right = hn::LoadU(d, row + kPatchStride + 1);
-      const auto falling = hn::Sub(bottom_right, top_left), rising = hn::Sub(top_right, bottom_left);
-      const auto dx = hn::Add(falling, rising), dy = hn::Sub(falling, rising);
-      const auto weight = hn::Set(d, kWeights.inside[static_cast<std::size_t>(k)]);
-      sum_dx = hn::Add(sum_dx, hn::Mul(weight, dx));
-      sum_dy = hn::Add(sum_dy, hn::Mul(weight, dy));
-      sum_abs_dx = hn::Add(sum_abs_dx, hn::Mul(weight, hn::Abs(dx)));
-      sum_abs_dy = hn::Add(sum_abs_dy, hn::Mul(weight, hn::Abs(dy)));
+  const auto falling = hn::Sub(hn::LoadU(d, cells + kPatchStride + 1), hn::LoadU(d, cells));
+  const auto rising = hn::Sub(hn::LoadU(d, cells + 1), hn::LoadU(d, cells + kPatchStride));
+  return {hn::Add(falling, rising), hn::Sub(falling, rising)};
+}
+
+// A subregion's Σdx, Σdy, Σ|dx|, Σ|dy| down its columns.
+struct ColumnSums {
+  hn::Vec<F32> dx, dy, abs_dx, abs_dy;
+
+  HWY_INLINE void start() { dx = dy = abs_dx = abs_dy = hn::Zero(F32()); }
+  HWY_INLINE void add(const Haar& haar, int row_inside) {
+    const F32 d;
+    const auto weight = hn::Set(d, kWeights.inside[static_cast<std::size_t>(row_inside)]);
+    dx = hn::Add(dx, hn::Mul(weight, haar.dx));
+    dy = hn::Add(dy, hn::Mul(weight, haar.dy));
+    abs_dx = hn::Add(abs_dx, hn::Mul(weight, hn::Abs(haar.dx)));
+    abs_dy = hn::Add(abs_dy, hn::Mul(weight, hn::Abs(haar.dy)));
+  }
+  HWY_INLINE void store(float* sums) const { hn::StoreInterleaved4(dx, dy, abs_dx, abs_dy, F32(), sums); }
+};
+
+// Down the columns from `column` on, every response computed once: the last rows of a subregion are also the
+// first of the next. sums[subregion row][column][Σdx, Σdy, Σ|dx|, Σ|dy|]
+HWY_INLINE void sum_columns(const Patch& cells, int column, std::array<float, 4 * kColumns>* sums) {
+  const float* row = cells.data() + column;
+  ColumnSums own, next;
+  own.start();
+  int k = 0;  // row inside the subregion
+  for (int cy = 0; cy < kCells; ++cy) {
+    next.start();
+    for (; k < kCellStep; ++k, row += kPatchStride) own.add(haar_responses(row), k);
+    for (; k < kCellSide; ++k, row += kPatchStride) {
+      const Haar haar = haar_responses(row);
+      own.add(haar, k);
+      next.add(haar, k - kCellStep);
     }
-    hn::StoreInterleaved4(sum_dx, sum_dy, sum_abs_dx, sum_abs_dy, d, sums + 4 * i);
+    own.store(sums[cy].data() + 4 * column);
+    own = next;
+    k -= kCellStep;
   }
 }
 
 void SumSubregions(const Patch& cells, Descriptor& descriptor) {
   const Four d4;
-  HWY_ALIGN float sums[4 * kColumns];
+  HWY_ALIGN std::array<float, 4 * kColumns> sums[kCells];
+  for (int i = 0; i < kResponses; i += static_cast<int>(hn::Lanes(F32()))) sum_columns(cells, i, sums);
   auto squares = hn::Zero(d4);
   for (int cy = 0; cy < kCells; ++cy) {
-    sum_columns(cells, cy * kCellStep, sums);
     for (int cx = 0; cx < kCells; ++cx) {
       auto sum = hn::Zero(d4);
       for (int k = 0; k < kCellSide; ++k) {
         const auto weight = hn::Set(d4, kWeights.inside[static_cast<std::size_t>(k)]);
-        sum = hn::Add(sum, hn::Mul(weight, hn::Load(d4, sums + 4 * (cx * kCellStep + k))));
+        sum = hn::Add(sum, hn::Mul(weight, hn::Load(d4, sums[cy].data() + 4 * (cx * kCellStep + k))));
       }
       sum = hn::Mul(sum, hn::Set(d4, kWeights.across[static_cast<std::size_t>(cy)] *
                                          kWeights.across[static_cast<std::size_t>(cx)]));
