@@ -51,7 +51,8 @@ struct GridColumns {
   static constexpr int kPadded = (kGridLines + 3) / 4 * 4;
   HWY_ALIGN std::array<std::int32_t, kPadded> index;
   HWY_ALIGN std::array<float, kPadded> fraction;
-  HWY_ALIGN std::array<std::uint32_t, 2 * kPadded> base;  // what the base line holds there: left, right, left …
+  HWY_ALIGN std::array<std::uint32_t, 2 * kPadded>
+      base;  // what the base line holds there: left, right, left …
 };
 
 // The two sums left and right of each of two grid lines: one 64-bit read a grid line where a gather of single
@@ -68,8 +69,8 @@ void place_columns(const IntegralImage& integral, float x0, float first, float s
   for (int i = 0; i < GridColumns::kPadded; i += 4) {
     const auto step = hn::Add(hn::Iota(d, static_cast<float>(i)), hn::Set(d, first));
     const auto x = hn::Add(hn::Set(d, x0), hn::Mul(step, hn::Set(d, spacing_px)));
-    const auto index = hn::Min(hn::Max(hn::ConvertTo(di, hn::Floor(x)), hn::Zero(di)),
-                               hn::Set(di, integral.width_px() - 1));
+    const auto index =
+        hn::Min(hn::Max(hn::ConvertTo(di, hn::Floor(x)), hn::Zero(di)), hn::Set(di, integral.width_px() - 1));
     hn::Store(index, di, columns.index.data() + i);
     hn::Store(hn::Sub(x, hn::ConvertTo(d, index)), d, columns.fraction.data() + i);
     hn::Store(load_pairs(base, columns.index.data() + i), U4(), columns.base.data() + 2 * i);

@@ -9,6 +9,8 @@ namespace heel {
 namespace {
 
 constexpr int kRingRows = 3;
+// Nine responses of a layer round one sample cost as much as so many of a row.
+constexpr int kSamplesPerPatch = 24;
 
 // Samples [first, last) of a row or column.
 struct SampleRange {
@@ -67,10 +69,13 @@ struct FastHessian::Octave {
   int step = 1;
   Region region;
   float sigma_min_px = 0.f, sigma_max_px = 0.f;  // what the octave is answerable for
-  // Where maxima are looked for in each layer, and where its responses are needed for that; empty: nowhere.
+  // Where maxima are looked for in each layer, and where its responses may be needed for that; empty:
+  // nowhere.
   std::array<SampleRange, kLayersPerOctave> search_rows{}, search_cols{};
   std::array<SampleRange, kLayersPerOctave> rows{}, cols{};
   SampleRange all_rows;
+
+  bool searched(int layer) const { return !search_rows[static_cast<std::size_t>(layer)].empty(); }
 };
 
 FastHessian::FastHessian(int max_width_px)
@@ -123,12 +128,11 @@ FastHessian::Octave FastHessian::plan_octave(const IntegralImage& integral, cons
 
 void FastHessian::detect_octave(const IntegralImage& integral, const Octave& octave,
                                 KeypointSelection& selection) {
+  for (auto& holds : ring_holds_) holds.fill(-1);
   for (int row = octave.all_rows.first; row < octave.all_rows.last; ++row) {
-    for (int layer = 0; layer < kLayersPerOctave; ++layer) {
-      const auto l = static_cast<std::size_t>(layer);
-      if (!octave.rows[l].contains(row)) continue;
-      hessian_response_row(integral, octave_filter(octave.index, layer), row * octave.step, octave.step,
-                           octave.cols[l].first, octave.cols[l].last, work_, ring_row(layer, row));
+    for (int layer = 1; layer + 1 < kLayersPerOctave; ++layer) {
+      if (octave.searched(layer) && octave.rows[static_cast<std::size_t>(layer)].contains(row))
+        make_rows(integral, octave, layer, row, row + 1);
     }
     for (int layer = 1; layer + 1 < kLayersPerOctave; ++layer) {
       if (octave.search_rows[static_cast<std::size_t>(layer)].contains(row - 1))
@@ -137,35 +141,77 @@ void FastHessian::detect_octave(const IntegralImage& integral, const Octave& oct
   }
 }
 
+void FastHessian::make_rows(const IntegralImage& integral, const Octave& octave, int layer, int first,
+                            int last) {
+  const auto l = static_cast<std::size_t>(layer);
+  for (int row = first; row < last; ++row) {
+    int& holds = ring_holds_[l][static_cast<std::size_t>(row % kRingRows)];
+    if (holds == row) continue;
+    hessian_response_row(integral, octave_filter(octave.index, layer), row * octave.step, octave.step,
+                         octave.cols[l].first, octave.cols[l].last, work_, ring_row(layer, row));
+    holds = row;
+  }
+}
+
+bool FastHessian::has_rows_round(int layer, int row) const {
+  for (int r = row - 1; r <= row + 1; ++r) {
+    if (ring_holds_[static_cast<std::size_t>(layer)][static_cast<std::size_t>(r % kRingRows)] != r)
+      return false;
+  }
+  return true;
+}
+
+LayerRows FastHessian::rows_round(int layer, int row) {
+  return {ring_row(layer, row - 1), ring_row(layer, row), ring_row(layer, row + 1)};
+}
+
 void FastHessian::find_in_row(const IntegralImage& integral, const Octave& octave, int layer, int row,
                               KeypointSelection& selection) {
-  ResponseNeighbourhood rows;
-  for (int dl = -1; dl <= 1; ++dl) {
-    for (int dy = -1; dy <= 1; ++dy)
-      rows[static_cast<std::size_t>(dl + 1)][static_cast<std::size_t>(dy + 1)] =
-          ring_row(layer + dl, row + dy);
-  }
   const SampleRange cols = octave.search_cols[static_cast<std::size_t>(layer)];
-  const int count = find_maxima_row(rows, cols.first, cols.last, selection.threshold(), found_.data());
+  std::array<LayerRows, 2> others;
+  std::size_t known = 0;
+  for (const int near : {layer - 1, layer + 1}) {
+    if (octave.searched(near)) others[known++] = rows_round(near, row);
+  }
+  const int count = find_maxima_row(rows_round(layer, row), {others.data(), known}, cols.first, cols.last,
+                                    selection.threshold(), found_.data());
+  if (count * kSamplesPerPatch > cols.last - cols.first) {
+    for (const int near : {layer - 1, layer + 1}) make_rows(integral, octave, near, row - 1, row + 2);
+  }
+  for (int k = 0; k < count; ++k)
+    refine(integral, octave, layer, row, found_[static_cast<std::size_t>(k)], selection);
+}
+
+/// A sample that is a maximum as far as its neighbours are known.
+void FastHessian::refine(const IntegralImage& integral, const Octave& octave, int layer, int row, int column,
+                         KeypointSelection& selection) {
+  ResponseCube cube;
+  for (int near = layer - 1; near <= layer + 1; ++near) {
+    ResponsePatch& patch = cube[static_cast<std::size_t>(near - layer + 1)];
+    if (has_rows_round(near, row)) {
+      const LayerRows rows = rows_round(near, row);
+      for (std::size_t j = 0; j < 3; ++j) std::copy_n(rows[j] + column - 1, 3, patch[j].data());
+    } else {
+      hessian_response_patch(integral, octave_filter(octave.index, near), column * octave.step,
+                             row * octave.step, octave.step, patch);
+    }
+  }
+  const std::optional<ScaleSpacePeak> peak = fit_scale_space_peak(cube);
+  if (!peak) return;
   const auto step = static_cast<float>(octave.step);
   const BoxFilter filter = octave_filter(octave.index, layer);
   const auto side_step = static_cast<float>(octave_filter(octave.index, layer + 1).side() - filter.side());
-  for (int k = 0; k < count; ++k) {
-    const int i = found_[static_cast<std::size_t>(k)];
-    const std::optional<ScaleSpacePeak> peak = fit_scale_space_peak(rows, i);
-    if (!peak) continue;
-    Feature keypoint;
-    keypoint.x_px = step * (static_cast<float>(i) + peak->dx);
-    keypoint.y_px = step * (static_cast<float>(row) + peak->dy);
-    keypoint.sigma_px =
-        BoxFilter::kSigmaPerSide * (static_cast<float>(filter.side()) + side_step * peak->dlayer);
-    keypoint.response = peak->response;
-    keypoint.octave = static_cast<std::uint8_t>(octave.index);
-    if (keypoint.sigma_px < octave.sigma_min_px || keypoint.sigma_px > octave.sigma_max_px) continue;
-    if (!inside(octave.region, keypoint)) continue;
-    keypoint.laplacian = laplacian_sign(integral, filter, i * octave.step, row * octave.step);
-    selection.add(keypoint);
-  }
+  Feature keypoint;
+  keypoint.x_px = step * (static_cast<float>(column) + peak->dx);
+  keypoint.y_px = step * (static_cast<float>(row) + peak->dy);
+  keypoint.sigma_px =
+      BoxFilter::kSigmaPerSide * (static_cast<float>(filter.side()) + side_step * peak->dlayer);
+  keypoint.response = peak->response;
+  keypoint.octave = static_cast<std::uint8_t>(octave.index);
+  if (keypoint.sigma_px < octave.sigma_min_px || keypoint.sigma_px > octave.sigma_max_px) return;
+  if (!inside(octave.region, keypoint)) return;
+  keypoint.laplacian = laplacian_sign(integral, filter, column * octave.step, row * octave.step);
+  selection.add(keypoint);
 }
 
 }  // namespace heel

@@ -2,7 +2,9 @@
 // Hessians over position and scale, refined by a quadratic fit.
 //
 // Octave o samples every 2^o-th pixel with filters of side 3 (2^(o+1) (i+1) + 1), i = 0…3. Rows are streamed:
-// a response lives in a ring of three rows from the moment it is made until its neighbours are known.
+// a response lives in a ring of three rows from the moment it is made until its neighbours are known. A layer
+// in which no maxima are looked for is only a neighbour of others: its responses are computed round their
+// maxima alone, or by the row where these stand too close for that to pay.
 #pragma once
 
 #include <array>
@@ -40,10 +42,16 @@ class FastHessian {
   void detect_octave(const IntegralImage& integral, const Octave& octave, KeypointSelection& selection);
   void find_in_row(const IntegralImage& integral, const Octave& octave, int layer, int row,
                    KeypointSelection& selection);
+  void refine(const IntegralImage& integral, const Octave& octave, int layer, int row, int column,
+              KeypointSelection& selection);
+  void make_rows(const IntegralImage& integral, const Octave& octave, int layer, int first, int last);
+  bool has_rows_round(int layer, int row) const;
+  LayerRows rows_round(int layer, int row);
   float* ring_row(int layer, int row);
 
   std::size_t ring_stride_;
-  std::vector<float> ring_;  ///< [layer][row mod 3][sample]
+  std::vector<float> ring_;                                        ///< [layer][row mod 3][sample]
+  std::array<std::array<int, 3>, kLayersPerOctave> ring_holds_{};  ///< which row; −1: none
   std::vector<std::int32_t> found_;
   HessianRowWork work_;
 };

@@ -48,42 +48,46 @@ void difference_rows(const IntegralImage& integral, BoxFilter filter, int y, int
 }
 
 // Every kStep-th column from `columns` on; kStep 0 stands for any larger step, given at run time.
-template <int kStep>
-HWY_INLINE hn::Vec<U32> load_every(const std::uint32_t* columns, int step) {
-  const U32 d;
+template <int kStep, class D = U32>
+HWY_INLINE hn::Vec<D> load_every(const std::uint32_t* columns, int step) {
+  const D d;
+  const hn::RebindToSigned<D> di;
   if constexpr (kStep == 1) {
     return hn::LoadU(d, columns);
   } else if constexpr (kStep == 2) {
     return hn::ConcatEven(d, hn::LoadU(d, columns + hn::Lanes(d)), hn::LoadU(d, columns));
   } else {
-    return hn::GatherIndex(d, columns, hn::Mul(hn::Iota(I32(), 0), hn::Set(I32(), step)));
+    return hn::GatherIndex(d, columns, hn::Mul(hn::Iota(di, 0), hn::Set(di, step)));
   }
 }
 
-HWY_INLINE hn::Vec<F32> to_float(hn::Vec<U32> differences) {
-  return hn::ConvertTo(F32(), hn::BitCast(I32(), differences));
+// det(H) from its box sums.
+template <class D>
+HWY_INLINE hn::Vec<D> determinant(D d, BoxFilter filter, hn::Vec<hn::RebindToUnsigned<D>> xx,
+                                  hn::Vec<hn::RebindToUnsigned<D>> yy, hn::Vec<hn::RebindToUnsigned<D>> xy) {
+  const hn::RebindToSigned<D> di;
+  const float area = static_cast<float>(filter.side() * filter.side()) * 255.f;
+  const auto dxx = hn::ConvertTo(d, hn::BitCast(di, xx)), dyy = hn::ConvertTo(d, hn::BitCast(di, yy));
+  const auto dxy = hn::ConvertTo(d, hn::BitCast(di, xy));
+  const auto det = hn::Sub(hn::Mul(dxx, dyy), hn::Mul(hn::Set(d, 0.81f), hn::Mul(dxy, dxy)));
+  return hn::Mul(det, hn::Set(d, 1.f / (area * area)));
 }
 
 template <int kStep>
 void response_row(HessianRowWork& work, BoxFilter filter, int step, int first, int last, float* response) {
   const F32 d;
   const int l = filter.lobe, half = filter.half(), mid = (l - 1) / 2;
-  const float area = static_cast<float>(filter.side() * filter.side()) * 255.f;
-  const auto scale = hn::Set(d, 1.f / (area * area));
-  const auto weight = hn::Set(d, 0.81f);
   for (int i = first; i < last; i += static_cast<int>(hn::Lanes(d))) {
     const std::uint32_t* xx = work.xx() + i * step;
     const std::uint32_t* yy = work.yy() + i * step;
     const std::uint32_t* xy = work.xy() + i * step;
     const auto whole = hn::Sub(load_every<kStep>(xx + half + 1, step), load_every<kStep>(xx - half, step));
     const auto middle = hn::Sub(load_every<kStep>(xx + mid + 1, step), load_every<kStep>(xx - mid, step));
-    const auto dxx = to_float(hn::Sub(whole, hn::Add(middle, hn::Add(middle, middle))));
-    const auto dyy = to_float(hn::Sub(load_every<kStep>(yy + l, step), load_every<kStep>(yy - l + 1, step)));
+    const auto dxx = hn::Sub(whole, hn::Add(middle, hn::Add(middle, middle)));
+    const auto dyy = hn::Sub(load_every<kStep>(yy + l, step), load_every<kStep>(yy - l + 1, step));
     const auto left = hn::Sub(load_every<kStep>(xy, step), load_every<kStep>(xy - l, step));
     const auto right = hn::Sub(load_every<kStep>(xy + l + 1, step), load_every<kStep>(xy + 1, step));
-    const auto dxy = to_float(hn::Sub(left, right));
-    const auto det = hn::Sub(hn::Mul(dxx, dyy), hn::Mul(weight, hn::Mul(dxy, dxy)));
-    hn::StoreU(hn::Mul(det, scale), d, response + i);
+    hn::StoreU(determinant(d, filter, dxx, dyy, hn::Sub(left, right)), d, response + i);
   }
 }
 
@@ -101,32 +105,78 @@ void HessianResponseRow(const IntegralImage& integral, BoxFilter filter, int y, 
   }
 }
 
+// One row of the patch: three samples (and one more that nobody asked for), straight from the integral image.
+template <int kStep>
+HWY_INLINE hn::Vec<hn::FixedTag<float, 4>> patch_row(const IntegralImage& integral, BoxFilter filter, int x,
+                                                     int y, int step) {
+  using U4 = hn::FixedTag<std::uint32_t, 4>;
+  const int l = filter.lobe, half = filter.half(), mid = (l - 1) / 2;
+  // The box from rows y + top to y + bottom and columns x + left to x + right, ends not included.
+  const auto box = [&](int top, int bottom, int left, int right) {
+    const std::uint32_t* above = integral.row(y + top) + x;
+    const std::uint32_t* below = integral.row(y + bottom) + x;
+    return hn::Sub(
+        hn::Sub(load_every<kStep, U4>(below + right, step), load_every<kStep, U4>(below + left, step)),
+        hn::Sub(load_every<kStep, U4>(above + right, step), load_every<kStep, U4>(above + left, step)));
+  };
+  const auto less_three = [](hn::Vec<U4> whole, hn::Vec<U4> middle) {
+    return hn::Sub(whole, hn::Add(middle, hn::Add(middle, middle)));
+  };
+  const auto xx = less_three(box(1 - l, l, -half, half + 1), box(1 - l, l, -mid, mid + 1));
+  const auto yy = less_three(box(-half, half + 1, 1 - l, l), box(-mid, mid + 1, 1 - l, l));
+  const auto falling = hn::Add(box(-l, 0, -l, 0), box(1, l + 1, 1, l + 1));
+  const auto rising = hn::Add(box(-l, 0, 1, l + 1), box(1, l + 1, -l, 0));
+  return determinant(hn::FixedTag<float, 4>(), filter, xx, yy, hn::Sub(falling, rising));
+}
+
+template <int kStep>
+HWY_INLINE void patch_rows(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
+                           ResponsePatch& patch) {
+  const hn::FixedTag<float, 4> d;
+  HWY_ALIGN float row[4];
+  for (int j = 0; j < 3; ++j) {
+    hn::Store(patch_row<kStep>(integral, filter, x - step, y + (j - 1) * step, step), d, row);
+    std::copy_n(row, 3, patch[static_cast<std::size_t>(j)].data());
+  }
+}
+
+void HessianResponsePatch(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
+                          ResponsePatch& patch) {
+  switch (step) {
+    case 1:
+      return patch_rows<1>(integral, filter, x, y, step, patch);
+    case 2:
+      return patch_rows<2>(integral, filter, x, y, step, patch);
+    default:
+      return patch_rows<0>(integral, filter, x, y, step, patch);
+  }
+}
+
 HWY_INLINE hn::Vec<F32> max_of_three(const float* row, int i) {
   const F32 d;
   return hn::Max(hn::LoadU(d, row + i), hn::Max(hn::LoadU(d, row + i - 1), hn::LoadU(d, row + i + 1)));
 }
 
-HWY_INLINE hn::Vec<F32> max_of_nine(const std::array<const float*, 3>& rows, int i) {
+HWY_INLINE hn::Vec<F32> max_of_nine(const LayerRows& rows, int i) {
   return hn::Max(max_of_three(rows[1], i), hn::Max(max_of_three(rows[0], i), max_of_three(rows[2], i)));
 }
 
-int FindMaximaRow(const ResponseNeighbourhood& rows, int first, int last, float threshold,
-                  std::int32_t* found) {
+int FindMaximaRow(const LayerRows& own, std::span<const LayerRows> others, int first, int last,
+                  float threshold, std::int32_t* found) {
   const F32 d;
   const I32 di;
   int count = 0;
   const auto floor = hn::Set(d, threshold);
   for (int i = first; i < last; i += static_cast<int>(hn::Lanes(d))) {
-    const auto centre = hn::LoadU(d, rows[1][1] + i);
-    const auto strong = hn::Gt(centre, floor);
-    if (hn::AllFalse(d, strong)) continue;
-    const auto own = hn::And(strong, hn::Ge(centre, max_of_nine(rows[1], i)));
-    if (hn::AllFalse(d, own)) continue;
-    const auto others = hn::Max(max_of_nine(rows[0], i), max_of_nine(rows[2], i));
+    const auto centre = hn::LoadU(d, own[1] + i);
+    auto is_max = hn::Gt(centre, floor);
+    if (hn::AllFalse(d, is_max)) continue;
+    is_max = hn::And(is_max, hn::Ge(centre, max_of_nine(own, i)));
+    if (hn::AllFalse(d, is_max)) continue;
+    for (const LayerRows& other : others) is_max = hn::And(is_max, hn::Ge(centre, max_of_nine(other, i)));
     const auto index = hn::Iota(di, i);
-    const auto is_max =
-        hn::And(hn::RebindMask(di, hn::And(own, hn::Ge(centre, others))), hn::Lt(index, hn::Set(di, last)));
-    count += static_cast<int>(hn::CompressStore(index, is_max, di, found + count));
+    const auto wanted = hn::And(hn::RebindMask(di, is_max), hn::Lt(index, hn::Set(di, last)));
+    count += static_cast<int>(hn::CompressStore(index, wanted, di, found + count));
   }
   return count;
 }
@@ -139,6 +189,7 @@ HWY_AFTER_NAMESPACE();
 namespace heel {
 
 HWY_EXPORT(HessianResponseRow);
+HWY_EXPORT(HessianResponsePatch);
 HWY_EXPORT(FindMaximaRow);
 
 HessianRowWork::HessianRowWork(int max_width_px)
@@ -152,9 +203,14 @@ void hessian_response_row(const IntegralImage& integral, BoxFilter filter, int y
   HWY_DYNAMIC_DISPATCH(HessianResponseRow)(integral, filter, y, step, first, last, work, response);
 }
 
-int find_maxima_row(const ResponseNeighbourhood& rows, int first, int last, float threshold,
-                    std::int32_t* found) {
-  return HWY_DYNAMIC_DISPATCH(FindMaximaRow)(rows, first, last, threshold, found);
+void hessian_response_patch(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
+                            ResponsePatch& patch) {
+  HWY_DYNAMIC_DISPATCH(HessianResponsePatch)(integral, filter, x, y, step, patch);
+}
+
+int find_maxima_row(const LayerRows& own, std::span<const LayerRows> others, int first, int last,
+                    float threshold, std::int32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(FindMaximaRow)(own, others, first, last, threshold, found);
 }
 
 std::int8_t laplacian_sign(const IntegralImage& integral, BoxFilter filter, int x, int y) {

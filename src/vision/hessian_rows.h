@@ -1,5 +1,5 @@
-// One row of fast-Hessian responses, and one row of maxima: the two loops over all pixels, in SIMD.
-// Results are the same to the bit whatever the instruction set.
+// Rows of fast-Hessian responses and of their maxima, the two loops over all pixels, and the responses round
+// a single sample, in SIMD. Results are the same to the bit whatever the instruction set.
 #pragma once
 
 #include <hwy/aligned_allocator.h>
@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "vision/integral_image.h"
 
@@ -43,13 +44,22 @@ inline constexpr int kResponsePadding = 32;
 void hessian_response_row(const IntegralImage& integral, BoxFilter filter, int y, int step, int first,
                           int last, HessianRowWork& work, float* response);
 
-/// Rows of three neighbouring layers (finer, own, coarser) × three neighbouring sample rows.
-using ResponseNeighbourhood = std::array<std::array<const float*, 3>, 3>;
+/// Responses of one layer at 3 × 3 neighbouring samples: [row][column].
+using ResponsePatch = std::array<std::array<float, 3>, 3>;
 
-/// Writes the i in [first, last) whose response in the middle exceeds `threshold` and is not less than any of
-/// its 26 neighbours; returns how many. `found` has room for last − first + kResponsePadding.
-int find_maxima_row(const ResponseNeighbourhood& rows, int first, int last, float threshold,
-                    std::int32_t* found);
+/// The same responses, to the bit, at the nine samples round pixel (x, y), `step` apart. The filter must fit
+/// the image at all of them.
+void hessian_response_patch(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
+                            ResponsePatch& patch);
+
+/// Three neighbouring sample rows of one layer.
+using LayerRows = std::array<const float*, 3>;
+
+/// Writes the i in [first, last) whose response in the middle of `own` exceeds `threshold` and is not less
+/// than any of its neighbours, eight in its own layer and nine in each of `others`; returns how many. `found`
+/// has room for last − first + kResponsePadding.
+int find_maxima_row(const LayerRows& own, std::span<const LayerRows> others, int first, int last,
+                    float threshold, std::int32_t* found);
 
 /// Sign of the trace Dxx + Dyy at pixel (x, y): +1 for a dark blob on light.
 std::int8_t laplacian_sign(const IntegralImage& integral, BoxFilter filter, int x, int y);

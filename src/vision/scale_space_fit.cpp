@@ -10,13 +10,17 @@ namespace {
 // peaks (on the Oxford pairs, repeatability .416 at 0.6 and .433 at 1.0).
 constexpr double kMaxOffset = 1.0;
 
-bool first_of_equals(const ResponseNeighbourhood& rows, int i) {
-  const float centre = rows[1][1][i];
-  for (std::size_t layer = 0; layer < 3; ++layer) {
-    for (std::size_t row = 0; row < 3; ++row) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        if (layer == 1 && row == 1 && dx == 0) return true;
-        if (rows[layer][row][i + dx] == centre) return false;
+bool is_first_maximum(const ResponseCube& cube) {
+  const float centre = cube[1][1][1];
+  bool before = true;
+  for (const ResponsePatch& patch : cube) {
+    for (const auto& row : patch) {
+      for (const float& response : row) {
+        if (&response == &cube[1][1][1]) {
+          before = false;
+        } else if (response > centre || (before && response == centre)) {
+          return false;
+        }
       }
     }
   }
@@ -25,11 +29,11 @@ bool first_of_equals(const ResponseNeighbourhood& rows, int i) {
 
 }  // namespace
 
-std::optional<ScaleSpacePeak> fit_scale_space_peak(const ResponseNeighbourhood& rows, int i) {
-  if (!first_of_equals(rows, i)) return std::nullopt;
+std::optional<ScaleSpacePeak> fit_scale_space_peak(const ResponseCube& cube) {
+  if (!is_first_maximum(cube)) return std::nullopt;
   const auto r = [&](int layer, int row, int dx) {
-    return static_cast<double>(
-        rows[static_cast<std::size_t>(layer + 1)][static_cast<std::size_t>(row + 1)][i + dx]);
+    return static_cast<double>(cube[static_cast<std::size_t>(layer + 1)][static_cast<std::size_t>(row + 1)]
+                                   [static_cast<std::size_t>(dx + 1)]);
   };
   // Gradient g and Hessian H by central differences.
   const double centre = r(0, 0, 0);

@@ -2,6 +2,7 @@
 // its 27 neighbours (M. Brown and D. Lowe, "Invariant features from interest point groups", BMVC 2002).
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "vision/hessian_rows.h"
@@ -15,8 +16,11 @@ struct ScaleSpacePeak {
   float response = 0.f;  ///< of the quadratic at the peak
 };
 
-/// Nothing when the middle sample is not the only maximum of its neighbourhood (of equals the first in layer,
-/// row and column order counts), when the quadratic has no peak, or when it lies too far off.
-std::optional<ScaleSpacePeak> fit_scale_space_peak(const ResponseNeighbourhood& rows, int i);
+/// Responses of three neighbouring layers (finer, own, coarser): [layer][row][column].
+using ResponseCube = std::array<ResponsePatch, 3>;
+
+/// Nothing when the middle sample is not the maximum of the cube (of equals the first in layer, row and
+/// column order counts), when the quadratic has no peak, or when it lies too far off.
+std::optional<ScaleSpacePeak> fit_scale_space_peak(const ResponseCube& cube);
 
 }  // namespace heel
