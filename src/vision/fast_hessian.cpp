@@ -186,14 +186,15 @@ void FastHessian::find_in_row(const IntegralImage& integral, const Octave& octav
 void FastHessian::refine(const IntegralImage& integral, const Octave& octave, int layer, int row, int column,
                          KeypointSelection& selection) {
   ResponseCube cube;
+  const float centre = ring_row(layer, row)[column];
   for (int near = layer - 1; near <= layer + 1; ++near) {
     ResponsePatch& patch = cube[static_cast<std::size_t>(near - layer + 1)];
     if (has_rows_round(near, row)) {
       const LayerRows rows = rows_round(near, row);
       for (std::size_t j = 0; j < 3; ++j) std::copy_n(rows[j] + column - 1, 3, patch[j].data());
-    } else {
-      hessian_response_patch(integral, octave_filter(octave.index, near), column * octave.step,
-                             row * octave.step, octave.step, patch);
+    } else if (!hessian_response_patch(integral, octave_filter(octave.index, near), column * octave.step,
+                                       row * octave.step, octave.step, centre, patch)) {
+      return;
     }
   }
   const std::optional<ScaleSpacePeak> peak = fit_scale_space_peak(cube);

@@ -1,6 +1,9 @@
 // The extractor behind heel/features.h: integral image → fast-Hessian → selection → orientation → descriptor.
 #include <algorithm>
+#include <cstdint>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include "heel/error.h"
 #include "heel/features.h"
@@ -42,7 +45,11 @@ struct FeatureExtractor::Impl {
         max_features(given.max_features),
         integral(width_px, height_px),
         hessian(width_px),
-        selection(static_cast<std::size_t>(given.max_features) * kCandidatesPerFeature) {}
+        selection(static_cast<std::size_t>(given.max_features) * kCandidatesPerFeature) {
+    downwards.reserve(static_cast<std::size_t>(given.max_features));
+  }
+
+  void describe_all(FeatureSet& out);
 
   FeatureSettings settings;
   int max_width_px, max_height_px;
@@ -50,8 +57,24 @@ struct FeatureExtractor::Impl {
   IntegralImage integral;
   FastHessian hessian;
   KeypointSelection selection;
+  std::vector<std::uint32_t> downwards;  // the features found, from the top of the image
   StageTimes* times = nullptr;
 };
+
+/// From the top of the image downwards, so that the part of the integral image that is read stays in cache;
+/// from the strongest on it would be somewhere else every time.
+void FeatureExtractor::Impl::describe_all(FeatureSet& out) {
+  downwards.resize(out.features.size());
+  std::iota(downwards.begin(), downwards.end(), 0U);
+  std::sort(downwards.begin(), downwards.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return out.features[a].y_px < out.features[b].y_px; });
+  out.descriptors.resize(out.features.size());
+  for (const std::uint32_t i : downwards) {
+    Feature& feature = out.features[i];
+    if (settings.oriented) feature.angle_rad = dominant_orientation(integral, feature);
+    describe(integral, feature, !settings.oriented, out.descriptors[i]);
+  }
+}
 
 FeatureExtractor::FeatureExtractor(int max_width_px, int max_height_px, const FeatureSettings& settings) {
   check(settings);
@@ -109,12 +132,7 @@ void FeatureExtractor::extract(const FrameView& frame, const Region& region, Fea
     s.selection.strongest(wanted, out.features);
   }
   mark(s.times, VisionStage::Selection);
-  out.descriptors.resize(out.features.size());
-  for (std::size_t i = 0; i < out.features.size(); ++i) {
-    Feature& feature = out.features[i];
-    if (s.settings.oriented) feature.angle_rad = dominant_orientation(s.integral, feature);
-    describe(s.integral, feature, !s.settings.oriented, out.descriptors[i]);
-  }
+  s.describe_all(out);
   mark(s.times, VisionStage::Description);
 }
 

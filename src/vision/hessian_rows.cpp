@@ -1,6 +1,7 @@
 #include "vision/hessian_rows.h"
 
 #include <algorithm>
+#include <bit>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "vision/hessian_rows.cpp"
@@ -130,25 +131,30 @@ HWY_INLINE hn::Vec<hn::FixedTag<float, 4>> patch_row(const IntegralImage& integr
 }
 
 template <int kStep>
-HWY_INLINE void patch_rows(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
-                           ResponsePatch& patch) {
+HWY_INLINE bool patch_rows(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
+                           float not_above, ResponsePatch& patch) {
   const hn::FixedTag<float, 4> d;
+  const auto three = hn::FirstN(d, 3);
+  const auto limit = hn::Set(d, not_above);
   HWY_ALIGN float row[4];
-  for (int j = 0; j < 3; ++j) {
-    hn::Store(patch_row<kStep>(integral, filter, x - step, y + (j - 1) * step, step), d, row);
+  for (const int j : {1, 0, 2}) {  // the middle first: most that exceed the limit stand there
+    const auto responses = patch_row<kStep>(integral, filter, x - step, y + (j - 1) * step, step);
+    if (!hn::AllFalse(d, hn::And(three, hn::Gt(responses, limit)))) return false;
+    hn::Store(responses, d, row);
     std::copy_n(row, 3, patch[static_cast<std::size_t>(j)].data());
   }
+  return true;
 }
 
-void HessianResponsePatch(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
-                          ResponsePatch& patch) {
+bool HessianResponsePatch(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
+                          float not_above, ResponsePatch& patch) {
   switch (step) {
     case 1:
-      return patch_rows<1>(integral, filter, x, y, step, patch);
+      return patch_rows<1>(integral, filter, x, y, step, not_above, patch);
     case 2:
-      return patch_rows<2>(integral, filter, x, y, step, patch);
+      return patch_rows<2>(integral, filter, x, y, step, not_above, patch);
     default:
-      return patch_rows<0>(integral, filter, x, y, step, patch);
+      return patch_rows<0>(integral, filter, x, y, step, not_above, patch);
   }
 }
 
@@ -161,22 +167,39 @@ HWY_INLINE hn::Vec<F32> max_of_nine(const LayerRows& rows, int i) {
   return hn::Max(max_of_three(rows[1], i), hn::Max(max_of_three(rows[0], i), max_of_three(rows[2], i)));
 }
 
+// Those of Lanes samples from i on that are maxima above `floor`: the cheapest comparisons first, since few
+// samples pass them.
+HWY_INLINE hn::Mask<F32> maxima(const LayerRows& own, std::span<const LayerRows> others, int i,
+                                hn::Vec<F32> floor) {
+  const F32 d;
+  const auto centre = hn::LoadU(d, own[1] + i);
+  const auto beside = hn::Max(hn::LoadU(d, own[1] + i - 1), hn::LoadU(d, own[1] + i + 1));
+  const auto cross = hn::Max(beside, hn::Max(hn::LoadU(d, own[0] + i), hn::LoadU(d, own[2] + i)));
+  auto is_max = hn::And(hn::Gt(centre, floor), hn::Ge(centre, cross));
+  if (hn::AllFalse(d, is_max)) return is_max;
+  is_max = hn::And(is_max, hn::Ge(centre, hn::Max(max_of_three(own[0], i), max_of_three(own[2], i))));
+  for (const LayerRows& other : others) {
+    if (hn::AllFalse(d, is_max)) return is_max;
+    is_max = hn::And(is_max, hn::Ge(centre, max_of_nine(other, i)));
+  }
+  return is_max;
+}
+
 int FindMaximaRow(const LayerRows& own, std::span<const LayerRows> others, int first, int last,
                   float threshold, std::int32_t* found) {
   const F32 d;
-  const I32 di;
   int count = 0;
   const auto floor = hn::Set(d, threshold);
   for (int i = first; i < last; i += static_cast<int>(hn::Lanes(d))) {
-    const auto centre = hn::LoadU(d, own[1] + i);
-    auto is_max = hn::Gt(centre, floor);
+    const auto is_max = maxima(own, others, i, floor);
     if (hn::AllFalse(d, is_max)) continue;
-    is_max = hn::And(is_max, hn::Ge(centre, max_of_nine(own, i)));
-    if (hn::AllFalse(d, is_max)) continue;
-    for (const LayerRows& other : others) is_max = hn::And(is_max, hn::Ge(centre, max_of_nine(other, i)));
-    const auto index = hn::Iota(di, i);
-    const auto wanted = hn::And(hn::RebindMask(di, is_max), hn::Lt(index, hn::Set(di, last)));
-    count += static_cast<int>(hn::CompressStore(index, wanted, di, found + count));
+    // Few and far between: written one by one, since a masked store is slow on many processors.
+    std::uint64_t bits = 0;
+    hn::StoreMaskBits(d, is_max, reinterpret_cast<std::uint8_t*>(&bits));
+    for (; bits != 0; bits &= bits - 1) {
+      const int k = i + std::countr_zero(bits);
+      if (k < last) found[count++] = k;
+    }
   }
   return count;
 }
@@ -203,9 +226,9 @@ void hessian_response_row(const IntegralImage& integral, BoxFilter filter, int y
   HWY_DYNAMIC_DISPATCH(HessianResponseRow)(integral, filter, y, step, first, last, work, response);
 }
 
-void hessian_response_patch(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
-                            ResponsePatch& patch) {
-  HWY_DYNAMIC_DISPATCH(HessianResponsePatch)(integral, filter, x, y, step, patch);
+bool hessian_response_patch(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
+                            float not_above, ResponsePatch& patch) {
+  return HWY_DYNAMIC_DISPATCH(HessianResponsePatch)(integral, filter, x, y, step, not_above, patch);
 }
 
 int find_maxima_row(const LayerRows& own, std::span<const LayerRows> others, int first, int last,

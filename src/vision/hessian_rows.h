@@ -48,9 +48,9 @@ void hessian_response_row(const IntegralImage& integral, BoxFilter filter, int y
 using ResponsePatch = std::array<std::array<float, 3>, 3>;
 
 /// The same responses, to the bit, at the nine samples round pixel (x, y), `step` apart. The filter must fit
-/// the image at all of them.
-void hessian_response_patch(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
-                            ResponsePatch& patch);
+/// the image at all of them. False, and the patch undefined, when one of them exceeds `not_above`.
+bool hessian_response_patch(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
+                            float not_above, ResponsePatch& patch);
 
 /// Three neighbouring sample rows of one layer.
 using LayerRows = std::array<const float*, 3>;
