@@ -39,7 +39,8 @@ struct RansacSettings {
   double confidence = 0.999;   ///< stop when a better sample is this unlikely
   int max_iterations = 10000;  ///< 0.999 sure with 83 % wrong
   std::uint64_t seed = 1;
-  TimeNs budget_ns = 0;  ///< 0: no deadline; otherwise the best so far is returned when it has passed
+  TimeNs budget_ns = 0;   ///< 0: no deadline; otherwise the best so far is returned when it has passed
+  bool precision = true;  ///< compute rms_px and covariance as well
 };
 
 struct RobustHomography {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "shape_plausibility.h"
 
@@ -18,47 +19,46 @@ float squared_distance(const Descriptor& a, const Descriptor& b) {
 }  // namespace
 
 GuidedMatcher::GuidedMatcher(int max_cur, const GuidedMatchSettings& settings) : settings_(settings) {
-  by_row_.reserve(static_cast<std::size_t>(max_cur));
-  row_px_.reserve(static_cast<std::size_t>(max_cur));
+  candidates_.reserve(static_cast<std::size_t>(max_cur));
   taken_by_.reserve(static_cast<std::size_t>(max_cur));
 }
 
-void GuidedMatcher::sort_by_row(std::span<const Eigen::Vector2d> cur_px) {
-  by_row_.clear();
-  for (std::size_t i = 0; i < cur_px.size(); ++i) by_row_.push_back(static_cast<std::int32_t>(i));
-  std::sort(by_row_.begin(), by_row_.end(), [&](std::int32_t a, std::int32_t b) {
-    const double ya = cur_px[static_cast<std::size_t>(a)].y(), yb = cur_px[static_cast<std::size_t>(b)].y();
-    return ya < yb || (ya == yb && a < b);
+void GuidedMatcher::look_at(const FeatureSet& cur, std::span<const Eigen::Vector2d> cur_px) {
+  cur_ = &cur;
+  candidates_.clear();
+  for (std::size_t i = 0; i < cur_px.size(); ++i)
+    candidates_.push_back({cur_px[i].y(), cur_px[i].x(), static_cast<double>(cur.features[i].sigma_px),
+                           static_cast<std::int32_t>(i), cur.features[i].laplacian});
+  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.y_px, a.index) < std::tie(b.y_px, b.index);
   });
-  row_px_.clear();
-  for (const std::int32_t i : by_row_) row_px_.push_back(cur_px[static_cast<std::size_t>(i)].y());
 }
 
 void GuidedMatcher::match(const Eigen::Matrix3d& H_cur_from_ref, const FeatureSet& ref,
-                          std::span<const Eigen::Vector2d> ref_px, const FeatureSet& cur,
-                          std::span<const Eigen::Vector2d> cur_px, std::vector<Match>& out) {
-  sort_by_row(cur_px);
-  taken_by_.assign(cur_px.size(), -1);
+                          std::span<const Eigen::Vector2d> ref_px, std::vector<Match>& out) {
+  taken_by_.assign(candidates_.size(), -1);
   out.clear();
-  const double log_scale_ratio = std::log(settings_.scale_ratio);
   const double radius2_px2 = settings_.radius_px * settings_.radius_px;
 
   for (std::size_t r = 0; r < ref.features.size(); ++r) {
-    const Eigen::Vector3d image = H_cur_from_ref * ref_px[r].homogeneous();
-    const Eigen::Vector2d predicted_px = image.hnormalized();
+    const Eigen::Vector2d predicted_px = (H_cur_from_ref * ref_px[r].homogeneous()).hnormalized();
     const double predicted_sigma =
         static_cast<double>(ref.features[r].sigma_px) * local_scale(H_cur_from_ref, ref_px[r]);
+    const double smallest_sigma = predicted_sigma / settings_.scale_ratio;
+    const double largest_sigma = predicted_sigma * settings_.scale_ratio;
     float nearest2 = std::numeric_limits<float>::infinity(), second2 = nearest2;
     std::size_t nearest = 0;
-    auto row = std::lower_bound(row_px_.begin(), row_px_.end(), predicted_px.y() - settings_.radius_px);
-    for (; row != row_px_.end() && *row <= predicted_px.y() + settings_.radius_px; ++row) {
-      const auto c = static_cast<std::size_t>(by_row_[static_cast<std::size_t>(row - row_px_.begin())]);
-      const Feature& feature = cur.features[c];
-      if (feature.laplacian != ref.features[r].laplacian) continue;
-      if (!((cur_px[c] - predicted_px).squaredNorm() < radius2_px2)) continue;
-      if (std::abs(std::log(static_cast<double>(feature.sigma_px) / predicted_sigma)) > log_scale_ratio)
-        continue;
-      const float distance2 = squared_distance(ref.descriptors[r], cur.descriptors[c]);
+    auto candidate =
+        std::lower_bound(candidates_.begin(), candidates_.end(), predicted_px.y() - settings_.radius_px,
+                         [](const Candidate& c, double y_px) { return c.y_px < y_px; });
+    for (; candidate != candidates_.end() && candidate->y_px <= predicted_px.y() + settings_.radius_px;
+         ++candidate) {
+      if (candidate->laplacian != ref.features[r].laplacian) continue;
+      const double dx_px = candidate->x_px - predicted_px.x(), dy_px = candidate->y_px - predicted_px.y();
+      if (!(dx_px * dx_px + dy_px * dy_px < radius2_px2)) continue;
+      if (candidate->sigma_px < smallest_sigma || candidate->sigma_px > largest_sigma) continue;
+      const auto c = static_cast<std::size_t>(candidate->index);
+      const float distance2 = squared_distance(ref.descriptors[r], cur_->descriptors[c]);
       if (distance2 < nearest2) {
         second2 = nearest2;
         nearest2 = distance2;

@@ -20,23 +20,33 @@ struct GuidedMatchSettings {
   float ratio = 0.9f;         ///< nearest / second nearest within the radius
 };
 
-/// Pairs template features with frame features under H. `ref_px` and `cur_px` are the features' undistorted
-/// positions, in their order. Each frame feature is given to at most one template feature, the nearest.
+/// Pairs template features with frame features under H. Each frame feature is given to at most one template
+/// feature, the nearest.
 class GuidedMatcher {
  public:
   GuidedMatcher(int max_cur, const GuidedMatchSettings& settings);
 
-  /// Allocates nothing when `out` has capacity for a match for each template feature.
+  /// The frame's features for the matches to come, and their undistorted positions, in the same order; both
+  /// are to outlive these.
+  void look_at(const FeatureSet& cur, std::span<const Eigen::Vector2d> cur_px);
+
+  /// `ref_px`: the template features' undistorted positions, in their order. Allocates nothing when `out` has
+  /// capacity for a match for each template feature.
   void match(const Eigen::Matrix3d& H_cur_from_ref, const FeatureSet& ref,
-             std::span<const Eigen::Vector2d> ref_px, const FeatureSet& cur,
-             std::span<const Eigen::Vector2d> cur_px, std::vector<Match>& out);
+             std::span<const Eigen::Vector2d> ref_px, std::vector<Match>& out);
 
  private:
-  void sort_by_row(std::span<const Eigen::Vector2d> cur_px);
+  /// What is asked first of a frame feature, top to bottom.
+  struct Candidate {
+    double y_px, x_px;
+    double sigma_px;
+    std::int32_t index;
+    std::int8_t laplacian;
+  };
 
   GuidedMatchSettings settings_;
-  std::vector<std::int32_t> by_row_;    // frame features, top to bottom
-  std::vector<double> row_px_;          // their y, in that order
+  const FeatureSet* cur_ = nullptr;
+  std::vector<Candidate> candidates_;
   std::vector<std::int32_t> taken_by_;  // for each frame feature, index into `out` or −1
 };
 

@@ -219,21 +219,22 @@ RobustHomography HomographyEstimator::Impl::report(int iterations,
   result.inliers = static_cast<int>(consensus.size());
   for (const std::uint32_t i : consensus_index) inlier_mask[i] = 1;
 
-  const Eigen::Matrix3d H_centred = best_H / best_H(2, 2);
-  const HomographyPrecision precision = homography_precision(consensus, H_centred);
-  result.rms_px = precision.rms_px;
-
   // Back to image coordinates, linear in the entries: H = C H_centred R ...
+  const Eigen::Matrix3d H_centred = best_H / best_H(2, 2);
   Eigen::Matrix3d C = Eigen::Matrix3d::Identity(), R = Eigen::Matrix3d::Identity();
   C.col(2).head<2>() = cur_centre_px;
   R.col(2).head<2>() = -ref_centre_px;
   const Eigen::Matrix3d H = C * H_centred * R;
+  const double h = std::abs(H(2, 2)) > 1e-12 * H.norm() ? H(2, 2) : H.norm();
+  result.H_cur_from_ref = H / h;
+  if (!settings.precision) return result;
+
+  const HomographyPrecision precision = homography_precision(consensus, H_centred);
+  result.rms_px = precision.rms_px;
   Matrix9d L;
   for (int i = 0; i < 9; ++i)
     for (int k = 0; k < 9; ++k) L(i, k) = C(i / 3, k / 3) * R(k % 3, i % 3);
   // ... and to H(2,2) = 1: d(H / h) = (dH − (H / h) dh) / h.
-  const double h = std::abs(H(2, 2)) > 1e-12 * H.norm() ? H(2, 2) : H.norm();
-  result.H_cur_from_ref = H / h;
   Matrix9d scaling = Matrix9d::Identity() / h;
   for (int i = 0; i < 9; ++i) scaling(i, 8) -= result.H_cur_from_ref(i / 3, i % 3) / h;
   const Matrix9d J = scaling * L;

@@ -28,35 +28,17 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   return S;
 }
 
-/// Inverse covariance of a forward residual, noise 1 px in both images: (I + D Dᵀ)⁻¹, D = d cur / d ref.
+using WhitenedPair = FrontalPoseEstimator::WhitenedPair;
+
+/// Of a forward residual whose noise is 1 px in both images: its covariance is S = I + D Dᵀ, D = d cur / d
+/// ref, and L⁻¹ r with S = L Lᵀ has covariance I.
 Eigen::Matrix2d whitening(const Eigen::Matrix3d& H, const Eigen::Vector2d& ref_px) {
   const Eigen::Matrix2d D = projection_jacobian(H * ref_px.homogeneous()) * H.leftCols<2>();
-  return (Eigen::Matrix2d::Identity() + D * D.transpose()).inverse();
-}
-
-/// Evaluates the problem's cost, and on request its Gauss–Newton equations.
-double evaluate(const FrontalProblem& problem, const Pose& pose, GaussNewtonEquations<6>* equations) {
-  const Eigen::Matrix3d K_ref_inverse = problem.K_ref.inverse();
-  double cost = 0.0;
-  for (const PointPair& pair : problem.pairs) {
-    const Eigen::Vector3d rotated = pose.R * (K_ref_inverse * pair.ref_px.homogeneous());
-    const Eigen::Vector3d X_cur = rotated + pose.t;
-    if (X_cur.z() <= 0.0) {
-      cost += kBehindCost;
-      continue;
-    }
-    const Eigen::Vector3d pixel = problem.K_cur * X_cur;
-    const Eigen::Vector2d residual = pixel.hnormalized() - pair.cur_px;
-    const Eigen::Matrix2d W = whitening(problem.H_cur_from_ref, pair.ref_px);
-    cost += residual.dot(W * residual);
-    if (equations == nullptr) continue;
-    const Matrix23d by_point = projection_jacobian(pixel) * problem.K_cur;
-    Matrix26d J;
-    J << by_point * -skew(rotated), by_point;
-    equations->N += J.transpose() * W * J;
-    equations->gradient += J.transpose() * (W * residual);
-  }
-  return cost;
+  const Eigen::Matrix2d S = Eigen::Matrix2d::Identity() + D * D.transpose();
+  const double l00 = std::sqrt(S(0, 0)), l10 = S(1, 0) / l00, l11 = std::sqrt(S(1, 1) - l10 * l10);
+  Eigen::Matrix2d L_inverse;
+  L_inverse << 1.0 / l00, 0.0, -l10 / (l00 * l11), 1.0 / l11;
+  return L_inverse;
 }
 
 Pose turned_and_moved(const Pose& pose, const Vector6d& step) {
@@ -69,14 +51,37 @@ Pose turned_and_moved(const Pose& pose, const Vector6d& step) {
 
 /// The problem as the minimiser sees it.
 struct PoseDescent {
-  const FrontalProblem& problem;
+  std::span<const WhitenedPair> pairs;
+  const Eigen::Matrix3d& K_cur;
 
-  double cost(const Pose& pose) const { return evaluate(problem, pose, nullptr); }
+  double cost(const Pose& pose) const {
+    const Eigen::Matrix3d KR = K_cur * pose.R;
+    const Eigen::Vector3d Kt = K_cur * pose.t;
+    double cost = 0.0;
+    for (const WhitenedPair& pair : pairs) {
+      const Eigen::Vector3d pixel = KR * pair.direction_ref + Kt;  // its third component is the depth
+      cost += pixel.z() > 0.0 ? (pair.whitening * (pixel.hnormalized() - pair.cur_px)).squaredNorm()
+                              : kBehindCost;
+    }
+    return cost;
+  }
+
   GaussNewtonEquations<6> equations(const Pose& pose) const {
     GaussNewtonEquations<6> equations;
-    evaluate(problem, pose, &equations);
+    for (const WhitenedPair& pair : pairs) {
+      const Eigen::Vector3d rotated = pose.R * pair.direction_ref;
+      const Eigen::Vector3d pixel = K_cur * (rotated + pose.t);
+      if (pixel.z() <= 0.0) continue;
+      const Eigen::Vector2d residual = pair.whitening * (pixel.hnormalized() - pair.cur_px);
+      const Matrix23d by_point = pair.whitening * projection_jacobian(pixel) * K_cur;
+      Matrix26d J;
+      J << by_point * -skew(rotated), by_point;
+      equations.N.noalias() += J.transpose() * J;
+      equations.gradient.noalias() += J.transpose() * residual;
+    }
     return equations;
   }
+
   Pose stepped(const Pose& pose, const Vector6d& step) const { return turned_and_moved(pose, step); }
 };
 
@@ -94,21 +99,6 @@ double wrapped(double angle_rad) {
 
 }  // namespace
 
-FrontalMotion refine_frontal_motion(const FrontalProblem& problem, const PlaneMotion& start) {
-  const PoseDescent descent{problem};
-  Pose pose{start.R_cur_from_ref, start.t_over_d};
-  const double cost = levenberg_marquardt(descent, kMotionDescent, pose);
-
-  FrontalMotion motion;
-  motion.R_cur_from_ref = Eigen::Quaterniond(pose.R).normalized().toRotationMatrix();
-  motion.t_over_d = pose.t;
-  motion.cost_px2 = cost;
-  const double variance = cost / std::max(1.0, 2.0 * static_cast<double>(problem.pairs.size()) - 6.0);
-  motion.noise_px = std::sqrt(variance);
-  motion.covariance = variance * descent.equations(pose).N.inverse();
-  return motion;
-}
-
 PlaneMotion mirrored_motion(const FrontalProblem& problem, const FrontalMotion& motion) {
   const Eigen::Vector3d centre_ref = problem.K_ref.inverse() * problem.centre_ref_px.homogeneous();
   const Eigen::Vector3d centre_cur = motion.R_cur_from_ref * centre_ref + motion.t_over_d;
@@ -122,9 +112,37 @@ PlaneMotion mirrored_motion(const FrontalProblem& problem, const FrontalMotion& 
   return other;
 }
 
-FrontalPose estimate_frontal_pose(const FrontalProblem& problem, const PlaneMotion& start) {
-  FrontalMotion chosen = refine_frontal_motion(problem, start);
-  FrontalMotion other = refine_frontal_motion(problem, mirrored_motion(problem, chosen));
+FrontalPoseEstimator::FrontalPoseEstimator(std::size_t max_pairs) : capacity_(max_pairs) {
+  pairs_.reserve(capacity_);
+}
+
+void FrontalPoseEstimator::load(const FrontalProblem& problem) {
+  const Eigen::Matrix3d K_ref_inverse = problem.K_ref.inverse();
+  pairs_.clear();
+  for (const PointPair& pair : problem.pairs.first(std::min(problem.pairs.size(), capacity_)))
+    pairs_.push_back({K_ref_inverse * pair.ref_px.homogeneous(), pair.cur_px,
+                      whitening(problem.H_cur_from_ref, pair.ref_px)});
+}
+
+FrontalMotion FrontalPoseEstimator::refine(const Eigen::Matrix3d& K_cur, const PlaneMotion& start) const {
+  const PoseDescent descent{pairs_, K_cur};
+  Pose pose{start.R_cur_from_ref, start.t_over_d};
+  const double cost = levenberg_marquardt(descent, kMotionDescent, pose);
+
+  FrontalMotion motion;
+  motion.R_cur_from_ref = Eigen::Quaterniond(pose.R).normalized().toRotationMatrix();
+  motion.t_over_d = pose.t;
+  motion.cost_px2 = cost;
+  const double variance = cost / std::max(1.0, 2.0 * static_cast<double>(pairs_.size()) - 6.0);
+  motion.noise_px = std::sqrt(variance);
+  motion.covariance = variance * descent.equations(pose).N.inverse();
+  return motion;
+}
+
+FrontalPose FrontalPoseEstimator::estimate(const FrontalProblem& problem, const PlaneMotion& start) {
+  load(problem);
+  FrontalMotion chosen = refine(problem.K_cur, start);
+  FrontalMotion other = refine(problem.K_cur, mirrored_motion(problem, chosen));
   if (other.cost_px2 < chosen.cost_px2) std::swap(chosen, other);
 
   FrontalPose pose;

@@ -7,7 +7,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "heel/homography.h"
 #include "heel/motion.h"
@@ -34,12 +36,9 @@ struct FrontalMotion {
   Matrix6d covariance = Matrix6d::Zero();
 };
 
-/// Levenberg–Marquardt from `start` (its normal is replaced by (0,0,1)). Total: the result is never worse.
-FrontalMotion refine_frontal_motion(const FrontalProblem& problem, const PlaneMotion& start);
-
 /// The other minimum a plane seen from afar has: its normal mirrored in the line of sight to its centre
 /// (D. Oberkampf, D. DeMenthon, L. Davis, "Iterative pose estimation using coplanar feature points", CVIU
-/// 1996). A start for refine_frontal_motion, which tells which of the two the pixels support.
+/// 1996). A start for the refinement, which tells which of the two the pixels support.
 PlaneMotion mirrored_motion(const FrontalProblem& problem, const FrontalMotion& motion);
 
 /// The better of both minima, with variances that include the chance of having chosen the wrong one.
@@ -50,6 +49,29 @@ struct FrontalPose {
   Eigen::Vector3d t_over_d_sigma = Eigen::Vector3d::Zero();
   double ambiguity = 0.0;  ///< probability of the other minimum, 0…0.5
 };
-FrontalPose estimate_frontal_pose(const FrontalProblem& problem, const PlaneMotion& start);
+
+class FrontalPoseEstimator {
+ public:
+  /// Memory is taken once; of more pairs than `max_pairs` the last are left out.
+  explicit FrontalPoseEstimator(std::size_t max_pairs);
+
+  /// Levenberg–Marquardt to both minima, from `start` (its normal is replaced by (0,0,1)) and from its mirror
+  /// image.
+  FrontalPose estimate(const FrontalProblem& problem, const PlaneMotion& start);
+
+  /// What of a pair stays the same in every step.
+  struct WhitenedPair {
+    Eigen::Vector3d direction_ref;  ///< (x, y, 1): the point on the plane, d = 1
+    Eigen::Vector2d cur_px;
+    Eigen::Matrix2d whitening;  ///< makes the residual's noise 1 px in every direction
+  };
+
+ private:
+  void load(const FrontalProblem& problem);
+  FrontalMotion refine(const Eigen::Matrix3d& K_cur, const PlaneMotion& start) const;
+
+  std::size_t capacity_;
+  std::vector<WhitenedPair> pairs_;
+};
 
 }  // namespace heel

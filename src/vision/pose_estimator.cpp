@@ -70,6 +70,7 @@ RansacSettings ransac_settings(const VisionConfig& config) {
   settings.inlier_px = config.inlier_px;
   settings.max_iterations = config.ransac_iterations;
   settings.budget_ns = static_cast<TimeNs>(config.ransac_budget_ms * static_cast<double>(kNsPerMs));
+  settings.precision = false;  // the pose has its own
   return settings;
 }
 
@@ -132,6 +133,7 @@ struct PoseEstimator::Impl {
   Matcher matcher;
   GuidedMatcher guided_matcher;
   HomographyEstimator homography_estimator;
+  FrontalPoseEstimator frontal_estimator;
   FeatureSet frame_features;
   std::vector<Eigen::Vector2d> frame_px;  // undistorted, one for each feature
   std::vector<Match> matches;
@@ -159,7 +161,8 @@ PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current
       matcher(static_cast<int>(reference.features.size()), config.max_features,
               MatchSettings{static_cast<float>(config.match_ratio), true}),
       guided_matcher(config.max_features, GuidedMatchSettings{}),
-      homography_estimator(static_cast<int>(reference.features.size()), ransac_settings(config)) {
+      homography_estimator(static_cast<int>(reference.features.size()), ransac_settings(config)),
+      frontal_estimator(reference.features.size()) {
   const std::size_t count = reference.features.size();
   for (const Feature& feature : reference.features)
     reference_px.push_back(undistorted(shirt.camera, feature));
@@ -279,9 +282,9 @@ bool PoseEstimator::Impl::scales_agree() {
 /// second starts from a better one. Only now, when the pairs there are have been found, is the certainty held
 /// to its floor.
 PoseReason PoseEstimator::Impl::match_again(PoseEstimate& pose) {
+  guided_matcher.look_at(frame_features, frame_px);
   for (int round = 0; round < kGuidedRounds; ++round) {
-    guided_matcher.match(homography.H_cur_from_ref, reference, reference_px, frame_features, frame_px,
-                         matches);
+    guided_matcher.match(homography.H_cur_from_ref, reference, reference_px, matches);
     pair_up(matches);
     mark(times, VisionStage::GuidedMatching);
     const PoseReason reason = find_homography(pose);
@@ -305,7 +308,7 @@ PoseReason PoseEstimator::Impl::find_motion(PoseEstimate& pose) {
 
   const FrontalProblem problem{inliers, K_ref, K_cur, homography.H_cur_from_ref, centre_px};
   const FrontalPose result =
-      estimate_frontal_pose(problem, motions.motions[static_cast<std::size_t>(choice.best)]);
+      frontal_estimator.estimate(problem, motions.motions[static_cast<std::size_t>(choice.best)]);
   const Eigen::Matrix3d& R = result.motion.R_cur_from_ref;
   const Eigen::Vector3d& t = result.motion.t_over_d;
   const Eigen::Vector3d centre_over_d = R * (K_ref_inverse * centre_px.homogeneous()) + t;

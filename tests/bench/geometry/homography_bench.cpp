@@ -86,8 +86,9 @@ void heel_frontal_pose(benchmark::State& state) {
   const heel_test::View view = heel_test::random_view(random, heel_test::plain_camera());
   const std::vector<PointPair> pairs = heel_test::inlier_pairs(random, view.H, kPairs / 2, 1.0, 0.0);
   const heel::PlaneMotion start{view.R, view.t_over_d, Eigen::Vector3d::UnitZ(), true};
+  heel::FrontalPoseEstimator estimator(pairs.size());
   for (auto _ : state)
-    benchmark::DoNotOptimize(heel::estimate_frontal_pose({pairs, K, K, view.H, {320.0, 240.0}}, start));
+    benchmark::DoNotOptimize(estimator.estimate({pairs, K, K, view.H, {320.0, 240.0}}, start));
 }
 
 BENCHMARK(heel_homography)->Arg(20)->Arg(50)->Arg(80)->Arg(100)->Unit(benchmark::kMicrosecond);

@@ -12,6 +12,7 @@
 namespace {
 
 using heel::FrontalPose;
+using heel::FrontalPoseEstimator;
 using heel::FrontalProblem;
 using heel::PointPair;
 using heel_test::inlier_pairs;
@@ -39,7 +40,7 @@ Outcome solve(const std::vector<PointPair>& pairs, bool& ok) {
   if (!ok) return outcome;
   const heel::PlaneMotion& start = motions.motions[static_cast<std::size_t>(choice.best)];
   outcome.bare_yaw_rad = heel::yaw_of_rotation(start.R_cur_from_ref);
-  outcome.pose = heel::estimate_frontal_pose({pairs, K, K, H, {320.0, 240.0}}, start);
+  outcome.pose = FrontalPoseEstimator(pairs.size()).estimate({pairs, K, K, H, {320.0, 240.0}}, start);
   return outcome;
 }
 
@@ -152,9 +153,9 @@ TEST(FrontalPose, AllocatesNothing) {
   const std::vector<PointPair> pairs = inlier_pairs(random, view.H, 60, 0.7, 0.7);
   const Eigen::Matrix3d K = plain_camera().K();
   const heel::PlaneMotions motions = heel::decompose_plane_motion(K.inverse() * view.H * K);
+  FrontalPoseEstimator estimator(pairs.size());
   const std::uint64_t before = heel::test::allocations_of_this_thread();
-  const FrontalPose pose =
-      heel::estimate_frontal_pose({pairs, K, K, view.H, {320.0, 240.0}}, motions.motions[0]);
+  const FrontalPose pose = estimator.estimate({pairs, K, K, view.H, {320.0, 240.0}}, motions.motions[0]);
   EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
   EXPECT_GT(pose.yaw_sigma_rad, 0.0);
 }
