@@ -13,7 +13,7 @@ target_compile_options(heel_options INTERFACE
   # Fused multiply-add would make results depend on the instruction set.
   -ffp-contract=off)
 
-# The sanitizer presets join the sources of every target (CMAKE_UNITY_BUILD): the same code, built in half the time.
+# All presets but debug join the sources of every target (CMAKE_UNITY_BUILD): the same code, built in half the time.
 if(CMAKE_UNITY_BUILD)
   target_compile_options(heel_options INTERFACE -Wno-subobject-linkage)  # meant for headers; joined sources look like one
 endif()

@@ -3,17 +3,22 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "heel/features.h"
 #include "heel/matching.h"
 #include "reference_surf.h"
 #include "vision/descriptor.h"
+#include "vision/fast_hessian.h"
 #include "vision/hessian_rows.h"
 #include "vision/integral_image.h"
+#include "vision/keypoint_selection.h"
 #include "vision/orientation.h"
+#include "vision/scale_space_fit.h"
 
 namespace heel::test {
 namespace {
@@ -77,6 +82,103 @@ TEST(FeaturesReference, HessianRowsEqualThePaperToSixDigits) {
             << "side " << filter.side() << " step " << step << " sample " << i;
         ASSERT_EQ(laplacian_sign(integral, filter, i * step, y), expected.trace >= 0 ? 1 : -1);
       }
+    }
+  }
+}
+
+TEST(FeaturesReference, ResponsePatchesAreTheRowsOwn) {
+  const TestImage image = noise_image(211, 203, 6);
+  const IntegralImage integral = integral_of(image);
+  HessianRowWork work(image.width_px);
+  std::vector<float> response(static_cast<std::size_t>(image.width_px + kResponsePadding));
+  for (const int lobe : {3, 9, 17, 33}) {
+    for (const int step : {1, 2, 4, 8}) {
+      const BoxFilter filter{lobe};
+      const int x = 13 * 8, y = 12 * 8, column = x / step;
+      ResponsePatch patch;
+      ASSERT_TRUE(hessian_response_patch(integral, filter, x, y, step, 1e9f, patch));
+      float largest = -1e9f;
+      for (int j = 0; j < 3; ++j) {
+        hessian_response_row(integral, filter, y + (j - 1) * step, step, column - 1, column + 2, work,
+                             response.data());
+        for (int i = 0; i < 3; ++i) {
+          const float here = patch[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)];
+          EXPECT_EQ(here, response[static_cast<std::size_t>(column - 1 + i)]) << "lobe " << lobe;
+          largest = std::max(largest, here);
+        }
+      }
+      EXPECT_TRUE(hessian_response_patch(integral, filter, x, y, step, largest, patch));
+      EXPECT_FALSE(
+          hessian_response_patch(integral, filter, x, y, step, std::nextafter(largest, -1.f), patch));
+    }
+  }
+}
+
+/// Every sample of every layer computed and looked at; keypoints of octave 0 from top to bottom.
+std::vector<Feature> keypoints_of_octave_0(const IntegralImage& integral, float threshold) {
+  const int width = integral.width_px(), height = integral.height_px();
+  HessianRowWork work(width);
+  std::vector<std::vector<float>> layers[kLayersPerOctave];
+  for (int layer = 0; layer < kLayersPerOctave; ++layer) {
+    const BoxFilter filter = octave_filter(0, layer);
+    for (int y = 0; y < height; ++y) {
+      layers[layer].emplace_back(static_cast<std::size_t>(width + kResponsePadding));
+      if (y < filter.half() || y >= height - filter.half()) continue;
+      hessian_response_row(integral, filter, y, 1, filter.half(), width - filter.half(), work,
+                           layers[layer].back().data());
+    }
+  }
+  std::vector<Feature> keypoints;
+  for (int layer = 1; layer + 1 < kLayersPerOctave; ++layer) {
+    const int border = octave_filter(0, layer + 1).half() + 1;
+    for (int y = border; y < height - border; ++y) {
+      for (int x = border; x < width - border; ++x) {
+        ResponseCube cube;
+        for (std::size_t l = 0; l < 3; ++l) {
+          for (std::size_t j = 0; j < 3; ++j) {
+            const std::vector<float>& row =
+                layers[layer - 1 + static_cast<int>(l)][static_cast<std::size_t>(y - 1) + j];
+            std::copy_n(row.data() + x - 1, 3, cube[l][j].data());
+          }
+        }
+        if (!(cube[1][1][1] > threshold)) continue;
+        const auto peak = fit_scale_space_peak(cube);
+        if (!peak || !(peak->response > threshold)) continue;
+        Feature keypoint;
+        keypoint.x_px = static_cast<float>(x) + peak->dx;
+        keypoint.y_px = static_cast<float>(y) + peak->dy;
+        keypoint.sigma_px = BoxFilter::kSigmaPerSide *
+                            (static_cast<float>(octave_filter(0, layer).side()) + 6.f * peak->dlayer);
+        keypoint.response = peak->response;
+        keypoints.push_back(keypoint);
+      }
+    }
+  }
+  std::sort(keypoints.begin(), keypoints.end(), stronger);
+  return keypoints;
+}
+
+// The detector computes its outer layers only where it must, sparsely or by the row: blobs leave most of them
+// out, noise has maxima everywhere, and the stripes' and the checkerboard's stand in rows.
+TEST(FeaturesReference, DetectorAgreesWithLookingAtEverySample) {
+  const auto board = [](double period) {
+    return image_of(150, 110, [&](double x, double y) {
+      return 128 + 100 * std::sin(x / period) * std::sin(y / period) + 9 * std::sin(0.37 * x + 0.11 * y);
+    });
+  };
+  for (const TestImage& image : {textured(150, 110, 7), noise_image(150, 110, 8), board(2.0), board(4.1)}) {
+    const IntegralImage integral = integral_of(image);
+    const std::vector<Feature> expected = keypoints_of_octave_0(integral, 1e-4f);
+    FeatureExtractor extractor(150, 110, {.octaves = 1, .max_features = 20000, .spread = false});
+    FeatureSet found;
+    extractor.extract(image.view(), found);
+    ASSERT_GE(expected.size(), 20U);
+    ASSERT_EQ(found.features.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      ASSERT_EQ(found.features[i].x_px, expected[i].x_px) << "keypoint " << i;
+      ASSERT_EQ(found.features[i].y_px, expected[i].y_px) << "keypoint " << i;
+      ASSERT_EQ(found.features[i].sigma_px, expected[i].sigma_px) << "keypoint " << i;
+      ASSERT_EQ(found.features[i].response, expected[i].response) << "keypoint " << i;
     }
   }
 }
