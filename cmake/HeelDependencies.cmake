@@ -23,3 +23,10 @@ foreach(module core imgproc imgcodecs videoio calib3d features2d)
   set_target_properties(opencv_${module} PROPERTIES
     IMPORTED_LOCATION ${OPENCV_${module}_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${OPENCV_INCLUDE_DIR})
 endforeach()
+
+# Highway picks the instruction set at run time, so that no -m option is needed anywhere. What it has for x86-64
+# processors older than SSSE3 (2006) is EMU128: loops over four lanes, which the compiler makes SSE2 of. Highway
+# 1.0 replaces it by one-lane code on GCC before 12.3 because of GCC bug 106322, wrong code for the high half of
+# vectorised integer products; heel multiplies no integers for their high half, and the tests hold EMU128's
+# results to those of every other set.
+target_compile_definitions(PkgConfig::HWY INTERFACE HWY_BROKEN_EMU128=0)

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "heel/bench/vision_report.h"
 #include "heel/error.h"
 #include "image_file.h"
+#include "vision/simd_target.h"
 
 namespace heel::cli {
 namespace {
@@ -27,9 +29,19 @@ struct BenchVisionOptions {
   std::string camera_file;
   std::string size;
   int frames = kDefaultFrames;
+  std::string simd;
   bool json = false;
   std::string picture;
 };
+
+void choose_simd(const std::string& name) {
+  if (name.empty() || use_simd_target(name)) return;
+  std::string expected;
+  for (const std::string_view target : available_simd_targets())
+    expected += (expected.empty() ? "" : ", ") + std::string(target);
+  throw Error("--simd: '" + name + "' (expected one this processor has and heel is built for: " + expected +
+              ")");
+}
 
 cv::Size parse_size(const std::string& text) {
   int width = 0, height = 0;
@@ -80,6 +92,7 @@ void show_progress(std::size_t frame, std::size_t frames) {
 
 void run_bench_vision(const BenchVisionOptions& options) {
   if (!options.picture.empty()) require_writable_picture_name(options.picture);
+  choose_simd(options.simd);
   const bench::BenchInput input = input_of(options);
   bench::VisionReport report;
   report.machine = bench::this_machine();
@@ -116,6 +129,10 @@ void add_bench_vision_command(CLI::App& bench) {
       ->capture_default_str();
   command->add_option("--size", options->size, "of the simulated pictures (default 640x480)")
       ->type_name("WxH");
+  command
+      ->add_option("--simd", options->simd,
+                   "instruction set heel's vision runs with (default: the best this processor has)")
+      ->type_name("NAME");
   command->add_flag("--json", options->json, "one JSON object (default: a table)");
   command->add_option("--picture", options->picture, "draw the times as bars")->type_name("P.png");
   command->callback([options] { run_bench_vision(*options); });

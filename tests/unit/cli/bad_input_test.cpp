@@ -165,6 +165,7 @@ TEST(BadInput, IsRefusedInOneLineThatNamesIt) {
       {f.bench({"--size", "640"}), "heel bench vision: ", "--size: '640' (expected WxH"},
       {f.bench({"--size", "640x480x2"}), "heel bench vision: ", "--size: '640x480x2'"},
       {f.bench({"--size", "64x48"}), "heel bench vision: ", "--size: '64x48'"},
+      {f.bench({"--simd", "MMX"}), "heel bench vision: ", "--simd: 'MMX' (expected one this processor has"},
       {f.bench({"--picture", f.at("bench.xyz")}),
        "heel bench vision: ", "bench.xyz: unknown kind of picture"},
       {f.bench({"--template", f.at("shirt.heel")}),

@@ -1,14 +1,16 @@
 // The fast path held to the plain one (reference_surf.h), stage by stage, and to itself on every instruction
 // set.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "each_simd_target.h"
 #include "heel/features.h"
 #include "heel/matching.h"
 #include "reference_surf.h"
@@ -19,6 +21,7 @@
 #include "vision/keypoint_selection.h"
 #include "vision/orientation.h"
 #include "vision/scale_space_fit.h"
+#include "vision/simd_target.h"
 
 namespace heel::test {
 namespace {
@@ -36,19 +39,6 @@ IntegralImage integral_of(const TestImage& image) {
 
 double angle_between(double a, double b) {
   return std::abs(std::remainder(a - b, 2 * std::numbers::pi));
-}
-
-/// Runs `body` once for each instruction set this processor has, alone.
-template <typename Body>
-void for_each_target(Body body) {
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    SCOPED_TRACE(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(target);
-    body();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 TEST(FeaturesReference, IntegralImageIsTheSumOfPixels) {
@@ -241,6 +231,21 @@ TEST(FeaturesReference, OrientationTurnsWithThePicture) {
   }
 }
 
+TEST(FeaturesReference, OneProgramHoldsEveryInstructionSet) {
+#if defined(__x86_64__)
+  EXPECT_THAT(compiled_simd_targets(), ::testing::ElementsAre("AVX3", "AVX2", "SSE4", "SSSE3", "EMU128"));
+  EXPECT_EQ(available_simd_targets().back(), "EMU128");  // plain SSE2, which every x86-64 processor has
+#elif defined(__aarch64__)
+  EXPECT_THAT(compiled_simd_targets(), ::testing::ElementsAre("NEON"));
+#endif
+  EXPECT_EQ(simd_target_name(), available_simd_targets().front());
+  std::vector<std::string_view> used;
+  for_each_simd_target([&] { used.emplace_back(simd_target_name()); });
+  EXPECT_EQ(used, available_simd_targets());
+  EXPECT_FALSE(use_simd_target("MMX"));
+  EXPECT_EQ(simd_target_name(), available_simd_targets().front());
+}
+
 TEST(FeaturesReference, EveryInstructionSetFindsTheSame) {
   const TestImage image = textured(331, 247, 5);
   for (const bool oriented : {false, true}) {
@@ -249,7 +254,7 @@ TEST(FeaturesReference, EveryInstructionSetFindsTheSame) {
     FeatureSet expected;
     std::vector<Match> expected_matches;
     int targets = 0;
-    for_each_target([&] {
+    for_each_simd_target([&] {
       FeatureSet features;
       extractor.extract(image.view(), features);
       if (targets++ == 0) expected = features;
@@ -273,9 +278,7 @@ TEST(FeaturesReference, EveryInstructionSetFindsTheSame) {
       ASSERT_EQ(matches.size(), expected_matches.size());
       for (std::size_t i = 0; i < matches.size(); ++i) ASSERT_EQ(matches[i].cur, expected_matches[i].cur);
     });
-#if defined(__x86_64__)
-    EXPECT_GE(targets, 2);
-#endif
+    EXPECT_EQ(targets, static_cast<int>(available_simd_targets().size()));
   }
 }
 
