@@ -30,3 +30,9 @@ endforeach()
 # vectorised integer products; heel multiplies no integers for their high half, and the tests hold EMU128's
 # results to those of every other set.
 target_compile_definitions(PkgConfig::HWY INTERFACE HWY_BROKEN_EMU128=0)
+# 64-bit ARM: NEON alone, which all of them have. This is Highway's switch for "nothing to pick at run time". With
+# the choice come SVE, whose vector size the code would have to do without knowing, and NEON for processors with
+# AES instructions only, which leaves out the Raspberry Pi 4.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  target_compile_definitions(PkgConfig::HWY INTERFACE TOOLCHAIN_MISS_SYS_AUXV_H)
+endif()
