@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "heel-sim/contact/contact.h"
 #include "heel-sim/live/live_camera.h"
 #include "heel-sim/live/still.h"
 #include "heel-sim/robot/p3at.h"
@@ -115,9 +116,10 @@ void print_event(TimeNs t_ns, const std::string& what) {
 
 /// Everything of the world side; absent without a scenario.
 struct Surroundings {
-  explicit Surroundings(const Scenario& scenario) : world(scenario) {}
+  Surroundings(const Scenario& scenario, P3At& robot) : world(scenario), contact(world, robot) {}
 
   World world;
+  Contact contact;
   SharedMotion motion;
   std::unique_ptr<LiveCamera> camera;
   Truth truth;  ///< of the row being written
@@ -179,6 +181,7 @@ void run(P3At& robot, RobotServer& server, TruthCsv* truth, Surroundings* surrou
     }
     server.speak(t_ns);
     if (surroundings != nullptr) {
+      surroundings->contact.step(seconds_from_ns(t_ns));
       surroundings->motion.set(robot.truth());
       start_walk_when_motors_run(robot.truth(), surroundings->world);
       if (t_ns >= t_progress_ns) {
@@ -209,7 +212,7 @@ void simulate(const Options& options, const Scenario* scenario) {
   P3At robot(robot_settings(options, scenario), options.seed);
   const std::string camera = options.camera == "none" ? "" : sim_camera_name(options.camera);
   std::unique_ptr<Surroundings> surroundings;
-  if (scenario != nullptr) surroundings = std::make_unique<Surroundings>(*scenario);
+  if (scenario != nullptr) surroundings = std::make_unique<Surroundings>(*scenario, robot);
   const std::unique_ptr<Transport> transport = open_transport(options.robot, options.boot_baud);
   const TimeNs t_start_ns = monotonic_now_ns();
   std::unique_ptr<WireFile> wire;

@@ -1,5 +1,5 @@
 // The world's truth agrees with its pictures: a known point is found at the pixel the camera model says,
-// under distortion, tilt and gait; and the same seed gives the same picture to the bit.
+// under distortion, tilt, gait and sliding cloth; and the same seed gives the same picture to the bit.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,68 +7,14 @@
 #include "heel-sim/world/shirts.h"
 #include "heel-sim/world/world.h"
 #include "heel/error.h"
+#include "marked_world.h"
 
 namespace heel::sim {
 namespace {
 
-Scenario marked_scenario() {
-  Scenario scenario;
-  scenario.person.shirt = ShirtDesign::Marked;
-  scenario.person.cloth_ripple_m = 0.0;  // truth speaks of the bare surface
-  scenario.camera.model = default_camera_model();
-  scenario.camera.sensor.exposure_ms = 0.0;
-  scenario.room.objects = 10;
-  WalkItem ahead;
-  ahead.length_m = 10;
-  scenario.path = {ahead};
-  return scenario;
-}
-
-/// Centre of what is bright about `around`, weighted by how bright; NaN when nothing is.
-Eigen::Vector2d bright_centre(const std::vector<std::uint8_t>& grey, int width,
-                              const Eigen::Vector2d& around) {
-  Eigen::Vector2d sum(0, 0);
-  double weight = 0;
-  constexpr int kRadius = 11;
-  const int cx = static_cast<int>(std::lround(around.x()));
-  const int cy = static_cast<int>(std::lround(around.y()));
-  for (int y = cy - kRadius; y <= cy + kRadius; ++y)
-    for (int x = cx - kRadius; x <= cx + kRadius; ++x) {
-      const double w = std::max(0.0, grey[static_cast<std::size_t>(y) * width + x] - 120.0);
-      sum += w * Eigen::Vector2d(x, y);
-      weight += w;
-    }
-  return sum / weight;
-}
-
-struct View {
-  double t_s;
-  RobotMotion robot;
-};
-
-/// Every mark in every view within `tolerance_px` of where the truth puts it.
-void expect_marks_at_truth(const Scenario& scenario, const std::vector<View>& views, double tolerance_px) {
-  World world(scenario);
-  world.start_walk(0.0);
-  std::vector<std::uint8_t> grey;
-  int seen = 0;
-  for (const View& view : views) {
-    world.render(view.robot, view.t_s, 0, grey);
-    const PersonPose person = world.person_pose(view.t_s);
-    const Eigen::Isometry3d camera_from_world = world.world_from_camera(view.robot).inverse();
-    for (int i = 0; i < kShirtMarks; ++i) {
-      const ShirtMark mark = shirt_mark(i);
-      const Eigen::Vector3d point = world.person().shirt_point_m(mark.s_texel, mark.t_texel);
-      const Eigen::Vector2d px = world.project_px(camera_from_world * person.world_from_part[kTorso] * point);
-      if (px.x() < 20 || px.y() < 20 || px.x() > 620 || px.y() > 460) continue;
-      const Eigen::Vector2d found = bright_centre(grey, 640, px);
-      EXPECT_LT((found - px).norm(), tolerance_px)
-          << "mark " << i << " at t " << view.t_s << ": " << found.transpose() << " for " << px.transpose();
-      ++seen;
-    }
-  }
-  EXPECT_GT(seen, kShirtMarks * static_cast<int>(views.size()) * 2 / 3);
-}
+using test::bright_centre;
+using test::expect_marks_at_truth;
+using test::marked_scenario;
 
 TEST(WorldTruth, MarksAreWhereTheCameraModelSays) {
   Scenario scenario = marked_scenario();
@@ -158,6 +104,22 @@ TEST(WorldPicture, MotionBlursAlongTheMotion) {
   };
   EXPECT_LT(energy(turning, 1), 0.5 * energy(still, 1));      // sideways gradients go
   EXPECT_GT(energy(turning, 640), 0.3 * energy(still, 640));  // upright ones mostly stay
+}
+
+TEST(WorldPicture, IsTheSameForAnyNumberOfThreads) {
+  Scenario scenario;
+  scenario.camera.model = default_camera_model();
+  scenario.camera.readout_ms = 20;
+  scenario.camera.sensor.glare = 0.1;
+  scenario.camera.jpeg_quality = 80;
+  scenario.room.windows = 4;
+  std::vector<std::uint8_t> alone, shared;
+  const RobotMotion robot{-1.7, 0, 0.02, 0.4, 0.3};
+  World(scenario, 1).render(robot, 0.5, 7, alone);
+  for (const int threads : {2, 3, 7}) {
+    World(scenario, threads).render(robot, 0.5, 7, shared);
+    EXPECT_EQ(alone, shared) << threads;
+  }
 }
 
 TEST(ReferenceView, IsSquareToTheBack) {

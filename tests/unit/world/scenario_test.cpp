@@ -72,10 +72,110 @@ TEST(Scenario, RefusesByNameAndPlace) {
   EXPECT_NE(
       complaint("[[person.path]]\nstep = \"pause\"\nduration_s = 1\nlength_m = 1\n").find("unknown key"),
       std::string::npos);
+  EXPECT_NE(complaint("[person]\nhair = \"mohawk\"\n").find("s.toml:2:8: person.hair: 'mohawk'"),
+            std::string::npos);
+  EXPECT_NE(complaint("[[passerby]]\nshirt = \"tweed\"\n").find("passerby.shirt: 'tweed'"),
+            std::string::npos);
+  EXPECT_NE(complaint("[[obstacle]]\nkind = \"moat\"\nx_m = 0\ny_m = 0\n").find("obstacle.kind: 'moat'"),
+            std::string::npos);
+  EXPECT_NE(complaint("[[obstacle]]\nkind = \"pole\"\ny_m = 0\n").find("obstacle.x_m: missing"),
+            std::string::npos);
+  EXPECT_NE(complaint("[[obstacle]]\nkind = \"doorway\"\nx_m = 0\ny_m = 0\nopening_m = 3.5\n")
+                .find("obstacle.opening_m: not narrower"),
+            std::string::npos);
+  EXPECT_NE(complaint("[camera.exposure]\nautomatic = 1\n").find("camera.exposure.automatic: neither"),
+            std::string::npos);
+  EXPECT_NE(complaint("[[light.change]]\nat_s = 5\nlevel = 1\n[[light.change]]\nat_s = 4\nlevel = 1\n")
+                .find("s.toml:5:8: light.change.at_s: not after"),
+            std::string::npos);
   EXPECT_NE(complaint("[camera]\nsource = \"usb\"\n").find("camera.source"), std::string::npos);
   EXPECT_NE(complaint("[camera]\ndistortion = [1.0]\n").find("camera.distortion"), std::string::npos);
   EXPECT_NE(complaint("[camera\n").find("s.toml:1:"), std::string::npos);
   EXPECT_NE(complaint("seed = -1\n").find("seed"), std::string::npos);
+}
+
+TEST(Scenario, ReadsPeopleObstaclesAndTheCamerasTroubles) {
+  const Scenario s = parse_scenario(R"(
+shows = "much"
+[person]
+hair = "ponytail"
+[[person.path]]
+step = "aside"
+left_m = -0.5
+[[person.path]]
+step = "back"
+length_m = 2
+[[person.path]]
+step = "sit"
+duration_s = 6
+[[passerby]]
+shirt = "same"
+x_m = 1.5
+walk_after_s = 4
+[[passerby.path]]
+step = "straight"
+length_m = 3
+[[passerby]]
+shirt = "jersey"
+[[obstacle]]
+kind = "doorway"
+x_m = 4
+y_m = 0
+heading_deg = 90
+opening_m = 1.1
+[[obstacle]]
+kind = "pole"
+x_m = 2
+y_m = 1
+radius_m = 0.1
+[camera]
+readout_ms = 20
+jpeg_quality = 60
+drop_share = 0.05
+glare = 0.1
+[camera.exposure]
+automatic = true
+[robot]
+[[robot.floor]]
+x_m = 1
+y_m = 0
+length_m = 2
+width_m = 3
+true_track_m = 0.7
+[room]
+windows = 3
+bump_m = 0.003
+[light]
+[[light.change]]
+at_s = 5
+level = 0.2
+)",
+                                    "s.toml");
+  EXPECT_EQ(s.shows, "much");
+  EXPECT_EQ(s.person.hair, Hair::Ponytail);
+  ASSERT_EQ(s.path.size(), 3U);
+  EXPECT_EQ(s.path[0].step, WalkStep::Aside);
+  EXPECT_EQ(s.path[0].length_m, -0.5);
+  EXPECT_EQ(s.path[1].step, WalkStep::Back);
+  EXPECT_EQ(s.path[2].step, WalkStep::Sit);
+  ASSERT_EQ(s.passers_by.size(), 2U);
+  EXPECT_EQ(s.passers_by[0].shirt_origin, ShirtOrigin::Same);
+  EXPECT_EQ(s.passers_by[0].walk_after_s, 4.0);
+  EXPECT_EQ(s.passers_by[0].path.size(), 1U);
+  EXPECT_EQ(s.passers_by[1].person.shirt, ShirtDesign::Jersey);
+  ASSERT_EQ(s.obstacles.size(), 2U);
+  EXPECT_EQ(s.obstacles[0].kind, ObstacleKind::Doorway);
+  EXPECT_EQ(s.obstacles[0].opening_m, 1.1);
+  EXPECT_EQ(s.obstacles[1].radius_m, 0.1);
+  EXPECT_EQ(s.camera.readout_ms, 20);
+  EXPECT_EQ(s.camera.jpeg_quality, 60);
+  EXPECT_EQ(s.camera.timing.drop_share, 0.05);
+  EXPECT_TRUE(s.camera.exposure.automatic);
+  ASSERT_EQ(s.robot.patches.size(), 1U);
+  EXPECT_EQ(s.robot.patches[0].true_track_m, 0.7);
+  EXPECT_EQ(s.room.windows, 3);
+  ASSERT_EQ(s.light.changes.size(), 1U);
+  EXPECT_EQ(s.light.changes[0].level, 0.2);
 }
 
 TEST(Scenario, MissingFileIsNamed) {

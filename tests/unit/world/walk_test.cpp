@@ -95,5 +95,59 @@ TEST(Walk, GaitPhaseRunsOnlyWhileMoving) {
   EXPECT_EQ(walk.at(end - 1.9).stride_rad, walk.at(end).stride_rad);
 }
 
+WalkItem of(WalkStep step, double length_m, double duration_s) {
+  WalkItem item;
+  item.step = step;
+  item.length_m = length_m;
+  item.duration_s = duration_s;
+  return item;
+}
+
+TEST(Walk, AsideAndBackwardsKeepTheHeading) {
+  WalkState start;
+  start.heading_rad = kPi / 2;
+  const Walk walk(start, {straight(2, 0.5), of(WalkStep::Aside, 1.0, 0), of(WalkStep::Back, 1.5, 0),
+                          of(WalkStep::Aside, -0.25, 0)});
+  for (double t = 0; t < walk.duration_s(); t += 0.1) {
+    EXPECT_EQ(walk.at(t).heading_rad, kPi / 2);
+    EXPECT_GE(walk.at(t).speed_m_s, 0.0);
+  }
+  const WalkState end = walk.at(1e3);
+  EXPECT_NEAR(end.x_m, -0.75, 1e-6);  // left of north is west
+  EXPECT_NEAR(end.y_m, 0.5, 1e-6);
+}
+
+TEST(Walk, StopsBetweenAheadAndBackwards) {
+  const Walk walk(WalkState{}, {straight(2, 0.8), of(WalkStep::Back, 2, 0)});
+  double slowest = 1;
+  double before_x = 0;
+  for (double t = 0; t < walk.duration_s(); t += 0.01) {
+    const WalkState state = walk.at(t);
+    EXPECT_LT(std::abs(state.x_m - before_x), 0.009) << t;
+    before_x = state.x_m;
+    if (state.x_m > 1.99) slowest = std::min(slowest, state.speed_m_s);
+  }
+  EXPECT_LT(slowest, 0.05);
+  EXPECT_NEAR(walk.at(1e3).x_m, 0.0, 1e-6);
+  // Steps run backwards too.
+  EXPECT_LT(walk.at(walk.duration_s()).stride_rad, walk.at(0.5 * walk.duration_s()).stride_rad);
+}
+
+TEST(Walk, SitsOnAStoolBehindAndGetsUp) {
+  const Walk walk(WalkState{}, {straight(2, 0.5), of(WalkStep::Sit, 0, 8), straight(1, 0.5)});
+  ASSERT_EQ(walk.stools().size(), 1U);
+  EXPECT_NEAR(walk.stools()[0].x_m, 2.0 - kSeatBehindFeetM, 1e-6);
+  double highest = 0, before = 0;
+  for (double t = 0; t < walk.duration_s(); t += 0.01) {
+    const double seat = walk.at(t).seat;
+    EXPECT_LT(std::abs(seat - before), 0.02) << t;
+    before = seat;
+    highest = std::max(highest, seat);
+  }
+  EXPECT_NEAR(highest, 1.0, 1e-9);
+  EXPECT_EQ(walk.at(1e3).seat, 0.0);
+  EXPECT_NEAR(walk.at(1e3).x_m, 3.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace heel::sim

@@ -1,32 +1,18 @@
 #include "heel-sim/camera/rasteriser.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "heel-sim/camera/face_window.h"
 
 namespace heel::sim {
 namespace {
 
-constexpr float kNearM = 0.05f;     ///< nothing nearer is drawn
-constexpr int kWindowMarginPx = 2;  ///< edges bulge a little between projected points under distortion
-constexpr int kEdgeSteps = 6;       ///< projected points along each edge of the search window's outline
-constexpr int kRun = 16;            ///< pixels sharing one mip level
-
-/// Clips a polygon to a·p ≥ 0, (a as a linear form plus constant).
-void clip(std::vector<Eigen::Vector3f>& polygon, const Eigen::Vector3f& normal, float offset) {
-  std::vector<Eigen::Vector3f> out;
-  out.reserve(polygon.size() + 1);
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector3f& a = polygon[i];
-    const Eigen::Vector3f& b = polygon[(i + 1) % polygon.size()];
-    const float da = normal.dot(a) + offset;
-    const float db = normal.dot(b) + offset;
-    if (da >= 0.f) out.push_back(a);
-    if ((da >= 0.f) != (db >= 0.f)) out.push_back(a + (b - a) * (da / (da - db)));
-  }
-  polygon.swap(out);
-}
+constexpr double kWindowMarginPx = 2.0;      ///< long edges bulge a little between projected points
+constexpr double kMeshWindowMarginPx = 0.1;  ///< short ones do not
+constexpr int kRun = 16;                     ///< pixels sharing one mip level
+constexpr int kBandRows = 24;                ///< rows a thread takes at a time
 
 /// Bilinear look-up at 8-bit fixed-point texel coordinates; 8.16 fixed-point grey.
 inline int bilinear(const Texture::Level& level, int s, int t) {
@@ -43,127 +29,192 @@ inline int bilinear(const Texture::Level& level, int s, int t) {
   return (top << 8) + (bottom - top) * fy;
 }
 
+/// Rows of M⁻¹ for M = [e1, e2, p0]: the forms of u/z, v/z and 1/z.
+Eigen::Matrix3d inverse_of(const Eigen::Vector3d& e1, const Eigen::Vector3d& e2, const Eigen::Vector3d& p0) {
+  Eigen::Matrix3d rows;
+  const Eigen::Vector3d u = e2.cross(p0);
+  rows << u.transpose(), p0.cross(e1).transpose(), e1.cross(e2).transpose();
+  return rows / e1.dot(u);
+}
+
+/// Position at a share of the readout, −½ the first row, ½ the last.
+Eigen::Vector3f at_share(const Corner& corner, float share) {
+  return corner.position_m + share * corner.shift_m;
+}
+
 }  // namespace
 
-Rasteriser::Rasteriser(const RayTable& rays)
+Rasteriser::Row Rasteriser::Form::at(float rows_below_middle) const {
+  return {middle[0] + rows_below_middle * per_row[0], middle[1] + rows_below_middle * per_row[1],
+          middle[2] + rows_below_middle * per_row[2]};
+}
+
+Rasteriser::Rasteriser(const RayTable& rays, Workers& workers)
     : rays_(rays),
+      workers_(workers),
       width_(rays.camera.width_px),
       height_(rays.camera.height_px),
       inverse_depth_(rays.x.size(), 0.f),
       face_id_(rays.x.size(), -1) {}
 
 void Rasteriser::clear() {
-  std::fill(inverse_depth_.begin(), inverse_depth_.end(), 0.f);
-  std::fill(face_id_.begin(), face_id_.end(), -1);
   faces_.clear();
 }
 
 int Rasteriser::body(int x_px, int y_px) const {
   const std::int32_t id = face_id_[index(x_px, y_px)];
-  return id < 0 ? -1 : faces_[static_cast<std::size_t>(id)].body;
+  return id < 0 ? -1 : faces_[static_cast<std::size_t>(id)].look.body;
 }
 
-Rasteriser::Window Rasteriser::window_of(const Face& face) const {
-  const Eigen::Vector3f& p0 = face.corners[0].position_m;
-  const Eigen::Vector3f& p1 = face.corners[1].position_m;
-  const Eigen::Vector3f& p2 = face.corners[2].position_m;
-  std::vector<Eigen::Vector3f> polygon{p0, p1, p2};
-  if (face.shape == FaceShape::Parallelogram) polygon = {p0, p1, p1 + p2 - p0, p2};
-  // Distortion is only meaningful inside the picture: clip to the pyramid of rays before projecting.
-  const float ax = rays_.x_max + 0.01f;
-  const float ay = rays_.y_max + 0.01f;
-  clip(polygon, {0, 0, 1}, -kNearM);
-  clip(polygon, {1, 0, ax}, 0.f);
-  clip(polygon, {-1, 0, ax}, 0.f);
-  clip(polygon, {0, 1, ay}, 0.f);
-  clip(polygon, {0, -1, ay}, 0.f);
-  if (polygon.size() < 3) return {};
-  const CameraModel& camera = rays_.camera;
-  double x_min = 1e9, x_max = -1e9, y_min = 1e9, y_max = -1e9;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector3f& a = polygon[i];
-    const Eigen::Vector3f& b = polygon[(i + 1) % polygon.size()];
-    const float length_px =
-        (a.head<2>() / a.z() - b.head<2>() / b.z()).norm() * static_cast<float>(camera.fx);
-    const int steps = length_px > 32.f ? kEdgeSteps : 1;
-    for (int k = 0; k < steps; ++k) {
-      const Eigen::Vector3f p = a + (b - a) * (static_cast<float>(k) / static_cast<float>(steps));
-      const Eigen::Vector2d ideal(camera.fx * static_cast<double>(p.x() / p.z()) + camera.cx,
-                                  camera.fy * static_cast<double>(p.y() / p.z()) + camera.cy);
-      const Eigen::Vector2d px = camera.distort_px(ideal);
-      x_min = std::min(x_min, px.x());
-      x_max = std::max(x_max, px.x());
-      y_min = std::min(y_min, px.y());
-      y_max = std::max(y_max, px.y());
-    }
+bool Rasteriser::faces_camera(const std::array<Corner, 3>& corners) const {
+  const Eigen::Vector3f& p0 = corners[0].position_m;
+  const Eigen::Vector3f normal = (corners[1].position_m - p0).cross(corners[2].position_m - p0);
+  return -normal.dot(p0) > 1e-9f;
+}
+
+Rasteriser::Window Rasteriser::clamped(double x_low, double x_high, double y_low, double y_high) const {
+  return {std::max(0, static_cast<int>(std::ceil(x_low))), std::max(0, static_cast<int>(std::ceil(y_low))),
+          std::min(width_, static_cast<int>(std::floor(x_high)) + 1),
+          std::min(height_, static_cast<int>(std::floor(y_high)) + 1)};
+}
+
+Rasteriser::Window Rasteriser::window_of(FaceShape shape, const std::array<Corner, 3>& corners) const {
+  bool moves = false;
+  for (const Corner& corner : corners) moves |= !corner.shift_m.isZero(0.f);
+  PixelBounds bounds;
+  for (const float share : {-0.5f, 0.5f}) {
+    const Eigen::Vector3f p0 = at_share(corners[0], share);
+    const Eigen::Vector3f p1 = at_share(corners[1], share);
+    const Eigen::Vector3f p2 = at_share(corners[2], share);
+    // Most faces lie wholly beside or behind the view.
+    const std::array<Eigen::Vector3f, 4> all{p0, p1, p1 + p2 - p0, p2};
+    const auto all_beyond = [&](const Eigen::Vector3f& normal) {
+      return std::all_of(all.begin(), all.end(),
+                         [&](const Eigen::Vector3f& p) { return normal.dot(p) < 0.f; });
+    };
+    if (all_beyond({0.f, 0.f, 1.f}) || all_beyond({1.f, 0.f, rays_.x_max + 0.01f}) ||
+        all_beyond({-1.f, 0.f, rays_.x_max + 0.01f}) || all_beyond({0.f, 1.f, rays_.y_max + 0.01f}) ||
+        all_beyond({0.f, -1.f, rays_.y_max + 0.01f}))
+      continue;
+    if (shape == FaceShape::Parallelogram)
+      add_polygon(rays_, {p0, p1, p1 + p2 - p0, p2}, bounds);
+    else
+      add_polygon(rays_, {p0, p1, p2}, bounds);
+    if (!moves) break;
   }
+  if (bounds.empty()) return {};
   // A long edge bulges between the sampled points by a small share of its own extent.
-  const double margin = kWindowMarginPx + 0.01 * std::max(x_max - x_min, y_max - y_min);
-  Window window;
-  window.x0 = std::max(0, static_cast<int>(std::floor(x_min - margin)));
-  window.y0 = std::max(0, static_cast<int>(std::floor(y_min - margin)));
-  window.x1 = std::min(width_, static_cast<int>(std::ceil(x_max + margin)) + 1);
-  window.y1 = std::min(height_, static_cast<int>(std::ceil(y_max + margin)) + 1);
-  return window;
+  const double margin =
+      kWindowMarginPx + 0.01 * std::max(bounds.x_high - bounds.x_low, bounds.y_high - bounds.y_low);
+  return clamped(bounds.x_low - margin, bounds.x_high + margin, bounds.y_low - margin,
+                 bounds.y_high + margin);
 }
 
-void Rasteriser::draw(const Face& face) {
-  const Eigen::Vector3f& p0 = face.corners[0].position_m;
-  const Eigen::Vector3f e1 = face.corners[1].position_m - p0;
-  const Eigen::Vector3f e2 = face.corners[2].position_m - p0;
-  const Eigen::Vector3f normal = e1.cross(e2);
-  const float area = normal.norm();
-  const float towards = -normal.dot(p0);  // > 0: the camera is on the outside
-  if (area <= 0.f || std::abs(towards) < 1e-9f || (towards < 0.f && !face.two_sided)) return;
-  const Window window = window_of(face);
-  if (window.empty()) return;
+void Rasteriser::add(FaceShape shape, const std::array<Corner, 3>& corners, const Look& look) {
+  if (!faces_camera(corners)) return;
+  const Window window = window_of(shape, corners);
+  if (!window.empty()) take(shape, corners, look, window);
+}
 
-  Eigen::Matrix3d M;
-  M << e1.cast<double>(), e2.cast<double>(), p0.cast<double>();
-  const Eigen::Matrix3d inverse = M.inverse();
-  const auto row = [](const Eigen::RowVector3d& r) {
+Rasteriser::Seen Rasteriser::seen(const Corner& corner) const {
+  Seen out;
+  PixelBounds bounds;
+  const bool moves = !corner.shift_m.isZero(0.f);
+  for (const float share : {-0.5f, 0.5f}) {
+    const Eigen::Vector3f p = at_share(corner, moves ? share : 0.f);
+    if (p.z() < kNearM || std::abs(p.x()) > rays_.x_max * p.z() || std::abs(p.y()) > rays_.y_max * p.z())
+      return out;
+    bounds.add(distorted_px(rays_.camera, p));
+    if (!moves) break;
+  }
+  out.inside = true;
+  out.x_low = static_cast<float>(bounds.x_low);
+  out.x_high = static_cast<float>(bounds.x_high);
+  out.y_low = static_cast<float>(bounds.y_low);
+  out.y_high = static_cast<float>(bounds.y_high);
+  return out;
+}
+
+void Rasteriser::add_mesh(std::span<const Corner> corners, std::span<const std::array<int, 3>> triangles,
+                          const Look& look) {
+  seen_.clear();
+  for (const Corner& corner : corners) seen_.push_back(seen(corner));
+  for (const auto& [i, j, k] : triangles) {
+    const std::array<std::size_t, 3> at{static_cast<std::size_t>(i), static_cast<std::size_t>(j),
+                                        static_cast<std::size_t>(k)};
+    const std::array<Corner, 3> face{corners[at[0]], corners[at[1]], corners[at[2]]};
+    if (!faces_camera(face)) continue;
+    const Seen& a = seen_[at[0]];
+    const Seen& b = seen_[at[1]];
+    const Seen& c = seen_[at[2]];
+    Window window;
+    if (a.inside && b.inside && c.inside)
+      window = clamped(std::min({a.x_low, b.x_low, c.x_low}) - kMeshWindowMarginPx,
+                       std::max({a.x_high, b.x_high, c.x_high}) + kMeshWindowMarginPx,
+                       std::min({a.y_low, b.y_low, c.y_low}) - kMeshWindowMarginPx,
+                       std::max({a.y_high, b.y_high, c.y_high}) + kMeshWindowMarginPx);
+    else
+      window = window_of(FaceShape::Triangle, face);
+    if (!window.empty()) take(FaceShape::Triangle, face, look, window);
+  }
+}
+
+void Rasteriser::take(FaceShape shape, const std::array<Corner, 3>& corners, const Look& look,
+                      const Window& window) {
+  const auto rows_at = [&](float share) {
+    const Eigen::Vector3d p0 = at_share(corners[0], share).cast<double>();
+    return inverse_of(at_share(corners[1], share).cast<double>() - p0,
+                      at_share(corners[2], share).cast<double>() - p0, p0);
+  };
+  const Eigen::Matrix3d middle = rows_at(0.f);
+  if (!middle.allFinite()) return;  // seen edge on
+  bool moves = false;
+  for (const Corner& corner : corners) moves |= !corner.shift_m.isZero(0.f);
+  Eigen::Matrix3d per_row = Eigen::Matrix3d::Zero();
+  if (moves) per_row = (rows_at(0.5f) - rows_at(-0.5f)) / (height_ - 1);
+  const auto as_row = [](const Eigen::RowVector3d& r) {
     return Row{static_cast<float>(r.x()), static_cast<float>(r.y()), static_cast<float>(r.z())};
   };
-  const auto attribute = [&](float Corner::*member) {
-    const double a0 = face.corners[0].*member;
-    return row(inverse.row(2) * a0 + inverse.row(0) * (face.corners[1].*member - a0) +
-               inverse.row(1) * (face.corners[2].*member - a0));
+  const auto form = [&](double a0, double a1, double a2) {
+    const Eigen::RowVector3d weights(a1 - a0, a2 - a0, a0);
+    return Form{as_row(weights * middle), as_row(weights * per_row)};
   };
-  Prepared prepared;
-  prepared.u = row(inverse.row(0));
-  prepared.v = row(inverse.row(1));
-  prepared.w = row(inverse.row(2));
-  prepared.s = attribute(&Corner::s_texel);
-  prepared.t = attribute(&Corner::t_texel);
-  prepared.light = attribute(&Corner::light);
+  const auto attribute = [&](float Corner::*member) {
+    return form(corners[0].*member, corners[1].*member, corners[2].*member);
+  };
+  Face face;
+  face.u = {as_row(middle.row(0)), as_row(per_row.row(0))};
+  face.v = {as_row(middle.row(1)), as_row(per_row.row(1))};
+  face.w = {as_row(middle.row(2)), as_row(per_row.row(2))};
+  face.s = attribute(&Corner::s_texel);
+  face.t = attribute(&Corner::t_texel);
+  face.light = attribute(&Corner::light);
   // A pixel at depth z spans z/f metres across and z/(f cos θ) along the slope; cos θ = distance of the plane
-  // / z. The geometric mean of both sides is the footprint: neither too sharp along nor too soft across.
-  const float plane_distance_m = std::abs(towards) / area;
-  const float scale = face.texels_per_m / static_cast<float>(rays_.camera.fx);
-  prepared.footprint2 = scale * scale / std::max(plane_distance_m, 1e-3f);
-  prepared.texture = face.texture;
-  prepared.body = face.body;
-  const auto id = static_cast<std::int32_t>(faces_.size());
-  faces_.push_back(prepared);
-  if (face.shape == FaceShape::Triangle)
-    fill<FaceShape::Triangle>(prepared, id, window);
-  else
-    fill<FaceShape::Parallelogram>(prepared, id, window);
+  // / z. The geometric mean of both sides is the footprint: neither too sharp along nor too soft across. The
+  // plane's distance is 1 / |the gradient of 1/z|.
+  const float scale = look.texels_per_m / static_cast<float>(rays_.camera.fx);
+  face.footprint2 = scale * scale * static_cast<float>(std::min(middle.row(2).norm(), 1e3));
+  face.shape = shape;
+  face.window = window;
+  face.look = look;
+  faces_.push_back(face);
 }
 
 template <FaceShape kShape>
-void Rasteriser::fill(const Prepared& face, std::int32_t id, const Window& window) {
-  for (int y = window.y0; y < window.y1; ++y) {
-    const std::size_t first = index(window.x0, y);
-    const int count = window.x1 - window.x0;
+void Rasteriser::fill(const Face& face, std::int32_t id, int y_begin, int y_end) {
+  const int count = face.window.x1 - face.window.x0;
+  for (int y = y_begin; y < y_end; ++y) {
+    const float dy = rows_below_middle(y);
+    const Row fu = face.u.at(dy), fv = face.v.at(dy), fw = face.w.at(dy);
+    const std::size_t first = index(face.window.x0, y);
     const float* __restrict rx = rays_.x.data() + first;
     const float* __restrict ry = rays_.y.data() + first;
     float* __restrict nearest = inverse_depth_.data() + first;
     std::int32_t* __restrict ids = face_id_.data() + first;
     for (int i = 0; i < count; ++i) {
-      const float u = face.u[0] * rx[i] + face.u[1] * ry[i] + face.u[2];
-      const float v = face.v[0] * rx[i] + face.v[1] * ry[i] + face.v[2];
-      const float w = face.w[0] * rx[i] + face.w[1] * ry[i] + face.w[2];
+      const float u = fu[0] * rx[i] + fu[1] * ry[i] + fu[2];
+      const float v = fv[0] * rx[i] + fv[1] * ry[i] + fv[2];
+      const float w = fw[0] * rx[i] + fw[1] * ry[i] + fw[2];
       // Bitwise and: a branch here would keep the loop from being vectorised.
       bool inside = (u >= 0.f) & (v >= 0.f) & (w > nearest[i]);
       if constexpr (kShape == FaceShape::Triangle)
@@ -176,27 +227,65 @@ void Rasteriser::fill(const Prepared& face, std::int32_t id, const Window& windo
   }
 }
 
-void Rasteriser::shade_run(const Prepared& face, std::size_t first, int count, float* out) const {
+void Rasteriser::draw(float background, std::vector<float>& radiance) {
+  radiance.resize(rays_.x.size());
+  workers_.share(height_, kBandRows, [&](int y_begin, int y_end) {
+    const auto first = static_cast<std::ptrdiff_t>(index(0, y_begin));
+    const auto pixels = static_cast<std::ptrdiff_t>(index(0, y_end)) - first;
+    std::fill_n(inverse_depth_.begin() + first, pixels, 0.f);
+    std::fill_n(face_id_.begin() + first, pixels, -1);
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      const Face& face = faces_[i];
+      const int from = std::max(face.window.y0, y_begin);
+      const int to = std::min(face.window.y1, y_end);
+      if (from >= to) continue;
+      if (face.shape == FaceShape::Triangle)
+        fill<FaceShape::Triangle>(face, static_cast<std::int32_t>(i), from, to);
+      else
+        fill<FaceShape::Parallelogram>(face, static_cast<std::int32_t>(i), from, to);
+    }
+    for (int y = y_begin; y < y_end; ++y) shade_row(y, background, radiance.data() + index(0, y));
+  });
+}
+
+void Rasteriser::shade_row(int y, float background, float* out) const {
+  int x = 0;
+  while (x < width_) {
+    const std::int32_t id = face_id_[index(x, y)];
+    int end = x + 1;
+    while (end < width_ && end - x < kRun && face_id_[index(end, y)] == id) ++end;
+    if (id < 0)
+      std::fill_n(out + x, end - x, background);
+    else
+      shade_run(faces_[static_cast<std::size_t>(id)], x, y, end - x, out + x);
+    x = end;
+  }
+}
+
+void Rasteriser::shade_run(const Face& face, int x, int y, int count, float* out) const {
+  const std::size_t first = index(x, y);
   const float* rx = rays_.x.data() + first;
   const float* ry = rays_.y.data() + first;
+  const float dy = rows_below_middle(y);
+  const Row fw = face.w.at(dy), fs = face.s.at(dy), ft = face.t.at(dy), fl = face.light.at(dy);
   int s[kRun];
   int t[kRun];
   float light[kRun];
   for (int i = 0; i < count; ++i) {
-    const float z = 1.f / (face.w[0] * rx[i] + face.w[1] * ry[i] + face.w[2]);
+    const float z = 1.f / (fw[0] * rx[i] + fw[1] * ry[i] + fw[2]);
     const float z256 = z * 256.f;
-    s[i] = static_cast<int>((face.s[0] * rx[i] + face.s[1] * ry[i] + face.s[2]) * z256);
-    t[i] = static_cast<int>((face.t[0] * rx[i] + face.t[1] * ry[i] + face.t[2]) * z256);
-    light[i] = (face.light[0] * rx[i] + face.light[1] * ry[i] + face.light[2]) * z * (1.f / 65536.f);
+    s[i] = static_cast<int>((fs[0] * rx[i] + fs[1] * ry[i] + fs[2]) * z256);
+    t[i] = static_cast<int>((ft[0] * rx[i] + ft[1] * ry[i] + ft[2]) * z256);
+    light[i] = (fl[0] * rx[i] + fl[1] * ry[i] + fl[2]) * z * (1.f / 65536.f);
   }
   const float w = inverse_depth_[first + static_cast<std::size_t>(count / 2)];
   const float lod = std::max(0.f, 0.5f * std::log2(face.footprint2 / (w * w * w)));
-  const int last = face.texture->levels() - 1;
+  const int last = face.look.texture->levels() - 1;
   const int fine = std::min(static_cast<int>(lod), last);
   const int coarse = std::min(fine + 1, last);
   const int blend = static_cast<int>((lod - static_cast<float>(fine)) * 256.f);
-  const Texture::Level& a = face.texture->level(fine);
-  const Texture::Level& b = face.texture->level(coarse);
+  const Texture::Level& a = face.look.texture->level(fine);
+  const Texture::Level& b = face.look.texture->level(coarse);
   // Level 0 texel centres lie at whole numbers; level l's centre k lies at (k + ½) 2^l − ½ of level 0.
   if (blend < 16 || fine == coarse) {
     for (int i = 0; i < count; ++i)
@@ -211,24 +300,6 @@ void Rasteriser::shade_run(const Prepared& face, std::size_t first, int count, f
     const auto g1 =
         static_cast<float>(bilinear(b, ((s[i] + 128) >> coarse) - 128, ((t[i] + 128) >> coarse) - 128));
     out[i] = light[i] * (g0 + (g1 - g0) * share);
-  }
-}
-
-void Rasteriser::shade(float background, std::vector<float>& radiance) const {
-  radiance.resize(rays_.x.size());
-  for (int y = 0; y < height_; ++y) {
-    int x = 0;
-    while (x < width_) {
-      const std::size_t first = index(x, y);
-      const std::int32_t id = face_id_[first];
-      int end = x + 1;
-      while (end < width_ && end - x < kRun && face_id_[index(end, y)] == id) ++end;
-      if (id < 0)
-        std::fill_n(radiance.begin() + static_cast<std::ptrdiff_t>(first), end - x, background);
-      else
-        shade_run(faces_[static_cast<std::size_t>(id)], first, end - x, radiance.data() + first);
-      x = end;
-    }
   }
 }
 

@@ -65,12 +65,10 @@ LiveCameraCounters LiveCamera::counters() const {
 
 void LiveCamera::run() {
   const TimeNs period_ns = ns_from_seconds(1.0 / world_.scenario().camera.rate_hz);
-  const TimeNs half_exposure_ns = ns_from_seconds(0.5e-3 * world_.scenario().camera.sensor.exposure_ms);
   std::uint64_t sequence = 1 + static_cast<std::uint64_t>((monotonic_now_ns() - t_start_ns_) / period_ns);
   while (!stop_) {
     const TimeNs t_ns = static_cast<TimeNs>(sequence) * period_ns;
-    // A frame can be read out when its exposure has ended.
-    sleep_until_ns(t_start_ns_ + t_ns + half_exposure_ns);
+    sleep_until_ns(t_start_ns_ + readable_ns(t_ns));
     draw(sequence, t_ns);
     // Frames whose time has passed meanwhile are left out; the count goes on, as a camera's does.
     const auto due = static_cast<std::uint64_t>((monotonic_now_ns() - t_start_ns_) / period_ns);
@@ -83,13 +81,26 @@ void LiveCamera::run() {
   }
 }
 
+/// A frame is there when its last row's exposure has ended.
+TimeNs LiveCamera::readable_ns(TimeNs t_ns) const {
+  return t_ns + ns_from_seconds(0.5e-3 * (world_.exposure(seconds_from_ns(t_ns)).exposure_ms +
+                                          world_.scenario().camera.readout_ms));
+}
+
 void LiveCamera::draw(std::uint64_t sequence, TimeNs t_ns) {
   const TimeNs t_begin_ns = monotonic_now_ns();
+  const FrameFate fate = frame_fate(world_.scenario().camera.timing, world_.scenario().seed, sequence);
+  if (fate.dropped) {
+    const std::scoped_lock lock(counters_mutex_);
+    ++counters_.frames_dropped;
+    return;
+  }
   world_.render(motion_.at(t_ns), seconds_from_ns(t_ns), sequence, grey_);
+  if (fate.delay_ns > 0) sleep_until_ns(t_start_ns_ + readable_ns(t_ns) + fate.delay_ns);
   const CameraModel& camera = world_.scenario().camera.model;
   const WritableFrame out = channel_.writable();
-  *out.header = {sequence, t_start_ns_ + t_ns, static_cast<std::uint32_t>(camera.width_px),
-                 static_cast<std::uint32_t>(camera.height_px)};
+  *out.header = {sequence, t_start_ns_ + t_ns + fate.stamp_error_ns,
+                 static_cast<std::uint32_t>(camera.width_px), static_cast<std::uint32_t>(camera.height_px)};
   for (int y = 0; y < camera.height_px; ++y)
     std::memcpy(out.grey + static_cast<std::size_t>(y) * out.stride_bytes,
                 grey_.data() + static_cast<std::size_t>(y) * camera.width_px,

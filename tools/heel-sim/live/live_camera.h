@@ -29,7 +29,8 @@ class SharedMotion {
 
 struct LiveCameraCounters {
   std::uint64_t frames = 0;
-  std::uint64_t frames_late = 0;  ///< left out: drawing had not kept up
+  std::uint64_t frames_late = 0;     ///< left out: drawing had not kept up
+  std::uint64_t frames_dropped = 0;  ///< on purpose: the scenario's share
   double draw_ms_mean = 0.0;
   double draw_ms_worst = 0.0;
 };
@@ -49,6 +50,7 @@ class LiveCamera {
  private:
   void run();
   void draw(std::uint64_t sequence, TimeNs t_ns);
+  TimeNs readable_ns(TimeNs t_ns) const;
 
   World& world_;
   const SharedMotion& motion_;

@@ -50,6 +50,8 @@ class Chassis {
 
   const Pose2& true_pose() const { return true_pose_; }
   void place(const Pose2& pose) { true_pose_ = pose; }
+  /// Another floor under the wheels.
+  void set_true_track(double track_m) { settings_.true_track_m = track_m; }
   double true_speed_m_s() const;
   double true_yaw_rate_rad_s() const;
 

@@ -86,6 +86,7 @@ class P3At {
   const Pose2& true_pose() const { return chassis_.true_pose(); }
   RobotTruth truth() const;
   void place(const Pose2& pose) { chassis_.place(pose); }
+  void set_true_track(double track_m) { chassis_.set_true_track(track_m); }
   void set_range_finder(RangeFinder range_m) { sonar_.set_range_finder(std::move(range_m)); }
   /// Segments pressed from now on, bit i segment i; 0, 0 lets go.
   void touch_bumper(std::uint8_t front, std::uint8_t rear);

@@ -17,14 +17,6 @@ void fill_box(Canvas& canvas, double x, double y, double width, double height, f
   });
 }
 
-void grain(Canvas& canvas, double strength, Random& random) {
-  for (int y = 0; y < canvas.height(); ++y)
-    for (int x = 0; x < canvas.width(); ++x) {
-      float& texel = canvas.at(x, y);
-      texel = std::clamp(texel + static_cast<float>(strength * random.normal()), 3.f, 252.f);
-    }
-}
-
 float any_grey(Random& random) {
   return static_cast<float>(random.uniform(25, 235));
 }
@@ -95,7 +87,7 @@ Canvas draw_floor(std::uint64_t seed) {
         canvas, box_around(x, y, radius), static_cast<float>(random.uniform(60, 180)),
         [&](int px, int py) { return std::hypot(px - x, py - y) - radius; }, 0.6f);
   }
-  grain(canvas, 6.0, random);
+  add_grain(canvas, 6.0, random);
   return canvas;
 }
 
@@ -125,7 +117,7 @@ Canvas draw_wall(std::uint64_t seed) {
       x += random.uniform(30, 120);
     }
   }
-  grain(canvas, 3.0, random);
+  add_grain(canvas, 3.0, random);
   return canvas;
 }
 
@@ -136,7 +128,7 @@ Canvas draw_ceiling(std::uint64_t seed) {
     for (int x = 0; x < 512; x += 128)
       fill_box(canvas, x + 2, y + 2, 124, 124, static_cast<float>(random.uniform(180, 210)));
   fill_box(canvas, 130, 150, 124, 84, 245.f);
-  grain(canvas, 3.0, random);
+  add_grain(canvas, 3.0, random);
   return canvas;
 }
 
@@ -157,7 +149,7 @@ Canvas draw_crate(std::uint64_t seed) {
     paint(canvas, box_around(x, y, 4), 35.f,
           [&](int px, int py) { return std::hypot(px - x, py - y) - 3.5; });
   }
-  grain(canvas, 5.0, random);
+  add_grain(canvas, 5.0, random);
   return canvas;
 }
 
@@ -165,7 +157,7 @@ Canvas draw_shelf(std::uint64_t seed) {
   Random random(seed);
   Canvas canvas(512, 512, 60.f);
   spines(canvas, 0, 0, 512, 512, 64, random);
-  grain(canvas, 4.0, random);
+  add_grain(canvas, 4.0, random);
   return canvas;
 }
 
@@ -175,7 +167,29 @@ Canvas draw_screen(std::uint64_t seed) {
   for (int i = 0; i < 22; ++i)
     sheet(canvas, random.uniform(0, 420), random.uniform(0, 400), random.uniform(50, 120),
           random.uniform(60, 140), random);
-  grain(canvas, 4.0, random);
+  add_grain(canvas, 4.0, random);
+  return canvas;
+}
+
+Canvas draw_plaster(std::uint64_t seed) {
+  Random random(seed);
+  Canvas canvas(512, 512, static_cast<float>(random.uniform(140, 185)));
+  for (int i = 0; i < 400; ++i) {
+    const double x = random.uniform(0, 512);
+    const double y = random.uniform(0, 512);
+    const double radius = random.uniform(3, 22);
+    paint(
+        canvas, box_around(x, y, radius), static_cast<float>(random.uniform(110, 200)),
+        [&](int px, int py) { return std::hypot(px - x, py - y) - radius; }, 0.35f);
+  }
+  fill_box(canvas, 0, 470, 512, 42, 60.f);
+  add_grain(canvas, 4.0, random);
+  return canvas;
+}
+
+Canvas draw_window() {
+  Canvas canvas(512, 256, 40.f);
+  for (int pane = 0; pane < 4; ++pane) fill_box(canvas, pane * 128 + 6, 8, 116, 240, 235.f);
   return canvas;
 }
 

@@ -3,13 +3,17 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <vector>
+
+#include "heel-sim/camera/exposure.h"
 
 namespace heel::sim {
 
 struct LightSettings {
-  double level = 1.0;               ///< brightness of the picture; noise stays, so less is noisier
-  double unevenness = 0.35;         ///< 0: the same everywhere; 0.5: places half as bright again
-  double window_azimuth_rad = 0.9;  ///< where the windows are, seen from the middle of the room
+  double level = 1.0;                ///< brightness of the picture; noise stays, so less is noisier
+  double unevenness = 0.35;          ///< 0: the same everywhere; 0.5: places half as bright again
+  double window_azimuth_rad = 0.9;   ///< where the windows are, seen from the middle of the room
+  std::vector<LightChange> changes;  ///< lamps that go out or on, for the whole room; in order of time
 };
 
 class Light {

@@ -1,8 +1,11 @@
 // Anti-aliased shapes on a canvas: each is a signed distance in texels, negative inside.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "heel-sim/world/random.h"
 #include "heel-sim/world/texture.h"
 
 namespace heel::sim {
@@ -17,6 +20,21 @@ void paint(Canvas& canvas, const Box2& box, float grey, const Distance& distance
   for (int y = box.y0; y < box.y1; ++y)
     for (int x = box.x0; x < box.x1; ++x)
       canvas.blend(x, y, grey, opacity * static_cast<float>(0.5 - distance(x, y)));
+}
+
+/// Adds `strength` × a standard normal to every texel. The normals come from a table, read from a new place
+/// every row: drawing them one by one would take most of a world's start.
+inline void add_grain(Canvas& canvas, double strength, Random& random) {
+  constexpr std::size_t kSamples = 1 << 14;
+  std::vector<float> normals(kSamples);
+  for (float& normal : normals) normal = static_cast<float>(strength * random.normal());
+  for (int y = 0; y < canvas.height(); ++y) {
+    std::size_t at = random.next();
+    for (int x = 0; x < canvas.width(); ++x) {
+      float& texel = canvas.at(x, y);
+      texel = std::clamp(texel + normals[at++ % kSamples], 3.f, 252.f);
+    }
+  }
 }
 
 inline Box2 box_around(double x, double y, double radius) {

@@ -22,7 +22,8 @@ double distance_to_walk(const FloorPlan& plan, const Eigen::Vector2d& point) {
 
 }  // namespace
 
-Room::Room(const RoomSettings& settings, const FloorPlan& plan, const Light& light, std::uint64_t seed)
+Room::Room(const RoomSettings& settings, const FloorPlan& plan, const Light& light, double window_azimuth_rad,
+           std::uint64_t seed)
     : light_(light) {
   Eigen::Vector2d low = plan.walked_m.front();
   Eigen::Vector2d high = low;
@@ -30,9 +31,16 @@ Room::Room(const RoomSettings& settings, const FloorPlan& plan, const Light& lig
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
+  for (const ObstacleSettings& obstacle : plan.obstacles) {
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(0.5 * obstacle.length_m);
+    low = low.cwiseMin(Eigen::Vector2d(obstacle.x_m, obstacle.y_m) - reach);
+    high = high.cwiseMax(Eigen::Vector2d(obstacle.x_m, obstacle.y_m) + reach);
+  }
   low.array() -= settings.margin_m;
   high.array() += settings.margin_m;
   add_shell(low, high, derived_seed(seed, 0x21));
+  add_windows(settings, low, high, window_azimuth_rad);
+  add_placed(plan, derived_seed(seed, 0x23));
   add_objects(settings, plan, low, high, derived_seed(seed, 0x22));
 }
 
@@ -62,16 +70,15 @@ void Room::add_rectangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& r
   }
 }
 
-void Room::add_box(const Eigen::Vector2d& centre, const Eigen::Vector3d& size, double heading_rad,
-                   const Texture& texture) {
+void Room::add_block(const Block& block, const Texture& texture) {
   constexpr double kTexelsPerM = 350.0;
-  const Eigen::Vector3d along(std::cos(heading_rad), std::sin(heading_rad), 0.0);
+  const Eigen::Vector3d along(std::cos(block.heading_rad), std::sin(block.heading_rad), 0.0);
   const Eigen::Vector3d left(-along.y(), along.x(), 0.0);
-  const Eigen::Vector3d top(centre.x(), centre.y(), size.z());
-  const Eigen::Vector3d down(0.0, 0.0, -size.z());
-  const Eigen::Vector3d half_along = 0.5 * size.x() * along;
-  const Eigen::Vector3d half_left = 0.5 * size.y() * left;
-  // Seen from outside, `right` runs counter-clockwise about the box.
+  const Eigen::Vector3d top(block.centre_m.x(), block.centre_m.y(), block.top_m);
+  const Eigen::Vector3d down(0.0, 0.0, block.bottom_m - block.top_m);
+  const Eigen::Vector3d half_along = 0.5 * block.length_m * along;
+  const Eigen::Vector3d half_left = 0.5 * block.width_m * left;
+  // Seen from outside, `right` runs counter-clockwise about the block.
   add_rectangle(top - half_along - half_left, 2.0 * half_along, down, texture, kTexelsPerM, {0, 0}, kPatchM);
   add_rectangle(top + half_along - half_left, 2.0 * half_left, down, texture, kTexelsPerM, {170, 60},
                 kPatchM);
@@ -81,6 +88,70 @@ void Room::add_box(const Eigen::Vector2d& centre, const Eigen::Vector3d& size, d
                 kPatchM);
   add_rectangle(top - half_along + half_left, 2.0 * half_along, -2.0 * half_left, texture, kTexelsPerM,
                 {0, 300}, kPatchM);
+  if (block.bottom_m > 0.0)
+    add_rectangle(top + down - half_along - half_left, 2.0 * half_along, 2.0 * half_left, texture,
+                  kTexelsPerM, {0, 300}, kPatchM);
+  else
+    footprints_.push_back(
+        {block.centre_m, block.heading_rad, block.length_m, block.width_m, 0.0, block.top_m});
+}
+
+/// A prism of twelve sides.
+void Room::add_pole(const ObstacleSettings& pole, const Texture& texture) {
+  constexpr int kSides = 12;
+  constexpr double kTexelsPerM = 350.0;
+  const Eigen::Vector3d down(0.0, 0.0, -pole.height_m);
+  const auto corner = [&](int i) {
+    const double angle = 2.0 * std::numbers::pi * i / kSides;
+    return Eigen::Vector3d(pole.x_m + pole.radius_m * std::cos(angle),
+                           pole.y_m + pole.radius_m * std::sin(angle), pole.height_m);
+  };
+  for (int i = 0; i < kSides; ++i) {
+    const Eigen::Vector3d right = corner(i + 1) - corner(i);
+    add_rectangle(corner(i), right, down, texture, kTexelsPerM, {i * right.norm() * kTexelsPerM, 0}, kPatchM);
+  }
+  footprints_.push_back({{pole.x_m, pole.y_m}, 0.0, 0.0, 0.0, pole.radius_m, pole.height_m});
+}
+
+void Room::add_placed(const FloorPlan& plan, std::uint64_t seed) {
+  const Texture& plaster = textures_.emplace_back(draw_plaster(derived_seed(seed, 1)));
+  const Texture& crate = textures_.emplace_back(draw_crate(derived_seed(seed, 2)));
+  for (const ObstacleSettings& obstacle : plan.obstacles) {
+    if (obstacle.kind == ObstacleKind::Pole) add_pole(obstacle, plaster);
+    for (const Block& block : blocks_of(obstacle))
+      add_block(block, obstacle.kind == ObstacleKind::Box ? crate : plaster);
+  }
+  for (const StoolPlace& stool : plan.stools)
+    add_block({{stool.x_m, stool.y_m}, stool.heading_rad, kStoolSideM, kStoolSideM, 0.0, kStoolHeightM},
+              crate);
+}
+
+/// A row of windows, evenly along the wall that faces the azimuth.
+void Room::add_windows(const RoomSettings& settings, const Eigen::Vector2d& low, const Eigen::Vector2d& high,
+                       double azimuth_rad) {
+  if (settings.windows <= 0) return;
+  constexpr double kWidthM = 1.6, kHeightM = 1.3, kTopM = 2.4, kBeforeWallM = 0.02;
+  const Texture& texture = textures_.emplace_back(draw_window());
+  const double c = std::cos(azimuth_rad);
+  const double s = std::sin(azimuth_rad);
+  const bool along_y = std::abs(c) >= std::abs(s);  // the wall runs along y
+  const double wall = along_y ? (c > 0 ? high.x() - kBeforeWallM : low.x() + kBeforeWallM)
+                              : (s > 0 ? high.y() - kBeforeWallM : low.y() + kBeforeWallM);
+  const double from = along_y ? low.y() : low.x();
+  const double to = along_y ? high.y() : high.x();
+  // Seen from the room, to the right.
+  const Eigen::Vector3d right =
+      along_y ? Eigen::Vector3d(0, c > 0 ? -1 : 1, 0) : Eigen::Vector3d(s > 0 ? 1 : -1, 0, 0);
+  const std::size_t first = faces_.size();
+  for (int i = 0; i < settings.windows; ++i) {
+    const double at = from + (to - from) * (i + 0.5) / settings.windows;
+    const Eigen::Vector3d middle =
+        along_y ? Eigen::Vector3d(wall, at, kTopM) : Eigen::Vector3d(at, wall, kTopM);
+    add_rectangle(middle - 0.5 * kWidthM * right, kWidthM * right, {0, 0, -kHeightM}, texture,
+                  512.0 / kWidthM, {0, 0}, kPatchM);
+  }
+  for (std::size_t i = first; i < faces_.size(); ++i)
+    faces_[i].light.fill(static_cast<float>(settings.window_light));
 }
 
 void Room::add_shell(const Eigen::Vector2d& low, const Eigen::Vector2d& high, std::uint64_t seed) {
@@ -100,6 +171,13 @@ void Room::add_shell(const Eigen::Vector2d& low, const Eigen::Vector2d& high, st
     const Texture& wall = textures_.emplace_back(draw_wall(derived_seed(seed, 10 + i)));
     add_rectangle(corners[i], corners[(i + 1) % 4] - corners[i], down, wall, 512.0 / kCeilingM, {0, 0},
                   kPatchM);
+  }
+  const Eigen::Vector2d middle = 0.5 * (low + high);
+  constexpr double kThickM = 0.2;  // outside the room
+  for (const double side : {-1.0, 1.0}) {
+    const Eigen::Vector2d out = 0.5 * side * (size.array() + kThickM).matrix();
+    footprints_.push_back({{middle.x() + out.x(), middle.y()}, 0.0, kThickM, size.y(), 0.0, kCeilingM});
+    footprints_.push_back({{middle.x(), middle.y() + out.y()}, 0.0, size.x(), kThickM, 0.0, kCeilingM});
   }
 }
 
@@ -131,7 +209,12 @@ void Room::add_objects(const RoomSettings& settings, const FloorPlan& plan, cons
     }
     const double reach = 0.5 * size.head<2>().norm();
     if (distance_to_walk(plan, centre) < settings.clearance_m + reach) continue;
-    add_box(centre, size, heading, *texture);
+    if (std::any_of(plan.obstacles.begin(), plan.obstacles.end(), [&](const ObstacleSettings& o) {
+          const double clear = reach + 0.3 + (o.kind == ObstacleKind::Pole ? o.radius_m : 0.5 * o.length_m);
+          return (centre - Eigen::Vector2d(o.x_m, o.y_m)).norm() < clear;
+        }))
+      continue;
+    add_block({centre, heading, size.x(), size.y(), 0.0, size.z()}, *texture);
     ++placed;
   }
 }

@@ -1,13 +1,16 @@
 // A scenario file (TOML): who walks where, in what, in what light, before which camera on which robot.
-// tools/heel-sim/scenarios/demo.toml shows every key. Same file, same seed: same run, to the bit.
+// tools/heel-sim/scenarios/README.md lists every key. Same file, same seed: same run, to the bit.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "heel-sim/camera/exposure.h"
+#include "heel-sim/camera/frame_timing.h"
 #include "heel-sim/camera/sensor.h"
 #include "heel-sim/world/light.h"
+#include "heel-sim/world/obstacle.h"
 #include "heel-sim/world/person.h"
 #include "heel-sim/world/room.h"
 #include "heel-sim/world/walk.h"
@@ -24,7 +27,21 @@ struct ScenarioCamera {
   double mount_y_m = 0.0;
   double mount_z_m = 1.1;
   double mount_pitch_rad = 0.0;  ///< + looks up
+  double mount_roll_rad = 0.0;   ///< + lowers the right side: an error of mounting, heel does not know of it
+  double readout_ms = 0.0;       ///< rolling shutter: from the first row's exposure to the last's; 0: global
+  int jpeg_quality = 0;  ///< 1…100: frames go through JPEG, as a Motion-JPEG camera's do; 0: they do not
   SensorSettings sensor;
+  ExposureSettings exposure;
+  FrameTimingSettings timing;
+};
+
+/// A patch of floor on which the robot turns with another track: slip by surface.
+struct FloorPatch {
+  double x_m = 0.0;  ///< its middle
+  double y_m = 0.0;
+  double length_m = 0.0;  ///< along x
+  double width_m = 0.0;   ///< along y
+  double true_track_m = 0.62;
 };
 
 struct ScenarioRobot {
@@ -34,11 +51,29 @@ struct ScenarioRobot {
   double true_track_m = 0.62;  ///< what it truly turns with on this floor; the firmware believes 0.588
   double left_scale_error = -0.002;
   double right_scale_error = 0.002;
+  std::vector<FloorPatch> patches;  ///< the first that holds the robot's centre counts
   std::vector<std::string> faults;  ///< "KIND@START[+DURATION][=AMOUNT]", as for heel-sim --fault
+};
+
+/// Where a passer-by's shirt comes from.
+enum class ShirtOrigin : std::uint8_t {
+  Own,          ///< `person.shirt`, printed for them alone
+  Same,         ///< the very shirt the target wears
+  SameColours,  ///< the target's design and greys, another print
+};
+
+/// Somebody else.
+struct PasserbySettings {
+  PersonSettings person;
+  ShirtOrigin shirt_origin = ShirtOrigin::Own;
+  WalkState start;
+  std::vector<WalkItem> path;
+  double walk_after_s = 0.0;  ///< after the target set off
 };
 
 struct Scenario {
   std::string name;
+  std::string shows;  ///< one line: what this scenario is hard by
   std::uint64_t seed = 1;
   double duration_s = 60.0;
   double walk_after_s = 2.0;        ///< the person sets off this long after the robot's motors came on
@@ -46,6 +81,8 @@ struct Scenario {
   WalkState person_start;
   std::vector<WalkItem> path;
   PersonSettings person;
+  std::vector<PasserbySettings> passers_by;
+  std::vector<ObstacleSettings> obstacles;
   RoomSettings room;
   LightSettings light;
   ScenarioCamera camera;

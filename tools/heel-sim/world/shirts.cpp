@@ -16,11 +16,9 @@ namespace {
 /// Fine irregularity of woven cloth: no print is perfectly even.
 void weave(Canvas& canvas, double strength, Random& random) {
   for (int y = 0; y < canvas.height(); ++y)
-    for (int x = 0; x < canvas.width(); ++x) {
-      const double thread = ((x / 2 + y / 2) % 2 == 0) ? 0.5 : -0.5;
-      float& texel = canvas.at(x, y);
-      texel = std::clamp(texel + static_cast<float>(strength * (thread + random.normal())), 4.f, 250.f);
-    }
+    for (int x = 0; x < canvas.width(); ++x)
+      canvas.at(x, y) += static_cast<float>(((x / 2 + y / 2) % 2 == 0 ? 0.5 : -0.5) * strength);
+  add_grain(canvas, strength, random);
 }
 
 /// One printed shape: disc, ring, bar, cross, triangle or angle, turned by `angle`.
@@ -102,6 +100,66 @@ void draw_bold(Canvas& canvas, Random& random) {
     }
 }
 
+/// A sum of smooth waves, cut into three tones with edges a centimetre soft.
+void draw_blobs(Canvas& canvas, Random& random) {
+  struct Wave {
+    double kx, ky, phase;
+  };
+  std::vector<Wave> waves;
+  for (int i = 0; i < 14; ++i) {
+    const double k = 2.0 * std::numbers::pi / random.uniform(90, 260);
+    const double direction = random.uniform(0, 2 * std::numbers::pi);
+    waves.push_back({k * std::cos(direction), k * std::sin(direction), random.uniform(0, 6.28)});
+  }
+  const auto step = [](double value, double edge) {
+    return std::clamp((value - edge) / 0.5 + 0.5, 0.0, 1.0);
+  };
+  for (int y = 0; y < canvas.height(); ++y)
+    for (int x = 0; x < canvas.width(); ++x) {
+      double sum = 0.0;
+      for (const Wave& wave : waves) sum += std::sin(wave.kx * x + wave.ky * y + wave.phase);
+      canvas.at(x, y) = static_cast<float>(60.0 + 60.0 * step(sum, -1.2) + 70.0 * step(sum, 1.6));
+    }
+}
+
+/// Two figures of seven bars each, as on a clock, and a bar over them, in the middle of the back.
+void draw_jersey(Canvas& canvas, Random& random) {
+  constexpr double kBar = 14, kHalfWidth = 45, kHalfHeight = 50;  // a figure of two squares
+  const auto bar = [&](double x, double y, double half_x, double half_y) {
+    paint(canvas, box_around(x, y, std::max(half_x, half_y) + 4), 225.f,
+          [&](int px, int py) { return rectangle_distance(px - x, py - y, half_x, half_y); });
+  };
+  constexpr int kSegments[10] = {0x77, 0x24, 0x5d, 0x6d, 0x2e, 0x6b, 0x7b, 0x25, 0x7f, 0x6f};
+  const double middle = 0.5 * kShirtWidthTexels;
+  bar(middle, 150, 130, 18);
+  for (const double side : {-1.0, 1.0}) {
+    const double x = middle + 75 * side;
+    constexpr double kY = 340;
+    const int lit = kSegments[2 + random.index(8)];
+    if (lit & 0x01) bar(x, kY - 2 * kHalfHeight, kHalfWidth, kBar);
+    if (lit & 0x02) bar(x - kHalfWidth, kY - kHalfHeight, kBar, kHalfHeight + kBar);
+    if (lit & 0x04) bar(x + kHalfWidth, kY - kHalfHeight, kBar, kHalfHeight + kBar);
+    if (lit & 0x08) bar(x, kY, kHalfWidth, kBar);
+    if (lit & 0x10) bar(x - kHalfWidth, kY + kHalfHeight, kBar, kHalfHeight + kBar);
+    if (lit & 0x20) bar(x + kHalfWidth, kY + kHalfHeight, kBar, kHalfHeight + kBar);
+    if (lit & 0x40) bar(x, kY + 2 * kHalfHeight, kHalfWidth, kBar);
+  }
+}
+
+void draw_dots(Canvas& canvas) {
+  constexpr int kCell = 64;
+  for (int y = kCell / 2; y < canvas.height(); y += kCell)
+    for (int x = kCell / 2; x < canvas.width(); x += kCell)
+      paint(canvas, box_around(x, y, 18), 225.f,
+            [&](int px, int py) { return std::hypot(px - x, py - y) - 18.0; });
+}
+
+void draw_fine_check(Canvas& canvas) {
+  for (int y = 0; y < canvas.height(); ++y)
+    for (int x = 0; x < canvas.width(); ++x)
+      canvas.at(x, y) = 70.f + ((x / 8) % 2 == 0 ? 70.f : 0.f) + ((y / 8) % 2 == 0 ? 70.f : 0.f);
+}
+
 void draw_stripes(Canvas& canvas) {
   for (int y = 0; y < canvas.height(); ++y)
     for (int x = 0; x < canvas.width(); ++x) canvas.at(x, y) = (y / 32) % 2 == 0 ? 50.f : 200.f;
@@ -120,10 +178,16 @@ void draw_marks(Canvas& canvas) {
 ShirtDesign shirt_design(const std::string& name) {
   if (name == "bold") return ShirtDesign::Bold;
   if (name == "mosaic") return ShirtDesign::Mosaic;
+  if (name == "blobs") return ShirtDesign::Blobs;
+  if (name == "jersey") return ShirtDesign::Jersey;
+  if (name == "dotted") return ShirtDesign::Dotted;
   if (name == "striped") return ShirtDesign::Striped;
+  if (name == "fine_check") return ShirtDesign::FineCheck;
   if (name == "plain") return ShirtDesign::Plain;
   if (name == "marked") return ShirtDesign::Marked;
-  throw Error("'" + name + "' is not a shirt design (expected bold, mosaic, striped, plain or marked)");
+  throw Error("'" + name +
+              "' is not a shirt design (expected bold, mosaic, blobs, jersey, dotted, striped, "
+              "fine_check, plain or marked)");
 }
 
 ShirtMark shirt_mark(int index) {
@@ -134,7 +198,8 @@ ShirtMark shirt_mark(int index) {
 
 Canvas draw_shirt(ShirtDesign design, std::uint64_t seed) {
   Random random(seed);
-  Canvas canvas(kShirtWidthTexels, kShirtHeightTexels, design == ShirtDesign::Marked ? 60.f : 120.f);
+  const bool dark = design == ShirtDesign::Marked || design == ShirtDesign::Jersey;
+  Canvas canvas(kShirtWidthTexels, kShirtHeightTexels, dark ? 60.f : 120.f);
   switch (design) {
     case ShirtDesign::Bold:
       draw_bold(canvas, random);
@@ -142,8 +207,20 @@ Canvas draw_shirt(ShirtDesign design, std::uint64_t seed) {
     case ShirtDesign::Mosaic:
       draw_patches(canvas, 48, 15, 240, random);
       break;
+    case ShirtDesign::Blobs:
+      draw_blobs(canvas, random);
+      break;
+    case ShirtDesign::Jersey:
+      draw_jersey(canvas, random);
+      break;
+    case ShirtDesign::Dotted:
+      draw_dots(canvas);
+      break;
     case ShirtDesign::Striped:
       draw_stripes(canvas);
+      break;
+    case ShirtDesign::FineCheck:
+      draw_fine_check(canvas);
       break;
     case ShirtDesign::Plain:
       break;

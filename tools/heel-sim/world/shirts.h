@@ -9,11 +9,15 @@
 namespace heel::sim {
 
 enum class ShirtDesign : std::uint8_t {
-  Bold,     ///< large and small shapes of strong contrast, nowhere repeated
-  Mosaic,   ///< irregular patches of grey
-  Striped,  ///< horizontal stripes: texture without identity
-  Plain,    ///< bare cloth
-  Marked,   ///< plain, with white dots at shirt_mark(): for tests of the geometry
+  Bold,       ///< large and small shapes of strong contrast, nowhere repeated
+  Mosaic,     ///< irregular patches of grey
+  Blobs,      ///< soft-edged blotches of three tones, as on camouflage
+  Jersey,     ///< bare cloth but for bars and two large figures
+  Dotted,     ///< the same dot in every cell of a grid
+  Striped,    ///< horizontal stripes: texture without identity
+  FineCheck,  ///< checks of a centimetre: gone at a few metres
+  Plain,      ///< bare cloth
+  Marked,     ///< plain, with white dots at shirt_mark(): for tests of the geometry
 };
 
 /// Throws heel::Error naming the known designs.

@@ -77,6 +77,14 @@ std::string TomlSection::text(const char* key, const std::string& fallback) {
   return *value;
 }
 
+bool TomlSection::flag(const char* key, bool fallback) {
+  const toml::node* node = find(key);
+  if (!node) return fallback;
+  const auto value = node->value_exact<bool>();
+  if (!value) refuse(key, "neither true nor false (expected one of them)");
+  return *value;
+}
+
 std::vector<double> TomlSection::numbers(const char* key, std::size_t count) {
   const toml::node* node = find(key);
   if (!node) return {};

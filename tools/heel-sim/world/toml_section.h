@@ -23,6 +23,7 @@ class TomlSection {
   double number(const char* key, double fallback, const Range& range);
   std::int64_t integer(const char* key, std::int64_t fallback, std::int64_t low, std::int64_t high);
   std::string text(const char* key, const std::string& fallback);
+  bool flag(const char* key, bool fallback);
   std::vector<double> numbers(const char* key, std::size_t count);  ///< empty when absent
   std::vector<std::string> texts(const char* key);                  ///< empty when absent
   bool has(const char* key) const { return table_.contains(key); }

@@ -12,7 +12,7 @@ double camera_heading_rad(const Truth& truth) {
   return std::atan2(axis.y(), axis.x());
 }
 
-constexpr std::array<TruthColumn, 19> kColumns{{
+constexpr std::array<TruthColumn, 25> kColumns{{
     {"person_x_m", 5, [](const Truth& t) { return t.person.x_m; }},
     {"person_y_m", 5, [](const Truth& t) { return t.person.y_m; }},
     {"person_heading_rad", 6, [](const Truth& t) { return t.person.heading_rad; }},
@@ -32,6 +32,12 @@ constexpr std::array<TruthColumn, 19> kColumns{{
     {"target_x_px", 2, [](const Truth& t) { return t.back_px.x(); }},
     {"target_y_px", 2, [](const Truth& t) { return t.back_px.y(); }},
     {"target_in_view", 0, [](const Truth& t) { return t.in_view ? 1.0 : 0.0; }},
+    {"target_occluded", 0, [](const Truth& t) { return t.occluded ? 1.0 : 0.0; }},
+    {"robot_pitch_rad", 6, [](const Truth& t) { return t.stand.pitch_rad; }},
+    {"robot_roll_rad", 6, [](const Truth& t) { return t.stand.roll_rad; }},
+    {"room_light", 3, [](const Truth& t) { return t.exposure.light; }},
+    {"exposure_ms", 3, [](const Truth& t) { return t.exposure.exposure_ms; }},
+    {"sensor_gain", 3, [](const Truth& t) { return t.exposure.gain; }},
 }};
 
 }  // namespace

@@ -7,26 +7,49 @@
 
 namespace heel::sim {
 
-enum class WalkStep : std::uint8_t { Straight, Arc, To, Pause, Turn };
+enum class WalkStep : std::uint8_t {
+  Straight,
+  Arc,
+  To,
+  Pause,
+  Turn,
+  Aside,  ///< sideways, the back keeping its direction
+  Back,   ///< backwards
+  Sit,    ///< down on a stool behind them, and up again at the end
+};
 
 /// One entry of a scenario's path. Only the fields of its kind are used.
 struct WalkItem {
   WalkStep step = WalkStep::Straight;
-  double speed_m_s = 0.5;  ///< Straight, Arc, To
-  double length_m = 0.0;   ///< Straight
+  double speed_m_s = 0.5;  ///< Straight, Arc, To, Aside, Back
+  double length_m = 0.0;   ///< Straight, Back; Aside: left is positive
   double radius_m = 0.6;   ///< Arc; To: the turn towards the waypoint
   double angle_rad = 0.0;  ///< Arc, Turn: left is positive
   double x_m = 0.0;        ///< To
   double y_m = 0.0;
-  double duration_s = 0.0;  ///< Pause, Turn
+  double duration_s = 0.0;  ///< Pause, Turn, Sit
 };
 
 struct WalkState {
   double x_m = 0.0;
   double y_m = 0.0;
   double heading_rad = 0.0;  ///< continuous
-  double speed_m_s = 0.0;
-  double stride_rad = 0.0;  ///< gait phase: 2π is two steps
+  double speed_m_s = 0.0;    ///< ≥ 0, in whatever direction
+  double stride_rad = 0.0;   ///< gait phase: 2π is two steps; runs back when walking backwards
+  double travel_rad = 0.0;   ///< direction of travel from the heading: 0 ahead, π/2 to the left, π back
+  double seat = 0.0;         ///< 0 standing … 1 seated
+};
+
+/// Hips of a seated person stand this far behind their feet, over the middle of the stool.
+inline constexpr double kSeatBehindFeetM = 0.40;
+inline constexpr double kStoolSideM = 0.36;
+inline constexpr double kStoolHeightM = 0.44;
+
+/// The floor under the middle of a stool, and the way its sitter faces.
+struct StoolPlace {
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double heading_rad = 0.0;
 };
 
 /// Walks the items one after the other with bounded acceleration, braking in time for the next one's speed.
@@ -39,12 +62,18 @@ class Walk {
   WalkState at(double t_s) const;
   double duration_s() const;
   const std::vector<WalkState>& samples() const { return samples_; }
+  /// One for each Sit, in order.
+  const std::vector<StoolPlace>& stools() const { return stools_; }
 
  private:
-  void move(double length_m, double curvature_1_m, double speed_m_s, double end_speed_m_s);
-  void wait(double duration_s, double turn_rad);
+  struct Leg;
+  static std::vector<Leg> legs_of(WalkState state, const std::vector<WalkItem>& items);
+  static void legs_to(const WalkState& from, const WalkItem& item, std::vector<Leg>& legs);
+  void move(const Leg& leg, double end_speed_m_s);
+  void wait(const Leg& leg);
 
   std::vector<WalkState> samples_;
+  std::vector<StoolPlace> stools_;
 };
 
 }  // namespace heel::sim

@@ -1,38 +1,61 @@
-// Drawing order: room, person (depth buffer), shading, motion of every block, sensor.
+// What is true: who is where, what the camera model makes of it, what stands in between. Pictures are in
+// renderer.cpp.
 #include "heel-sim/world/world.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #include "heel-sim/world/random.h"
+#include "heel-sim/world/renderer.h"
 #include "heel/error.h"
 
 namespace heel::sim {
 namespace {
 
-constexpr int kRoomBody = 0;
-constexpr int kFirstPersonBody = 1;
-constexpr float kNothingGrey = 120.f;  ///< where no surface is: only possible outside the room
-
-FloorPlan plan_of(const Scenario& scenario, const Walk& walk) {
+FloorPlan plan_of(const Scenario& scenario, const std::deque<Figure>& figures) {
   FloorPlan plan;
   plan.walked_m.emplace_back(scenario.robot.x_m, scenario.robot.y_m);
-  // Every tenth sample: some centimetres apart.
-  for (std::size_t i = 0; i < walk.samples().size(); i += 10)
-    plan.walked_m.emplace_back(walk.samples()[i].x_m, walk.samples()[i].y_m);
+  for (const Figure& figure : figures) {
+    const std::vector<WalkState>& samples = figure.walk.samples();
+    // Every tenth sample: some centimetres apart.
+    for (std::size_t i = 0; i < samples.size(); i += 10)
+      plan.walked_m.emplace_back(samples[i].x_m, samples[i].y_m);
+    const std::vector<StoolPlace>& stools = figure.walk.stools();
+    plan.stools.insert(plan.stools.end(), stools.begin(), stools.end());
+  }
+  plan.obstacles = scenario.obstacles;
   return plan;
 }
 
-/// Columns are the camera's axes in the robot frame: x right, y down, z forwards, then pitched up.
+/// The target, then the passers-by. A part's seed depends on its place in the file only.
+std::deque<Figure> figures_of(const Scenario& scenario) {
+  const std::uint64_t target_seed = derived_seed(scenario.seed, 0x50);
+  const std::uint64_t shirt_seed = derived_seed(target_seed, 0x51);
+  std::deque<Figure> figures;
+  figures.push_back(
+      {Person(scenario.person, target_seed, shirt_seed), Walk(scenario.person_start, scenario.path), 0.0});
+  for (std::size_t i = 0; i < scenario.passers_by.size(); ++i) {
+    const PasserbySettings& passerby = scenario.passers_by[i];
+    const std::uint64_t seed = derived_seed(scenario.seed, 0x1000 + i);
+    PersonSettings settings = passerby.person;
+    if (passerby.shirt_origin != ShirtOrigin::Own) settings.shirt = scenario.person.shirt;
+    const bool same = passerby.shirt_origin == ShirtOrigin::Same;
+    figures.push_back({Person(settings, seed, same ? shirt_seed : derived_seed(seed, 0x51)),
+                       Walk(passerby.start, passerby.path), passerby.walk_after_s});
+  }
+  return figures;
+}
+
+/// Columns are the camera's axes in the robot frame: x right, y down, z forwards.
 Eigen::Matrix3d robot_from_level_camera() {
   Eigen::Matrix3d R;
   R << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   return R;
 }
+
+}  // namespace
 
 RobotMotion moved(const RobotMotion& robot, double dt_s) {
   RobotMotion out = robot;
@@ -43,37 +66,38 @@ RobotMotion moved(const RobotMotion& robot, double dt_s) {
   return out;
 }
 
-}  // namespace
-
-World::World(const Scenario& scenario)
+World::World(const Scenario& scenario, int threads)
     : scenario_(scenario),
-      walk_(scenario.person_start, scenario.path),
+      figures_(figures_of(scenario)),
       light_(scenario.light, scenario.seed),
-      person_(scenario.person, derived_seed(scenario.seed, 0x50)),
-      room_(scenario.room, plan_of(scenario, walk_), light_, derived_seed(scenario.seed, 0x20)),
-      rays_(scenario.camera.model),
-      rasteriser_(rays_),
-      sensor_(rays_, scenario.camera.sensor, derived_seed(scenario.seed, 0x5e)) {
-  motion_.blocks_x = (scenario.camera.model.width_px + kMotionBlockPx - 1) / kMotionBlockPx;
-  motion_.blocks_y = (scenario.camera.model.height_px + kMotionBlockPx - 1) / kMotionBlockPx;
-  motion_.dx_px.resize(static_cast<std::size_t>(motion_.blocks_x) * motion_.blocks_y);
-  motion_.dy_px.resize(motion_.dx_px.size());
-}
+      room_(scenario.room, plan_of(scenario, figures_), light_, scenario.light.window_azimuth_rad,
+            derived_seed(scenario.seed, 0x20)),
+      ground_(scenario.room.bump_m, derived_seed(scenario.seed, 0x30)),
+      exposure_(scenario.camera.exposure, scenario.camera.sensor.exposure_ms, scenario.light.changes,
+                scenario.duration_s),
+      renderer_(std::make_unique<Renderer>(*this, threads)) {}
+
+World::~World() = default;
 
 Eigen::Isometry3d World::world_from_camera(const RobotMotion& robot) const {
   const ScenarioCamera& camera = scenario_.camera;
+  const Stand stand = ground_.stand(robot.x_m, robot.y_m, robot.heading_rad);
   Eigen::Isometry3d robot_from_camera = Eigen::Isometry3d::Identity();
   robot_from_camera.translation() << camera.mount_x_m, camera.mount_y_m, camera.mount_z_m;
   // The camera's x axis points right: a positive turn about it lifts the view.
   robot_from_camera.linear() =
-      robot_from_level_camera() *
-      Eigen::AngleAxisd(camera.mount_pitch_rad, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  return Eigen::Translation3d(robot.x_m, robot.y_m, 0.0) *
-         Eigen::AngleAxisd(robot.heading_rad, Eigen::Vector3d::UnitZ()) * robot_from_camera;
+      robot_from_level_camera() * (Eigen::AngleAxisd(camera.mount_pitch_rad, Eigen::Vector3d::UnitX()) *
+                                   Eigen::AngleAxisd(camera.mount_roll_rad, Eigen::Vector3d::UnitZ()))
+                                      .toRotationMatrix();
+  return Eigen::Translation3d(robot.x_m, robot.y_m, stand.lift_m) *
+         Eigen::AngleAxisd(robot.heading_rad, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(-stand.pitch_rad, Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(stand.roll_rad, Eigen::Vector3d::UnitX()) * robot_from_camera;
 }
 
-PersonPose World::person_pose(double t_s) const {
-  return person_.pose(walk_.at(t_s - walk_start_s_), t_s);
+PersonPose World::figure_pose(std::size_t figure, double t_s) const {
+  const Figure& who = figures_[figure];
+  return who.person.pose(who.walk.at(t_s - walk_start_s_ - who.walk_after_s), t_s);
 }
 
 Eigen::Vector2d World::project_px(const Eigen::Vector3d& point_in_camera_m) const {
@@ -81,6 +105,27 @@ Eigen::Vector2d World::project_px(const Eigen::Vector3d& point_in_camera_m) cons
   const Eigen::Vector2d ideal(camera.fx * point_in_camera_m.x() / point_in_camera_m.z() + camera.cx,
                               camera.fy * point_in_camera_m.y() / point_in_camera_m.z() + camera.cy);
   return camera.distort_px(ideal);
+}
+
+bool World::seen_px(const RobotMotion& robot, double t_s,
+                    const std::function<Eigen::Vector3d(double t_s)>& point_m, Eigen::Vector2d& px) const {
+  const double readout_s = 1e-3 * scenario_.camera.readout_ms;
+  const int rows = scenario_.camera.model.height_px - 1;
+  double offset_s = 0.0;
+  // The row decides the time and the time the row; image motion over the readout is a few rows at most.
+  for (int i = 0; i < 6; ++i) {
+    const Eigen::Vector3d in_camera =
+        world_from_camera(moved(robot, offset_s)).inverse() * point_m(t_s + offset_s);
+    const RayTable& rays = renderer_->rays();
+    // Beyond the picture distortion means nothing.
+    if (in_camera.z() < 0.1 || std::abs(in_camera.x()) > rays.x_max * 1.2 * in_camera.z() ||
+        std::abs(in_camera.y()) > rays.y_max * 1.2 * in_camera.z())
+      return false;
+    px = project_px(in_camera);
+    if (readout_s == 0.0) return true;
+    offset_s = readout_s * (std::clamp(px.y() / rows, 0.0, 1.0) - 0.5);
+  }
+  return true;
 }
 
 Truth World::truth(const RobotMotion& robot, double t_s) const {
@@ -92,144 +137,80 @@ Truth World::truth(const RobotMotion& robot, double t_s) const {
   truth.back_yaw_rad = person.walk.heading_rad +
                        std::remainder(std::atan2(forwards.y(), forwards.x()) - person.walk.heading_rad,
                                       2.0 * std::numbers::pi);
-  truth.back_m = world_from_torso * person_.back_centre_m();
+  const Eigen::Vector3d back_in_torso = this->person().back_centre_m();
+  truth.back_m = world_from_torso * back_in_torso;
   truth.world_from_camera = world_from_camera(robot);
+  truth.stand = ground_.stand(robot.x_m, robot.y_m, robot.heading_rad);
+  truth.exposure = exposure_.at(t_s);
   const Eigen::Isometry3d camera_from_world = truth.world_from_camera.inverse();
   truth.back_in_camera_m = camera_from_world * truth.back_m;
   const Eigen::Vector3d direction = camera_from_world.linear() * forwards;
   truth.yaw_rad = std::atan2(direction.x(), direction.z());
-  const bool in_front = truth.back_in_camera_m.z() > 0.1;
-  const RayTable& rays = rays_;
-  if (in_front && std::abs(truth.back_in_camera_m.x()) <= rays.x_max * 1.2 * truth.back_in_camera_m.z() &&
-      std::abs(truth.back_in_camera_m.y()) <= rays.y_max * 1.2 * truth.back_in_camera_m.z()) {
-    truth.back_px = project_px(truth.back_in_camera_m);
+  truth.occluded = occluded(truth.world_from_camera.translation(), truth.back_m, t_s);
+  const auto back_at = [&](double at_s) -> Eigen::Vector3d {
+    return at_s == t_s ? truth.back_m : person_pose(at_s).world_from_part[kTorso] * back_in_torso;
+  };
+  Eigen::Vector2d px;
+  if (seen_px(robot, t_s, back_at, px)) {
+    truth.back_px = px;
     const CameraModel& camera = scenario_.camera.model;
-    truth.in_view = truth.back_px.x() >= 0 && truth.back_px.y() >= 0 &&
-                    truth.back_px.x() <= camera.width_px - 1 && truth.back_px.y() <= camera.height_px - 1 &&
-                    direction.dot(truth.back_in_camera_m) > 0.0;
+    truth.in_view = px.x() >= 0 && px.y() >= 0 && px.x() <= camera.width_px - 1 &&
+                    px.y() <= camera.height_px - 1 && direction.dot(truth.back_in_camera_m) > 0.0;
   }
   return truth;
 }
 
-World::Moment World::moment(const RobotMotion& robot, double t_s, double offset_s) const {
-  return {world_from_camera(moved(robot, offset_s)).inverse(), person_pose(t_s + offset_s)};
-}
-
-void World::render(const RobotMotion& robot, double t_s, std::uint64_t frame,
-                   std::vector<std::uint8_t>& grey) {
-  const double half_s = 0.5e-3 * scenario_.camera.sensor.exposure_ms;
-  render(moment(robot, t_s, -half_s), moment(robot, t_s, 0.0), moment(robot, t_s, half_s), frame, grey);
-}
-
-void World::render(const Moment& before, const Moment& now, const Moment& after, std::uint64_t frame,
-                   std::vector<std::uint8_t>& grey) {
-  rasteriser_.clear();
-  draw_person(now);
-  draw_room(now.camera_from_world);
-  rasteriser_.shade(kNothingGrey, radiance_);
-  measure_motion(before, now, after);
-  sensor_.expose(radiance_, motion_, frame, grey);
-}
-
-void World::draw_room(const Eigen::Isometry3d& camera_from_world) {
-  const Eigen::Isometry3f transform = camera_from_world.cast<float>();
-  Face out;
-  out.body = kRoomBody;
-  for (const StaticFace& face : room_.faces()) {
-    out.shape = face.shape;
-    for (std::size_t i = 0; i < 3; ++i)
-      out.corners[i] = {transform * face.corners_m[i], face.s_texel[i], face.t_texel[i], face.light[i]};
-    out.texture = face.texture;
-    out.texels_per_m = face.texels_per_m;
-    rasteriser_.draw(out);
+std::vector<Footprint> World::people_footprints(double t_s) const {
+  std::vector<Footprint> people;
+  for (std::size_t i = 0; i < figures_.size(); ++i) {
+    const Eigen::Vector3d at = figure_pose(i, t_s).world_from_part[kTorso].translation();
+    people.push_back({at.head<2>(), 0.0, 0.0, 0.0, kPersonRadiusM, kPersonHeightM});
   }
+  return people;
 }
 
-void World::draw_person(const Moment& now) {
-  const Mesh torso = person_.torso_mesh(now.person);
-  for (int part = 0; part < kPersonParts; ++part) {
-    const Mesh& mesh = part == kTorso ? torso : person_.mesh(static_cast<PersonPart>(part));
-    draw_mesh(mesh, now.person.world_from_part[static_cast<std::size_t>(part)], now.camera_from_world,
-              kFirstPersonBody + part);
-  }
+double World::range_m(double x_m, double y_m, double heading_rad, double t_s) const {
+  const Eigen::Vector2d from(x_m, y_m);
+  const Eigen::Vector2d direction(std::cos(heading_rad), std::sin(heading_rad));
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Footprint& thing : room_.footprints()) nearest = std::min(nearest, thing.ray_m(from, direction));
+  for (const Footprint& who : people_footprints(t_s)) nearest = std::min(nearest, who.ray_m(from, direction));
+  return nearest;
 }
 
-void World::draw_mesh(const Mesh& mesh, const Eigen::Isometry3d& world_from_body,
-                      const Eigen::Isometry3d& camera_from_world, int body) {
-  const Eigen::Isometry3f to_world = world_from_body.cast<float>();
-  const Eigen::Isometry3f to_camera = (camera_from_world * world_from_body).cast<float>();
-  std::vector<Corner> corners;
-  corners.reserve(mesh.vertices.size());
-  for (const MeshVertex& vertex : mesh.vertices)
-    corners.push_back({to_camera * vertex.position_m, vertex.s_texel, vertex.t_texel,
-                       light_.at(to_world * vertex.position_m, to_world.linear() * vertex.normal)});
-  Face face;
-  face.shape = FaceShape::Triangle;
-  face.texture = mesh.texture;
-  face.texels_per_m = mesh.texels_per_m;
-  face.body = body;
-  for (const auto& triangle : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) face.corners[i] = corners[static_cast<std::size_t>(triangle[i])];
-    rasteriser_.draw(face);
-  }
-}
-
-/// Image motion of what each block shows: the surface point at its middle, carried along with its body.
-void World::measure_motion(const Moment& before, const Moment& now, const Moment& after) {
-  // before/after the exposure, from the camera frame in its middle
-  std::array<std::pair<Eigen::Isometry3d, Eigen::Isometry3d>, kFirstPersonBody + kPersonParts> carried;
-  const Eigen::Isometry3d world_from_camera = now.camera_from_world.inverse();
-  carried[kRoomBody] = {before.camera_from_world * world_from_camera,
-                        after.camera_from_world * world_from_camera};
-  for (std::size_t part = 0; part < kPersonParts; ++part) {
-    const Eigen::Isometry3d part_from_camera = now.person.world_from_part[part].inverse() * world_from_camera;
-    carried[kFirstPersonBody + part] = {
-        before.camera_from_world * before.person.world_from_part[part] * part_from_camera,
-        after.camera_from_world * after.person.world_from_part[part] * part_from_camera};
-  }
-  const CameraModel& camera = scenario_.camera.model;
-  for (int by = 0; by < motion_.blocks_y; ++by) {
-    for (int bx = 0; bx < motion_.blocks_x; ++bx) {
-      const int x = std::min(bx * kMotionBlockPx + kMotionBlockPx / 2, camera.width_px - 1);
-      const int y = std::min(by * kMotionBlockPx + kMotionBlockPx / 2, camera.height_px - 1);
-      const auto block = static_cast<std::size_t>(by) * motion_.blocks_x + bx;
-      const float inverse_depth = rasteriser_.inverse_depth(x, y);
-      motion_.dx_px[block] = 0.f;
-      motion_.dy_px[block] = 0.f;
-      if (inverse_depth <= 0.f) continue;
-      const auto pixel = static_cast<std::size_t>(y) * camera.width_px + x;
-      const double z = 1.0 / static_cast<double>(inverse_depth);
-      const Eigen::Vector3d point(rays_.x[pixel] * z, rays_.y[pixel] * z, z);
-      const auto& [to_before, to_after] = carried[static_cast<std::size_t>(rasteriser_.body(x, y))];
-      const Eigen::Vector3d a = to_before * point;
-      const Eigen::Vector3d b = to_after * point;
-      if (a.z() < 0.05 || b.z() < 0.05) continue;
-      motion_.dx_px[block] = static_cast<float>(camera.fx * (b.x() / b.z() - a.x() / a.z()));
-      motion_.dy_px[block] = static_cast<float>(camera.fy * (b.y() / b.z() - a.y() / a.z()));
-    }
-  }
+bool World::occluded(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& point_m, double t_s) const {
+  const Eigen::Vector2d from = eye_m.head<2>();
+  const double distance = (point_m.head<2>() - from).norm();
+  if (distance < 1e-6) return false;
+  const Eigen::Vector2d direction = (point_m.head<2>() - from) / distance;
+  const auto hides = [&](const Footprint& thing) {
+    const double at = thing.ray_m(from, direction);
+    // Where the line of sight comes in, it must be below the top.
+    return at < distance && eye_m.z() + (point_m.z() - eye_m.z()) * at / distance < thing.top_m;
+  };
+  if (std::any_of(room_.footprints().begin(), room_.footprints().end(), hides)) return true;
+  const std::vector<Footprint> people = people_footprints(t_s);
+  return std::any_of(people.begin() + 1, people.end(), hides);  // not by themselves
 }
 
 ReferenceView World::reference_view(double distance_m) {
-  Moment still;
-  still.person = person_.pose(scenario_.person_start, 0.0);
-  const Eigen::Isometry3d& world_from_torso = still.person.world_from_part[kTorso];
-  const Eigen::Vector3d back = world_from_torso * person_.back_centre_m();
+  const PersonPose still = person().pose(scenario_.person_start, 0.0);
+  const Eigen::Isometry3d& world_from_torso = still.world_from_part[kTorso];
   const double heading = scenario_.person_start.heading_rad;
   const Eigen::Vector3d forwards(std::cos(heading), std::sin(heading), 0.0);
-  Eigen::Isometry3d camera = Eigen::Isometry3d::Identity();
-  camera.linear() = Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) * robot_from_level_camera();
-  camera.translation() = back - distance_m * forwards;
-  camera.translation().z() = scenario_.camera.mount_z_m;
-  still.camera_from_world = camera.inverse();
+  Eigen::Isometry3d world_from_view = Eigen::Isometry3d::Identity();
+  world_from_view.linear() = Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) * robot_from_level_camera();
+  world_from_view.translation() = world_from_torso * person().back_centre_m() - distance_m * forwards;
+  world_from_view.translation().z() = scenario_.camera.mount_z_m;
+  const Eigen::Isometry3d view_from_world = world_from_view.inverse();
 
   // The region: the back between the shoulder blades' outer edges, from below the collar to the waist.
   Eigen::Vector2d low(1e9, 1e9);
   Eigen::Vector2d high(-1e9, -1e9);
   for (const double s : {-160.0, 0.0, 160.0})
     for (const double t : {110.0, 340.0, 600.0}) {
-      const Eigen::Vector3d point = person_.shirt_point_m(0.5 * kShirtWidthTexels + s, t);
-      const Eigen::Vector2d px = project_px(still.camera_from_world * world_from_torso * point);
+      const Eigen::Vector3d point = person().shirt_point_m(0.5 * kShirtWidthTexels + s, t);
+      const Eigen::Vector2d px = project_px(view_from_world * world_from_torso * point);
       low = low.cwiseMin(px);
       high = high.cwiseMax(px);
     }
@@ -244,9 +225,13 @@ ReferenceView World::reference_view(double distance_m) {
   view.roi.width_px = static_cast<int>(std::floor(high.x())) - view.roi.x_px + 1;
   view.roi.height_px = static_cast<int>(std::floor(high.y())) - view.roi.y_px + 1;
   view.distance_m = distance_m;
-  // A frame number no run reaches: the noise of the reference is not that of a frame.
-  render(still, still, still, std::numeric_limits<std::uint32_t>::max(), view.grey);
+  renderer_->draw_still(still, view_from_world, view.grey);
   return view;
+}
+
+void World::render(const RobotMotion& robot, double t_s, std::uint64_t frame,
+                   std::vector<std::uint8_t>& grey) {
+  renderer_->draw(robot, t_s, frame, grey);
 }
 
 }  // namespace heel::sim

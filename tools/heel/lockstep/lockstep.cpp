@@ -1,10 +1,13 @@
 #include "lockstep.h"
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <optional>
 
 #include "frame_supply.h"
+#include "heel-sim/contact/contact.h"
 #include "heel-sim/world/random.h"
 #include "heel/control.h"
 #include "heel/error.h"
@@ -21,9 +24,10 @@ class Lockstep {
 
  private:
   /// A frame taken but not yet seen by the vision stage.
-  struct Exposure {
+  struct TakenFrame {
     std::uint64_t sequence = 0;
     TimeNs t_ns = 0;  ///< middle
+    TimeNs stamp_error_ns = 0;
     RobotMotion robot;
     TruthMoment truth;
   };
@@ -34,7 +38,8 @@ class Lockstep {
 
   void advance_line(TimeNs t_ns);
   void expose(TimeNs t_ns);
-  void see(const Exposure& exposure, TimeNs t_start_ns);
+  TimeNs readable_ns(TimeNs t_ns) const;
+  void see(const TakenFrame& taken, TimeNs t_start_ns);
   void tick(TimeNs t_ns, bool shutdown);
   void send(std::span<const std::uint8_t> bytes, TimeNs t_ns);
   void start_person_when_motors_run(TimeNs t_ns);
@@ -50,11 +55,13 @@ class Lockstep {
   ControlStage control_;
   ArcosSession session_;
   P3At robot_;
+  std::optional<Contact> contact_;  ///< with a world
 
   TimeNs t_line_ns_ = 0;  ///< the line has been carried up to here
   TimeNs t_vision_free_ns_ = 0;
-  std::optional<Exposure> waiting_;  ///< freshest wins
-  std::optional<PoseUnderWay> pose_under_way_;
+  TimeNs t_last_ready_ns_ = 0;                ///< frames come one after the other
+  std::optional<TakenFrame> waiting_;         ///< freshest wins
+  std::deque<PoseUnderWay> poses_under_way_;  ///< in order; more than one behind a late frame
   PoseEstimate newest_pose_;
   bool has_pose_ = false;
   bool frames_ended_ = false;
@@ -72,6 +79,7 @@ Lockstep::Lockstep(const LockstepSettings& settings, LockstepObserver& observer)
   if (scenario_.camera.source == "sim") {
     world_ = std::make_unique<World>(scenario_);
     frames_ = make_world_supply(*world_);
+    contact_.emplace(*world_, robot_);
   } else {
     frames_ = make_file_supply(scenario_.camera.source, scenario_.camera.model.width_px,
                                scenario_.camera.model.height_px);
@@ -107,6 +115,7 @@ void Lockstep::advance_line(TimeNs t_ns) {
   while (t_line_ns_ + P3At::kStep_ns <= t_ns) {
     t_line_ns_ += P3At::kStep_ns;
     robot_.advance(t_line_ns_);
+    if (contact_) contact_->step(seconds_from_ns(t_line_ns_));
     session_.receive(robot_.take_output(), t_line_ns_);
   }
   if (world_) start_person_when_motors_run(t_ns);
@@ -141,40 +150,49 @@ TruthMoment Lockstep::truth_at(TimeNs t_ns) const {
   return truth;
 }
 
+/// When the last row's exposure has ended.
+TimeNs Lockstep::readable_ns(TimeNs t_ns) const {
+  const double open_ms =
+      world_ ? world_->exposure(seconds_from_ns(t_ns)).exposure_ms : scenario_.camera.sensor.exposure_ms;
+  return t_ns + ns_from_seconds(0.5e-3 * (open_ms + scenario_.camera.readout_ms));
+}
+
 /// Vision takes the freshest frame as soon as it is free; a frame that is overtaken is never looked at.
 void Lockstep::expose(TimeNs t_ns) {
   ++counts_.frames;
-  const Exposure exposure{counts_.frames, t_ns, motion_at(t_ns), truth_at(t_ns)};
-  const TimeNs t_ready_ns = t_ns + ns_from_seconds(0.5e-3 * scenario_.camera.sensor.exposure_ms);
+  const FrameFate fate = frame_fate(scenario_.camera.timing, scenario_.seed, counts_.frames);
+  if (fate.dropped) {
+    ++counts_.frames_dropped;
+    return;
+  }
+  const TimeNs t_ready_ns = std::max(t_last_ready_ns_, readable_ns(t_ns) + fate.delay_ns);
+  t_last_ready_ns_ = t_ready_ns;
+  const TakenFrame taken{counts_.frames, t_ns, fate.stamp_error_ns, motion_at(t_ns), truth_at(t_ns)};
   if (waiting_ && t_ready_ns >= t_vision_free_ns_) {
     // It became free since the last frame: that one was seen first.
     see(*waiting_, t_vision_free_ns_);
     waiting_.reset();
   }
   if (t_ready_ns >= t_vision_free_ns_) {
-    see(exposure, t_ready_ns);
+    see(taken, t_ready_ns);
     return;
   }
   if (waiting_) ++counts_.frames_overtaken;
-  waiting_ = exposure;
+  waiting_ = taken;
 }
 
-void Lockstep::see(const Exposure& exposure, TimeNs t_start_ns) {
-  const FrameView frame = frames_->frame(exposure.sequence, exposure.t_ns, exposure.robot);
+void Lockstep::see(const TakenFrame& taken, TimeNs t_start_ns) {
+  FrameView frame = frames_->frame(taken.sequence, taken.t_ns, taken.robot);
   if (frame.grey == nullptr) {
     frames_ended_ = true;
     return;
   }
+  frame.header.t_capture_ns += taken.stamp_error_ns;
   t_vision_free_ns_ = t_start_ns + ns_from_seconds(1e-3 * scenario_.vision_latency_ms);
   PoseUnderWay done{vision_.estimate(frame), t_vision_free_ns_};
   done.pose.t_done_ns = t_vision_free_ns_;
-  // One frame is under way at a time: an older one has arrived by now.
-  if (pose_under_way_) {
-    newest_pose_ = pose_under_way_->pose;
-    has_pose_ = true;
-  }
-  pose_under_way_ = done;
-  observer_.on_pose(frame, done.pose, exposure.truth);
+  poses_under_way_.push_back(done);
+  observer_.on_pose(frame, done.pose, taken.truth);
 }
 
 void Lockstep::tick(TimeNs t_ns, bool shutdown) {
@@ -182,10 +200,10 @@ void Lockstep::tick(TimeNs t_ns, bool shutdown) {
     see(*waiting_, t_vision_free_ns_);
     waiting_.reset();
   }
-  if (pose_under_way_ && pose_under_way_->t_visible_ns <= t_ns) {
-    newest_pose_ = pose_under_way_->pose;
+  while (!poses_under_way_.empty() && poses_under_way_.front().t_visible_ns <= t_ns) {
+    newest_pose_ = poses_under_way_.front().pose;
     has_pose_ = true;
-    pose_under_way_.reset();
+    poses_under_way_.pop_front();
   }
   ControlInput input;
   input.now_ns = t_ns;

@@ -50,6 +50,7 @@ struct LockstepCounts {
   std::uint64_t ticks = 0;
   std::uint64_t frames = 0;
   std::uint64_t frames_overtaken = 0;  ///< vision was still busy
+  std::uint64_t frames_dropped = 0;    ///< never came, as the scenario has it
 };
 
 /// Runs the whole scenario. Throws heel::Error before it begins when something does not fit together.

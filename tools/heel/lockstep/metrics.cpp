@@ -61,8 +61,11 @@ void measure_paths(const std::vector<MotionSample>& motion, FollowMetrics& out) 
   std::vector<double> lateral, separation;
   std::size_t near = 0;
   double t_out_since_s = -1.0;
+  double t_before_s = out.t_walk_begin_s;
   for (const MotionSample& sample : motion) {
     if (sample.t_s < out.t_walk_begin_s) continue;
+    if (sample.touching) out.touching_s += sample.t_s - t_before_s;
+    t_before_s = sample.t_s;
     // Standing, encoders of a slipping robot still tremble: count steps of a centimetre.
     if (robot_path.empty() ||
         std::hypot(sample.robot.x_m - robot_path.back().x_m, sample.robot.y_m - robot_path.back().y_m) > 0.01)
@@ -225,6 +228,7 @@ nlohmann::ordered_json to_json(const FollowMetrics& m) {
   json["z_error_m"] = to_json(m.z_error_m);
   json["stops_by_reason"] = m.stops_by_reason;
   json["rest_s_by_reason"] = m.rest_s_by_reason;
+  json["touching_s"] = m.touching_s;
   return json;
 }
 

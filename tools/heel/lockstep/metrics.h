@@ -24,6 +24,7 @@ struct MotionSample {
   PathPoint person;
   double person_speed_m_s = 0.0;
   bool back_in_view = false;  ///< by geometry, whatever vision made of it
+  bool touching = false;      ///< a bumper is pressed
 };
 
 /// One frame as vision saw it, and as it truly was.
@@ -64,7 +65,8 @@ struct FollowMetrics {
   double out_of_view_total_s = 0.0;          ///< frames not found, times the frame period
   double truly_out_of_view_longest_s = 0.0;  ///< by geometry
   Quantiles certainty, yaw_error_rad, x_error_m, y_error_m, z_error_m;
-  double yaw_nees = 0.0;  ///< mean of (error/sigma)²: 1 when the stated sigma is honest
+  double yaw_nees = 0.0;    ///< mean of (error/sigma)²: 1 when the stated sigma is honest
+  double touching_s = 0.0;  ///< with a bumper pressed
   std::map<std::string, double> rest_s_by_reason;  ///< while the person walked
   std::map<std::string, int> stops_by_reason;  ///< changes from following to rest, while the person walked
 };

@@ -24,7 +24,8 @@ MotionSample motion_sample(const TruthMoment& truth) {
   sample.has_person = truth.has_world;
   sample.person = {truth.world.person.x_m, truth.world.person.y_m, truth.world.person.heading_rad};
   sample.person_speed_m_s = truth.world.person.speed_m_s;
-  sample.back_in_view = truth.world.in_view;
+  sample.back_in_view = truth.world.in_view && !truth.world.occluded;
+  sample.touching = truth.robot.bumpers_front != 0 || truth.robot.bumpers_rear != 0;
   return sample;
 }
 
