@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "heel-sim/contact/contact.h"
@@ -82,7 +83,9 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--duration", options.duration_s, "end after this many seconds; 0: on SIGINT or SIGTERM")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--scenario", options.scenario, "the world: a scenario file (TOML)");
-  app.add_option("--camera", options.camera, "sim:NAME: frames for readers of that address; or none")
+  app.add_option("--camera", options.camera,
+                 "sim:NAME: frames for readers of that address; v4l2:/dev/videoN: into a v4l2loopback "
+                 "device; or none")
       ->capture_default_str();
   app.add_option("--frames", options.frames, "keep a frame every five seconds in this folder");
   app.add_option("--still", options.still,
@@ -210,9 +213,13 @@ void check(const Options& options) {
 
 void simulate(const Options& options, const Scenario* scenario) {
   P3At robot(robot_settings(options, scenario), options.seed);
-  const std::string camera = options.camera == "none" ? "" : sim_camera_name(options.camera);
   std::unique_ptr<Surroundings> surroundings;
   if (scenario != nullptr) surroundings = std::make_unique<Surroundings>(*scenario, robot);
+  std::unique_ptr<FrameSink> sink;
+  if (scenario != nullptr && options.camera != "none") {
+    const ScenarioCamera& camera = scenario->camera;
+    sink = open_frame_sink(options.camera, camera.model.width_px, camera.model.height_px, camera.rate_hz);
+  }
   const std::unique_ptr<Transport> transport = open_transport(options.robot, options.boot_baud);
   const TimeNs t_start_ns = monotonic_now_ns();
   std::unique_ptr<WireFile> wire;
@@ -230,18 +237,20 @@ void simulate(const Options& options, const Scenario* scenario) {
     add_robot_columns(*truth, robot);
     if (surroundings) add_world_columns(*truth, *surroundings, robot, t_start_ns);
   }
-  if (surroundings && !camera.empty()) {
+  if (surroundings && sink) {
     surroundings->motion.set(robot.truth());
-    surroundings->camera = std::make_unique<LiveCamera>(surroundings->world, surroundings->motion, camera,
-                                                        t_start_ns, options.frames, kKeptFrame_s);
+    surroundings->camera = std::make_unique<LiveCamera>(
+        surroundings->world, surroundings->motion, std::move(sink), t_start_ns, options.frames, kKeptFrame_s);
   }
   print_event(0, "ready at " + transport->address());
   run(robot, server, truth.get(), surroundings.get(), t_start_ns, options);
   if (surroundings && surroundings->camera) {
     const LiveCameraCounters c = surroundings->camera->counters();
-    std::printf("camera: %llu frames, %llu left out, %.1f ms to draw one (worst %.1f ms)\n",
-                static_cast<unsigned long long>(c.frames), static_cast<unsigned long long>(c.frames_late),
-                c.draw_ms_mean, c.draw_ms_worst);
+    std::printf(
+        "camera: %llu frames, %llu left out, %llu dropped as the scenario has it, %.1f ms to draw one (worst "
+        "%.1f ms)\n",
+        static_cast<unsigned long long>(c.frames), static_cast<unsigned long long>(c.frames_late),
+        static_cast<unsigned long long>(c.frames_dropped), c.draw_ms_mean, c.draw_ms_worst);
   }
 }
 

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
+#include <utility>
 
-#include "capture/frame_source.h"
 #include "heel-sim/live/picture_file.h"
 #include "heel/error.h"
 #include "runtime/clock.h"
@@ -35,12 +34,11 @@ RobotMotion SharedMotion::at(TimeNs t_ns) const {
   return motion;
 }
 
-LiveCamera::LiveCamera(World& world, const SharedMotion& motion, const std::string& name, TimeNs t_start_ns,
-                       const std::string& saved_folder, double saved_every_s)
+LiveCamera::LiveCamera(World& world, const SharedMotion& motion, std::unique_ptr<FrameSink> sink,
+                       TimeNs t_start_ns, const std::string& saved_folder, double saved_every_s)
     : world_(world),
       motion_(motion),
-      channel_(name, static_cast<std::uint32_t>(world.scenario().camera.model.width_px),
-               static_cast<std::uint32_t>(world.scenario().camera.model.height_px)),
+      sink_(std::move(sink)),
       t_start_ns_(t_start_ns),
       saved_folder_(saved_folder),
       saved_every_ns_(ns_from_seconds(saved_every_s)),
@@ -69,7 +67,12 @@ void LiveCamera::run() {
   while (!stop_) {
     const TimeNs t_ns = static_cast<TimeNs>(sequence) * period_ns;
     sleep_until_ns(t_start_ns_ + readable_ns(t_ns));
-    draw(sequence, t_ns);
+    try {
+      draw(sequence, t_ns);
+    } catch (const Error& error) {
+      std::fprintf(stderr, "heel-sim: %s; no more frames\n", error.what());
+      return;
+    }
     // Frames whose time has passed meanwhile are left out; the count goes on, as a camera's does.
     const auto due = static_cast<std::uint64_t>((monotonic_now_ns() - t_start_ns_) / period_ns);
     const std::uint64_t next = std::max(sequence + 1, due);
@@ -96,25 +99,27 @@ void LiveCamera::draw(std::uint64_t sequence, TimeNs t_ns) {
     return;
   }
   world_.render(motion_.at(t_ns), seconds_from_ns(t_ns), sequence, grey_);
+  const double took_ms = 1e-6 * static_cast<double>(monotonic_now_ns() - t_begin_ns);
   if (fate.delay_ns > 0) sleep_until_ns(t_start_ns_ + readable_ns(t_ns) + fate.delay_ns);
   const CameraModel& camera = world_.scenario().camera.model;
-  const WritableFrame out = channel_.writable();
-  *out.header = {sequence, t_start_ns_ + t_ns + fate.stamp_error_ns,
-                 static_cast<std::uint32_t>(camera.width_px), static_cast<std::uint32_t>(camera.height_px)};
-  for (int y = 0; y < camera.height_px; ++y)
-    std::memcpy(out.grey + static_cast<std::size_t>(y) * out.stride_bytes,
-                grey_.data() + static_cast<std::size_t>(y) * camera.width_px,
-                static_cast<std::size_t>(camera.width_px));
-  channel_.publish();
-  const double took_ms = 1e-6 * static_cast<double>(monotonic_now_ns() - t_begin_ns);
+  FrameHeader header;
+  header.sequence = sequence;
+  header.t_capture_ns = t_start_ns_ + t_ns + fate.stamp_error_ns;
+  header.width_px = static_cast<std::uint32_t>(camera.width_px);
+  header.height_px = static_cast<std::uint32_t>(camera.height_px);
+  sink_->put(header, grey_);
   {
     const std::scoped_lock lock(counters_mutex_);
     ++counters_.frames;
     counters_.draw_ms_mean += (took_ms - counters_.draw_ms_mean) / static_cast<double>(counters_.frames);
     counters_.draw_ms_worst = std::max(counters_.draw_ms_worst, took_ms);
   }
-  if (saved_folder_.empty() || t_ns < t_save_ns_) return;
-  t_save_ns_ += saved_every_ns_;
+  if (!saved_folder_.empty() && t_ns >= t_save_ns_) save(sequence, t_ns);
+}
+
+void LiveCamera::save(std::uint64_t sequence, TimeNs t_ns) {
+  const CameraModel& camera = world_.scenario().camera.model;
+  while (t_save_ns_ <= t_ns) t_save_ns_ += saved_every_ns_;
   char name[32];
   std::snprintf(name, sizeof name, "/%06llu.png", static_cast<unsigned long long>(sequence));
   try {
@@ -123,12 +128,6 @@ void LiveCamera::draw(std::uint64_t sequence, TimeNs t_ns) {
     std::fprintf(stderr, "heel-sim: %s; no more frames are kept\n", error.what());
     saved_folder_.clear();
   }
-}
-
-std::string sim_camera_name(const std::string& address) {
-  const SourceAddress parsed = parse_source_address(address);
-  if (parsed.kind != SourceKind::Sim) throw Error("--camera " + address + " (expected sim:NAME or none)");
-  return parsed.rest;
 }
 
 }  // namespace heel::sim

@@ -1,15 +1,16 @@
 // The simulated camera in real time: a thread of its own draws what the robot's camera sees and hands it to
-// readers of "sim:NAME". Drawing never holds up the robot: the two share one small record under a lock that
+// a sink. Drawing never holds up the robot: the two share one small record under a lock that
 // nobody keeps for longer than a copy.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
 
-#include "capture/sim_channel.h"
+#include "heel-sim/live/frame_sink.h"
 #include "heel-sim/robot/p3at.h"
 #include "heel-sim/world/world.h"
 
@@ -38,8 +39,9 @@ struct LiveCameraCounters {
 class LiveCamera {
  public:
   /// Frames begin at `t_start_ns` (CLOCK_MONOTONIC), which is time 0 of world and robot. Every
-  /// `saved_every_s` one is kept in `saved_folder` (none when empty). Throws heel::Error when NAME is taken.
-  LiveCamera(World& world, const SharedMotion& motion, const std::string& name, TimeNs t_start_ns,
+  /// `saved_every_s` one is kept in `saved_folder` (none when empty). Throws heel::Error when that cannot be
+  /// made. A sink that fails later ends the camera, with a line that says so, and not the robot.
+  LiveCamera(World& world, const SharedMotion& motion, std::unique_ptr<FrameSink> sink, TimeNs t_start_ns,
              const std::string& saved_folder, double saved_every_s);
   ~LiveCamera();
   LiveCamera(const LiveCamera&) = delete;
@@ -49,12 +51,13 @@ class LiveCamera {
 
  private:
   void run();
+  void save(std::uint64_t sequence, TimeNs t_ns);
   void draw(std::uint64_t sequence, TimeNs t_ns);
   TimeNs readable_ns(TimeNs t_ns) const;
 
   World& world_;
   const SharedMotion& motion_;
-  SimChannelWriter channel_;
+  std::unique_ptr<FrameSink> sink_;
   TimeNs t_start_ns_;
   std::string saved_folder_;
   TimeNs saved_every_ns_;
@@ -65,8 +68,5 @@ class LiveCamera {
   std::atomic<bool> stop_{false};
   std::thread thread_;  ///< last: begins when all else stands
 };
-
-/// "sim:NAME" → NAME. Throws heel::Error on any other address.
-std::string sim_camera_name(const std::string& address);
 
 }  // namespace heel::sim
