@@ -1,7 +1,13 @@
-// heel simulate: a scenario through the daemon's own stages in lock step, and how well it was followed.
+// heel simulate: scenarios through the daemon's own stages in lock step, and how well they were followed.
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <opencv2/imgcodecs.hpp>
+#include <set>
 #include <string>
 
 #include "commands.h"
@@ -9,13 +15,18 @@
 #include "heel/lockstep/lockstep.h"
 #include "heel/lockstep/metrics.h"
 #include "heel/lockstep/run_record.h"
+#include "heel/report/figures.h"
+#include "heel/report/overview_figure.h"
 #include "runtime/config_load.h"
+#include "simulate_runs.h"
 
 namespace heel::cli {
 namespace {
 
+constexpr const char* kDefaultOut = "out/simulate";
+
 struct SimulateOptions {
-  std::string scenario;
+  std::vector<std::string> scenarios;
   std::string config_file;
   std::string template_file;
   std::string out;
@@ -26,11 +37,16 @@ struct SimulateOptions {
   sim::FollowCriteria criteria;
 };
 
-sim::LockstepSettings settings_of(const SimulateOptions& options) {
+sim::Scenario scenario_of(const SimulateOptions& options, const std::string& file) {
+  sim::Scenario scenario = sim::read_scenario(file);
+  if (options.seed >= 0) scenario.seed = static_cast<std::uint64_t>(options.seed);
+  if (options.duration_s > 0.0) scenario.duration_s = options.duration_s;
+  return scenario;
+}
+
+sim::LockstepSettings settings_of(const SimulateOptions& options, const sim::Scenario& scenario) {
   sim::LockstepSettings settings;
-  settings.scenario = sim::read_scenario(options.scenario);
-  if (options.seed >= 0) settings.scenario.seed = static_cast<std::uint64_t>(options.seed);
-  if (options.duration_s > 0.0) settings.scenario.duration_s = options.duration_s;
+  settings.scenario = scenario;
   if (!options.config_file.empty()) settings.config = load_config(options.config_file).config;
   sim::apply_scenario(settings.scenario, settings.config);
   if (!options.template_file.empty())
@@ -43,61 +59,136 @@ sim::LockstepSettings settings_of(const SimulateOptions& options) {
   return settings;
 }
 
-void print_table(const sim::FollowMetrics& m, const sim::LockstepCounts& counts, double speed) {
-  constexpr double kDeg = 57.29577951308232;
-  std::printf("person walked %.2f m, robot %.2f m\n", m.person_path_m, m.robot_path_m);
-  std::printf("beside the person's path: %.3f m RMS, %.3f to %.3f m\n", m.lateral_m.rms, m.lateral_m.lowest,
-              m.lateral_m.highest);
-  std::printf("separation: %.2f m mean, %.2f to %.2f m\n", m.separation_m.mean, m.separation_m.lowest,
-              m.separation_m.highest);
-  std::printf("found in %llu of %llu frames, longest out of view %.2f s, in all %.2f s\n",
-              static_cast<unsigned long long>(m.frames_found), static_cast<unsigned long long>(m.frames),
-              m.out_of_view_longest_s, m.out_of_view_total_s);
-  std::printf("certainty 5/50/95 %%: %.2f %.2f %.2f\n", m.certainty.p05, m.certainty.p50, m.certainty.p95);
-  std::printf("yaw error: mean %+.2f, deviation %.2f, 5/95 %% %+.1f %+.1f degrees; (error/sigma)^2 %.2f\n",
-              kDeg * m.yaw_error_rad.mean, kDeg * m.yaw_error_rad.deviation, kDeg * m.yaw_error_rad.p05,
-              kDeg * m.yaw_error_rad.p95, m.yaw_nees);
-  std::printf("position error RMS: x %.3f, y %.3f, z %.3f m (z mean %+.3f m)\n", m.x_error_m.rms,
-              m.y_error_m.rms, m.z_error_m.rms, m.z_error_m.mean);
-  for (const auto& [reason, times] : m.stops_by_reason)
-    std::printf("stopped %d times: %s (%.2f s)\n", times, reason.c_str(), m.rest_s_by_reason.at(reason));
-  std::printf("%llu ticks, %llu frames (%llu overtaken), %.1f x real time\n",
-              static_cast<unsigned long long>(counts.ticks), static_cast<unsigned long long>(counts.frames),
-              static_cast<unsigned long long>(counts.frames_overtaken), speed);
+bool is_folder_name(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_';
+  });
+}
+
+SimulatedRun description_of(const sim::Scenario& scenario) {
+  SimulatedRun run;
+  run.scenario = scenario.name;
+  run.shows = scenario.shows;
+  run.seed = scenario.seed;
+  return run;
+}
+
+/// Runs in lock step; the record keeps what the figures need.
+SimulatedRun simulated(const SimulateOptions& options, const sim::LockstepSettings& settings,
+                       sim::RunRecord& record) {
+  SimulatedRun run = description_of(settings.scenario);
+  const auto begin = std::chrono::steady_clock::now();
+  run.counts = sim::run_lockstep(settings, record);
+  const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  run.times_real = settings.scenario.duration_s / took_s;
+  run.metrics = record.metrics().evaluate();
+  run.failed = sim::failed_criteria(run.metrics, options.criteria);
+  return run;
+}
+
+bool report_failed(const std::vector<SimulatedRun>& runs) {
+  bool any = false;
+  for (const SimulatedRun& run : runs)
+    for (const std::string& reason : run.failed) {
+      std::cerr << "heel simulate: " << (runs.size() > 1 ? run.scenario + ": " : "") << reason << '\n';
+      any = true;
+    }
+  return any;
+}
+
+void run_one(const SimulateOptions& options, const sim::Scenario& scenario) {
+  const sim::LockstepSettings settings = settings_of(options, scenario);
+  sim::RunRecord record(options.out, settings);
+  const SimulatedRun run = simulated(options, settings, record);
+  std::cout << (options.json ? to_json(run).dump(2) + "\n" : detailed_text(run));
+  if (report_failed({run})) throw CLI::RuntimeError(kExitNo);
+}
+
+void write_picture(const std::string& path, const cv::Mat& picture) {
+  if (picture.empty()) return;
+  if (!cv::imwrite(path, picture)) throw Error(path + ": cannot write (expected a writable folder)");
+}
+
+/// A run's figures into its folder, and its band of the overview.
+report::OverviewBand draw(const SimulatedRun& run, const sim::MetricsCollector& samples,
+                          const std::string& folder) {
+  report::OverviewBand band{run.scenario, run.shows, report::path_figure(samples, run.metrics),
+                            report::frames_figure(folder)};
+  write_picture(folder + "/path.png", band.path);
+  write_picture(folder + "/errors.png", report::errors_figure(samples));
+  write_picture(folder + "/frames.png", band.frames);
+  return band;
+}
+
+/// All of them, each into a folder of its own under `out`; a shirt that cannot be followed is a result too.
+void run_several(const SimulateOptions& options, const std::vector<sim::Scenario>& scenarios) {
+  const std::string out = options.out.empty() ? kDefaultOut : options.out;
+  std::vector<SimulatedRun> runs;
+  std::vector<report::OverviewBand> bands;
+  for (const sim::Scenario& scenario : scenarios) {
+    const std::string folder = out + "/" + scenario.name;
+    std::filesystem::remove_all(folder + "/frames");  // of an earlier run
+    if (!options.json) std::cerr << scenario.name << ": " << scenario.shows << '\n';
+    sim::LockstepSettings settings;
+    try {
+      settings = settings_of(options, scenario);
+    } catch (const Error& error) {
+      runs.push_back(description_of(scenario));
+      runs.back().refused = error.what();
+      bands.push_back({scenario.name, scenario.shows + " (refused)", {}, {}});
+      continue;
+    }
+    sim::RunRecord record(folder, settings);
+    runs.push_back(simulated(options, settings, record));
+    record.flush();
+    bands.push_back(draw(runs.back(), record.metrics(), folder));
+  }
+  const std::string table = table_text(runs);
+  std::filesystem::create_directories(out);
+  std::ofstream file(out + "/table.txt");
+  file << table;
+  if (!file.flush()) throw Error(out + "/table.txt: cannot write (expected a writable folder)");
+  write_picture(out + "/overview.png", report::overview_figure(bands));
+  if (options.json) {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const SimulatedRun& run : runs) all.push_back(to_json(run));
+    std::cout << all.dump(2) << '\n';
+  } else {
+    std::cout << table << "pictures and recordings: " << out << '\n';
+  }
+  if (report_failed(runs)) throw CLI::RuntimeError(kExitNo);
 }
 
 void run_simulate(const SimulateOptions& options) {
-  const sim::LockstepSettings settings = settings_of(options);
-  sim::RunRecord record(options.out, settings);
-  const auto begin = std::chrono::steady_clock::now();
-  const sim::LockstepCounts counts = sim::run_lockstep(settings, record);
-  const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const sim::FollowMetrics metrics = record.metrics().evaluate();
-  const auto failed = sim::failed_criteria(metrics, options.criteria);
-  if (options.json) {
-    // No wall-clock figure here: the same run prints the same bytes.
-    nlohmann::ordered_json json{{"scenario", settings.scenario.name},
-                                {"seed", settings.scenario.seed},
-                                {"ticks", counts.ticks},
-                                {"frames_overtaken", counts.frames_overtaken}};
-    json.update(sim::to_json(metrics));
-    json["failed"] = failed;
-    std::cout << json.dump(2) << '\n';
-  } else {
-    print_table(metrics, counts, settings.scenario.duration_s / took_s);
+  const std::vector<std::string> files = scenario_files(options.scenarios);
+  if (files.size() == 1 && files == options.scenarios) {
+    run_one(options, scenario_of(options, files.front()));
+    return;
   }
-  for (const std::string& reason : failed) std::cerr << "heel simulate: " << reason << '\n';
-  if (!failed.empty()) throw CLI::RuntimeError(kExitNo);
+  std::vector<sim::Scenario> scenarios;
+  std::set<std::string> names;
+  for (const std::string& file : files) {
+    scenarios.push_back(scenario_of(options, file));
+    if (!is_folder_name(scenarios.back().name))
+      throw Error(file + ": name: '" + scenarios.back().name +
+                  "' cannot name a folder (expected letters, digits, '-' and '_')");
+    if (!names.insert(scenarios.back().name).second)
+      throw Error(file + ": name: a second scenario called '" + scenarios.back().name +
+                  "' (expected names of their own)");
+  }
+  run_several(options, scenarios);
 }
 
 }  // namespace
 
 void add_simulate_command(CLI::App& app) {
   auto options = std::make_shared<SimulateOptions>();
-  CLI::App* command = app.add_subcommand(
-      "simulate",
-      "Runs a scenario in lock step with the simulated world; exit status 1 when a limit is not met");
-  command->add_option("scenario", options->scenario, "scenario file (TOML)")->required();
+  CLI::App* command = app.add_subcommand("simulate",
+                                         "Runs scenarios in lock step with the simulated world; exit status "
+                                         "1 when a limit is not met. Of several "
+                                         "it prints a table and leaves pictures");
+  command->add_option("scenario", options->scenarios, "scenario files (TOML), or folders of them")
+      ->required();
   command->add_option("--seed", options->seed, "instead of the scenario's")->check(CLI::NonNegativeNumber);
   command->add_option("--duration", options->duration_s, "seconds, instead of the scenario's")
       ->check(CLI::PositiveNumber);
@@ -107,9 +198,11 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--teach-distance", options->teach_distance_m, "of that view, metres")
       ->check(CLI::Range(0.3, 10.0))
       ->capture_default_str();
-  command->add_option("--out", options->out,
-                      "folder for truth.csv, ticks.csv, poses.csv, wire.hex and frames");
-  command->add_flag("--json", options->json, "metrics as JSON");
+  command->add_option("-o,--out", options->out,
+                      "folder for truth.csv, ticks.csv, poses.csv, wire.hex and frames; of several scenarios "
+                      "each has a folder in it, default " +
+                          std::string(kDefaultOut));
+  command->add_flag("--json", options->json, "metrics as JSON; of several scenarios as a list");
   command->add_option("--max-out-of-view-s", options->criteria.max_out_of_view_s, "fail when longer");
   command->add_option("--max-rms-m", options->criteria.max_rms_m, "fail when the paths lie farther apart");
   command->add_option("--min-path-m", options->criteria.min_robot_path_m,

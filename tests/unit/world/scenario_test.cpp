@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "heel/error.h"
 
@@ -197,6 +199,36 @@ TEST(Scenario, ShippedDemoHasAStraightAndBendsBothWays) {
   }
   EXPECT_TRUE(straight && left && right);
   EXPECT_GE(s.duration_s, 60);
+}
+
+TEST(Scenario, ShippedOnesSayWhatTheyShowAndNobodyWalksThroughThings) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(HEEL_SOURCE_DIR "/tools/heel-sim/scenarios")) {
+    if (entry.path().extension() != ".toml") continue;
+    ++files;
+    const std::string name = entry.path().stem().string();
+    const Scenario s = read_scenario(entry.path().string());
+    EXPECT_EQ(s.name, name);
+    EXPECT_FALSE(s.shows.empty()) << name;
+    std::vector<Walk> walks{Walk(s.person_start, s.path)};
+    for (const PasserbySettings& passerby : s.passers_by) walks.emplace_back(passerby.start, passerby.path);
+    EXPECT_LT(walks[0].duration_s() + s.walk_after_s + 1.0, s.duration_s) << name << ": ends before the walk";
+    for (const Walk& walk : walks)
+      for (const WalkState& at : walk.samples())
+        for (const ObstacleSettings& obstacle : s.obstacles) {
+          const Eigen::Vector2d feet(at.x_m, at.y_m);
+          if (obstacle.kind == ObstacleKind::Pole) {
+            EXPECT_GT((feet - Eigen::Vector2d(obstacle.x_m, obstacle.y_m)).norm(), obstacle.radius_m + 0.2)
+                << name;
+          }
+          for (const Block& block : blocks_of(obstacle)) {
+            if (block.bottom_m > 0.0) continue;
+            const Footprint print{block.centre_m, block.heading_rad, block.length_m, block.width_m};
+            EXPECT_GT((feet - print.nearest_m(feet)).norm(), 0.2) << name;
+          }
+        }
+  }
+  EXPECT_GE(files, 15);
 }
 
 TEST(Scenario, ShippedCameraFileIsTheSimulatorsCamera) {

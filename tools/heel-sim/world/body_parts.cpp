@@ -150,8 +150,13 @@ Texture head_surface(const Tones& tones, std::uint64_t seed) {
   return surface([&](int x, int y) {
     const double hairline_m =
         0.735 + 0.06 * std::cos(2.0 * std::numbers::pi * x / kPartTexels) + 0.003 * random.normal();
-    return part_z_m(kHeadProfile, y) > hairline_m ? uneven(tones.hair, 12.0, random)
-                                                  : uneven(tones.skin, 2.0, random);
+    const double z_m = part_z_m(kHeadProfile, y);
+    if (z_m > hairline_m) return uneven(tones.hair, 12.0, random);
+    // Eyes and mouth, so that one sees at a glance who looks this way: the front is at x = 0.
+    const int from_front = std::min(x, kPartTexels - x);
+    const bool eye = std::abs(from_front - 15) < 5 && std::abs(z_m - 0.745) < 0.007;
+    const bool mouth = from_front < 12 && std::abs(z_m - 0.685) < 0.005;
+    return uneven(eye || mouth ? 0.4f * tones.skin : tones.skin, 2.0, random);
   });
 }
 

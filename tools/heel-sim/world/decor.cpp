@@ -180,9 +180,8 @@ Canvas draw_plaster(std::uint64_t seed) {
     const double radius = random.uniform(3, 22);
     paint(
         canvas, box_around(x, y, radius), static_cast<float>(random.uniform(110, 200)),
-        [&](int px, int py) { return std::hypot(px - x, py - y) - radius; }, 0.35f);
+        [&](int px, int py) { return std::hypot(px - x, py - y) - radius; }, 0.15f);
   }
-  fill_box(canvas, 0, 470, 512, 42, 60.f);
   add_grain(canvas, 4.0, random);
   return canvas;
 }

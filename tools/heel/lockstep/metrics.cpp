@@ -74,6 +74,7 @@ void measure_paths(const std::vector<MotionSample>& motion, FollowMetrics& out) 
     if (path.size() > 1) lateral.push_back(lateral_distance_m(path, sample.robot, near));
     separation.push_back(
         std::hypot(sample.robot.x_m - sample.person.x_m, sample.robot.y_m - sample.person.y_m));
+    if (sample.t_s <= out.t_walk_end_s) out.separation_end_m = separation.back();
     if (sample.back_in_view)
       t_out_since_s = -1.0;
     else if (t_out_since_s < 0.0)
@@ -107,6 +108,7 @@ void measure_poses(const std::vector<PoseSample>& poses, FollowMetrics& out) {
     x.push_back(pose.x_m - pose.true_x_m);
     y.push_back(pose.y_m - pose.true_y_m);
     z.push_back(pose.z_m - pose.true_z_m);
+    if (std::hypot(x.back(), y.back(), z.back()) > kWrongM) ++out.frames_wrong;
     if (pose.yaw_sigma_rad > 0.0) nees += std::pow(yaw.back() / pose.yaw_sigma_rad, 2);
   }
   out.out_of_view_longest_s = std::max(out.out_of_view_longest_s, t_last_s - t_found_s);
@@ -229,6 +231,8 @@ nlohmann::ordered_json to_json(const FollowMetrics& m) {
   json["stops_by_reason"] = m.stops_by_reason;
   json["rest_s_by_reason"] = m.rest_s_by_reason;
   json["touching_s"] = m.touching_s;
+  json["frames_wrong"] = m.frames_wrong;
+  json["separation_end_m"] = m.separation_end_m;
   return json;
 }
 

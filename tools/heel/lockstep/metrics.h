@@ -55,14 +55,19 @@ struct Quantiles {
 };
 Quantiles quantiles(std::vector<double> values);
 
+/// A target found farther than this from its true place is another one.
+inline constexpr double kWrongM = 0.5;
+
 struct FollowMetrics {
   double t_walk_begin_s = 0.0, t_walk_end_s = 0.0;  ///< while the person walked
   double person_path_m = 0.0, robot_path_m = 0.0;
-  Quantiles lateral_m;     ///< robot's distance from the person's path, signed, left of it positive
-  Quantiles separation_m;  ///< robot to person
+  Quantiles lateral_m;            ///< robot's distance from the person's path, signed, left of it positive
+  Quantiles separation_m;         ///< robot to person
+  double separation_end_m = 0.0;  ///< when the walk ends
   std::uint64_t frames = 0, frames_found = 0;
-  double out_of_view_longest_s = 0.0;        ///< between two frames in which the target was found
-  double out_of_view_total_s = 0.0;          ///< frames not found, times the frame period
+  std::uint64_t frames_wrong = 0;      ///< found, but over kWrongM from where the target was: something else
+  double out_of_view_longest_s = 0.0;  ///< between two frames in which the target was found
+  double out_of_view_total_s = 0.0;    ///< frames not found, times the frame period
   double truly_out_of_view_longest_s = 0.0;  ///< by geometry
   Quantiles certainty, yaw_error_rad, x_error_m, y_error_m, z_error_m;
   double yaw_nees = 0.0;    ///< mean of (error/sigma)²: 1 when the stated sigma is honest

@@ -107,6 +107,13 @@ void RunRecord::on_bytes_to_robot(std::span<const std::uint8_t> bytes, TimeNs t_
   std::fputc('\n', wire_.get());
 }
 
+void RunRecord::flush() {
+  if (!recorder_) return;
+  recorder_->flush();
+  std::fflush(truth_.get());
+  std::fflush(wire_.get());
+}
+
 void RunRecord::write_truth(const TruthMoment& truth) {
   const RobotTruth& robot = truth.robot;
   std::fprintf(truth_.get(), "%.4f,%.5f,%.5f,%.6f,%.5f,%.6f,%.5f,%.5f,%.6f,%d", seconds_from_ns(truth.t_ns),

@@ -27,6 +27,8 @@ class RunRecord : public LockstepObserver {
   void on_bytes_to_robot(std::span<const std::uint8_t> bytes, TimeNs t_ns) override;
 
   const MetricsCollector& metrics() const { return metrics_; }
+  /// Everything told so far is in the files.
+  void flush();
 
  private:
   struct Close {

@@ -1,0 +1,108 @@
+// `heel simulate` with one scenario, several, and a folder.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "run_heel.h"
+#include "sanitized.h"
+
+namespace heel {
+namespace {
+
+using test::Outcome;
+using test::run_heel;
+using test::TemporaryFolder;
+using test::write_text;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// Two seconds of a small picture: about what it takes to connect.
+std::string scenario_text(const std::string& name, const std::string& shirt) {
+  return "name = \"" + name + "\"\nshows = \"what " + name +
+         " is hard by\"\nduration_s = 2.0\n[person]\nshirt = \"" + shirt +
+         "\"\nwalk_after_s = 0.0\n[[person.path]]\nstep = \"straight\"\nlength_m = 3\n[robot]\nx_m = -1.8\n"
+         "[room]\nobjects = 3\n";
+}
+
+class Simulate : public ::testing::Test {
+ protected:
+  std::string scenario(const std::string& name, const std::string& shirt = "bold") {
+    return write_text(folder_.file(name + ".toml"), scenario_text(name, shirt));
+  }
+  Outcome simulate(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "simulate");
+    return run_heel(folder_, arguments);
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Simulate, OneScenarioGivesOneObject) {
+  const Outcome run = simulate({scenario("walk"), "--json", "--seed", "5"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json.at("scenario"), "walk");
+  EXPECT_EQ(json.at("seed"), 5);
+  EXPECT_GT(json.at("ticks"), 90);
+  EXPECT_TRUE(json.contains("following_rms_m"));
+}
+
+TEST_F(Simulate, AFolderGivesATableAndPictures) {
+  if (test::kThreadSanitizer) GTEST_SKIP() << "the lock-step tests run the same threads for a shorter time";
+  scenario("a_walk");
+  scenario("b_check", "fine_check");
+  const std::string out = folder_.file("out");
+  const Outcome run = simulate({folder_.path().string(), "-o", out});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("a_walk"), HasSubstr("what a_walk is hard by"),
+                             HasSubstr("b_check              refused: ")));
+  EXPECT_EQ(run.out.find(test::read_text(out + "/table.txt")), 0U);
+  EXPECT_LT(run.out.find("a_walk"), run.out.find("b_check"));
+  for (const char* file : {"/overview.png", "/a_walk/path.png", "/a_walk/errors.png", "/a_walk/frames.png"})
+    EXPECT_FALSE(cv::imread(out + file).empty()) << file;
+  EXPECT_TRUE(std::filesystem::exists(out + "/a_walk/truth.csv"));
+  EXPECT_FALSE(std::filesystem::exists(out + "/b_check"));
+}
+
+TEST_F(Simulate, SeveralGiveAList) {
+  if (test::kThreadSanitizer) GTEST_SKIP() << "the lock-step tests run the same threads for a shorter time";
+  const Outcome run = simulate({scenario("one"), scenario("two"), "--json", "-o", folder_.file("out")});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  ASSERT_EQ(json.size(), 2U);
+  EXPECT_EQ(json[0].at("scenario"), "one");
+  EXPECT_EQ(json[1].at("scenario"), "two");
+}
+
+TEST_F(Simulate, ALimitThatIsNotMetNamesItsScenario) {
+  if (test::kThreadSanitizer) GTEST_SKIP() << "the lock-step tests run the same threads for a shorter time";
+  const Outcome run =
+      simulate({scenario("one"), scenario("two"), "--min-path-m", "50", "-o", folder_.file("out")});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("heel simulate: one: the robot went"),
+                             HasSubstr("heel simulate: two: the robot went")));
+}
+
+TEST_F(Simulate, BadInputIsNamedBeforeAnythingRuns) {
+  const std::string good = scenario("good");
+  std::filesystem::create_directory(folder_.file("empty"));
+  const Outcome empty = simulate({folder_.file("empty")});
+  EXPECT_EQ(empty.status, 2);
+  EXPECT_THAT(empty.err, HasSubstr("empty: no scenario in this folder (expected *.toml)"));
+  const Outcome twice = simulate({good, good});
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("a second scenario called 'good'"));
+  const std::string outside = write_text(folder_.file("outside.toml"), scenario_text("../outside", "bold"));
+  const Outcome escaping = simulate({good, outside, "-o", folder_.file("out")});
+  EXPECT_EQ(escaping.status, 2);
+  EXPECT_THAT(escaping.err, HasSubstr("'../outside' cannot name a folder"));
+  const Outcome absent = simulate({good, folder_.file("absent.toml")});
+  EXPECT_EQ(absent.status, 2);
+  EXPECT_THAT(absent.err, HasSubstr("absent.toml: cannot read"));
+  for (const Outcome& run : {empty, twice, escaping, absent}) EXPECT_EQ(run.out, "");
+}
+
+}  // namespace
+}  // namespace heel
