@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "heel/error.h"
 #include "heel/lockstep/metrics.h"
@@ -59,8 +61,27 @@ class Transcript : public LockstepObserver {
   void append(double value) { numbers.append(reinterpret_cast<const char*>(&value), sizeof value); }
 };
 
-TEST(Lockstep, RepeatsToTheBit) {
+/// The short walk with everything that could make a run depend on more than its seed.
+LockstepSettings troubled_walk() {
   LockstepSettings settings = short_walk();
+  Scenario& scenario = settings.scenario;
+  scenario.passers_by.emplace_back();
+  scenario.passers_by[0].start = {.x_m = 1.0, .y_m = 1.5, .heading_rad = -1.57};
+  scenario.passers_by[0].path = {WalkItem{.length_m = 3.0}};
+  scenario.obstacles.emplace_back();
+  scenario.obstacles[0].y_m = -1.0;
+  scenario.camera.readout_ms = 20.0;
+  scenario.camera.jpeg_quality = 70;
+  scenario.camera.sensor.glare = 0.1;
+  scenario.camera.exposure.automatic = true;
+  scenario.camera.timing = {.drop_share = 0.1, .late_share = 0.2, .late_ms = 90.0, .jitter_ms = 2.0};
+  scenario.light.changes = {{1.5, 0.3}};
+  scenario.room.bump_m = 0.002;
+  return settings;
+}
+
+TEST(Lockstep, RepeatsToTheBit) {
+  LockstepSettings settings = troubled_walk();
   settings.scenario.duration_s = test::kSanitized ? 1.0 : 4.0;
   Transcript first, second, other;
   run_lockstep(settings, first);
@@ -99,6 +120,40 @@ TEST(Lockstep, SlowVisionLosesFramesButNotThePerson) {
   const LockstepCounts counts = run_lockstep(settings, record);
   EXPECT_GT(counts.frames_overtaken, counts.frames / 3);
   EXPECT_GT(record.metrics().evaluate().robot_path_m, 0.3);
+}
+
+/// Keeps what the poses' times say.
+class PoseTimes : public LockstepObserver {
+ public:
+  void on_pose(const FrameView& frame, const PoseEstimate& pose, const TruthMoment& truth) override {
+    stamp_error_s.push_back(seconds_from_ns(frame.header.t_capture_ns - truth.t_ns));
+    latency_s.push_back(seconds_from_ns(pose.t_done_ns - truth.t_ns));
+  }
+  std::vector<double> stamp_error_s, latency_s;
+};
+
+TEST(Lockstep, FramesAreDroppedLateAndIllStamped) {
+  if (test::kThreadSanitizer) GTEST_SKIP() << "RepeatsToTheBit runs the same threads for a shorter time";
+  LockstepSettings settings = short_walk();
+  settings.scenario.duration_s = test::kSanitized ? 2.0 : 6.0;
+  settings.scenario.camera.timing = {
+      .drop_share = 0.2, .late_share = 0.2, .late_ms = 100.0, .jitter_ms = 3.0};
+  PoseTimes times;
+  const LockstepCounts counts = run_lockstep(settings, times);
+  EXPECT_NEAR(static_cast<double>(counts.frames_dropped), 0.2 * static_cast<double>(counts.frames), 15.0);
+  // What came was seen, but for what was overtaken (the last may still be waiting).
+  EXPECT_NEAR(static_cast<double>(times.latency_s.size()),
+              static_cast<double>(counts.frames - counts.frames_dropped - counts.frames_overtaken), 1.0);
+  double worst_stamp = 0, longest = 0, shortest = 1;
+  for (std::size_t i = 0; i < times.latency_s.size(); ++i) {
+    worst_stamp = std::max(worst_stamp, std::abs(times.stamp_error_s[i]));
+    longest = std::max(longest, times.latency_s[i]);
+    shortest = std::min(shortest, times.latency_s[i]);
+  }
+  EXPECT_GT(worst_stamp, 0.003);
+  EXPECT_LE(worst_stamp, 0.009 + 1e-9);
+  EXPECT_NEAR(shortest, 0.029, 1e-6);  // half the exposure and vision's 25 ms
+  EXPECT_GT(longest, 0.029 + 0.05);
 }
 
 TEST(Lockstep, PlainShirtIsRefusedWithTheReason) {

@@ -76,6 +76,23 @@ TEST(Metrics, StopsAreCountedByReason) {
   EXPECT_NEAR(m.rest_s_by_reason.at("target lost"), 0.4, 1e-9);
 }
 
+TEST(Metrics, ATargetFoundElsewhereIsWrong) {
+  MetricsCollector run;
+  for (int i = 0; i <= 10; ++i) {
+    MotionSample sample = motion(0.1 * i, 0.05 * i - 2, 0, 0.05 * i, 0.5);
+    sample.touching = i >= 7;
+    run.add(sample);
+    PoseSample seen = pose(0.1 * i, true, 0.0);
+    seen.true_z_m = 2.0;
+    seen.z_m = i < 4 ? 2.45 : 2.6;  // half a metre is the limit
+    run.add(seen);
+  }
+  const FollowMetrics m = run.evaluate();
+  EXPECT_EQ(m.frames_wrong, 7U);
+  EXPECT_NEAR(m.touching_s, 0.4, 1e-9);
+  EXPECT_NEAR(m.separation_end_m, 2.0, 1e-9);
+}
+
 TEST(Metrics, CriteriaNameWhatFailed) {
   FollowMetrics m;
   m.frames = 1;

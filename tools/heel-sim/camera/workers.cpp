@@ -31,12 +31,14 @@ void Workers::share(int count, int piece, const std::function<void(int begin, in
     count_ = count;
     piece_ = std::max(1, piece);
     next_ = 0;
-    busy_ = static_cast<int>(helpers_.size());
+    open_ = true;
     ++round_;
   }
   begin_.notify_all();
   take_pieces();
   std::unique_lock lock(mutex_);
+  // Who has not come by now is not waited for: on a busy machine that could take longer than the work did.
+  open_ = false;
   done_.wait(lock, [this] { return busy_ == 0; });
 }
 
@@ -48,6 +50,8 @@ void Workers::help() {
       begin_.wait(lock, [&] { return stop_ || round_ != seen; });
       if (stop_) return;
       seen = round_;
+      if (!open_) continue;
+      ++busy_;
     }
     take_pieces();
     const std::scoped_lock lock(mutex_);

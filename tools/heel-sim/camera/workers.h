@@ -33,7 +33,8 @@ class Workers {
   std::condition_variable begin_;
   std::condition_variable done_;
   std::uint64_t round_ = 0;  ///< of work; helpers wait for the next
-  int busy_ = 0;             ///< helpers not yet through with this round
+  bool open_ = false;        ///< helpers may still join this round
+  int busy_ = 0;             ///< helpers that have joined and are not yet through
   bool stop_ = false;
   // This round's work.
   const std::function<void(int, int)>* work_ = nullptr;

@@ -37,7 +37,7 @@ void sheet(Canvas& canvas, double x, double y, double width, double height, Rand
     const bool ring = random.uniform() < 0.4;
     paint(canvas, box_around(cx, cy, radius), random.uniform() < 0.5 ? ink : any_grey(random),
           [&](int px, int py) {
-            const double r = std::hypot(px - cx, py - cy);
+            const double r = length(px - cx, py - cy);
             return ring ? std::abs(r - 0.75 * radius) - 0.25 * radius : r - radius;
           });
   }
@@ -85,7 +85,7 @@ Canvas draw_floor(std::uint64_t seed) {
     const double radius = random.uniform(1.5, 6);
     paint(
         canvas, box_around(x, y, radius), static_cast<float>(random.uniform(60, 180)),
-        [&](int px, int py) { return std::hypot(px - x, py - y) - radius; }, 0.6f);
+        [&](int px, int py) { return length(px - x, py - y) - radius; }, 0.6f);
   }
   add_grain(canvas, 6.0, random);
   return canvas;
@@ -146,8 +146,7 @@ Canvas draw_crate(std::uint64_t seed) {
   for (int i = 0; i < 120; ++i) {
     const double x = random.uniform(0, 512);
     const double y = random.uniform(0, 512);
-    paint(canvas, box_around(x, y, 4), 35.f,
-          [&](int px, int py) { return std::hypot(px - x, py - y) - 3.5; });
+    paint(canvas, box_around(x, y, 4), 35.f, [&](int px, int py) { return length(px - x, py - y) - 3.5; });
   }
   add_grain(canvas, 5.0, random);
   return canvas;
@@ -180,7 +179,7 @@ Canvas draw_plaster(std::uint64_t seed) {
     const double radius = random.uniform(3, 22);
     paint(
         canvas, box_around(x, y, radius), static_cast<float>(random.uniform(110, 200)),
-        [&](int px, int py) { return std::hypot(px - x, py - y) - radius; }, 0.15f);
+        [&](int px, int py) { return length(px - x, py - y) - radius; }, 0.08f);
   }
   add_grain(canvas, 4.0, random);
   return canvas;

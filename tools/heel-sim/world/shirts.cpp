@@ -32,9 +32,9 @@ void print_shape(Canvas& canvas, int kind, double cx, double cy, double radius, 
     const double y = -s * dx + c * dy;
     switch (kind) {
       case 0:
-        return std::hypot(x, y) - 0.8 * radius;
+        return length(x, y) - 0.8 * radius;
       case 1:
-        return std::abs(std::hypot(x, y) - 0.65 * radius) - 0.22 * radius;
+        return std::abs(length(x, y) - 0.65 * radius) - 0.22 * radius;
       case 2:
         return rectangle_distance(x, y, 0.95 * radius, 0.3 * radius);
       case 3:
@@ -151,7 +151,7 @@ void draw_dots(Canvas& canvas) {
   for (int y = kCell / 2; y < canvas.height(); y += kCell)
     for (int x = kCell / 2; x < canvas.width(); x += kCell)
       paint(canvas, box_around(x, y, 18), 225.f,
-            [&](int px, int py) { return std::hypot(px - x, py - y) - 18.0; });
+            [&](int px, int py) { return length(px - x, py - y) - 18.0; });
 }
 
 void draw_fine_check(Canvas& canvas) {
@@ -169,7 +169,7 @@ void draw_marks(Canvas& canvas) {
   for (int i = 0; i < kShirtMarks; ++i) {
     const ShirtMark mark = shirt_mark(i);
     paint(canvas, box_around(mark.s_texel, mark.t_texel, 12), 250.f,
-          [&](int x, int y) { return std::hypot(x - mark.s_texel, y - mark.t_texel) - 12.0; });
+          [&](int x, int y) { return length(x - mark.s_texel, y - mark.t_texel) - 12.0; });
   }
 }
 
