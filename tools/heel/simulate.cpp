@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <opencv2/imgcodecs.hpp>
 #include <set>
 #include <string>
 
@@ -17,6 +16,7 @@
 #include "heel/lockstep/run_record.h"
 #include "heel/report/figures.h"
 #include "heel/report/overview_figure.h"
+#include "image_file.h"
 #include "runtime/config_load.h"
 #include "simulate_runs.h"
 
@@ -104,11 +104,6 @@ void run_one(const SimulateOptions& options, const sim::Scenario& scenario) {
   if (report_failed({run})) throw CLI::RuntimeError(kExitNo);
 }
 
-void write_picture(const std::string& path, const cv::Mat& picture) {
-  if (picture.empty()) return;
-  if (!cv::imwrite(path, picture)) throw Error(path + ": cannot write (expected a writable folder)");
-}
-
 /// A run's figures into its folder, and its band of the overview.
 report::OverviewBand draw(const SimulatedRun& run, const sim::MetricsCollector& samples,
                           const std::string& folder) {
@@ -116,7 +111,7 @@ report::OverviewBand draw(const SimulatedRun& run, const sim::MetricsCollector& 
                             report::frames_figure(folder)};
   write_picture(folder + "/path.png", band.path);
   write_picture(folder + "/errors.png", report::errors_figure(samples));
-  write_picture(folder + "/frames.png", band.frames);
+  if (!band.frames.empty()) write_picture(folder + "/frames.png", band.frames);
   return band;
 }
 

@@ -82,7 +82,7 @@ LockstepSettings troubled_walk() {
 
 TEST(Lockstep, RepeatsToTheBit) {
   LockstepSettings settings = troubled_walk();
-  settings.scenario.duration_s = test::kSanitized ? 1.0 : 4.0;
+  settings.scenario.duration_s = test::kSanitized ? 1.0 : 2.5;
   Transcript first, second, other;
   run_lockstep(settings, first);
   run_lockstep(settings, second);

@@ -7,12 +7,12 @@
 namespace heel::report {
 namespace {
 
-constexpr int kWidthPx = 1400, kTitlePx = 46, kPicturesPx = 220;
+constexpr int kBandWidthPx = 1510, kTitlePx = 46, kPicturesPx = 220;
 
 /// The row of the contact sheet nearest its middle.
 cv::Mat middle_frames(const cv::Mat& sheet) {
   // Four frames of 4 : 3 fill a row, whatever the number of rows.
-  const int rows = std::max(1, static_cast<int>(std::lround(3.0 * sheet.rows / sheet.cols * 4.0 / 3.0)));
+  const int rows = std::max(1, static_cast<int>(std::lround(16.0 / 3.0 * sheet.rows / sheet.cols)));
   const int height = sheet.rows / rows;
   const int top = height * (rows / 2);
   return sheet.rowRange(top, top + height);
@@ -30,7 +30,8 @@ void put(const cv::Mat& picture, cv::Mat& band, int x_px) {
 }
 
 cv::Mat band_of(const OverviewBand& in) {
-  cv::Mat band(kTitlePx + (in.path.empty() ? 0 : kPicturesPx) + 8, kWidthPx, CV_8UC3, cv::Scalar::all(255));
+  cv::Mat band(kTitlePx + (in.path.empty() ? 0 : kPicturesPx) + 8, kBandWidthPx, CV_8UC3,
+               cv::Scalar::all(255));
   const cv::Scalar ink = cv::Scalar::all(40);
   cv::putText(band, in.title, {8, 18}, cv::FONT_HERSHEY_SIMPLEX, 0.55, ink, 2, cv::LINE_AA);
   cv::putText(band, in.text, {8, 38}, cv::FONT_HERSHEY_SIMPLEX, 0.45, ink, 1, cv::LINE_AA);
