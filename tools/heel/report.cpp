@@ -1,10 +1,12 @@
-// heel report: figures and a summary from a finished run's folder.
+// heel report: figures and a summary from a finished run's folder, or from a folder of experiments.
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
 
 #include "commands.h"
 #include "heel/error.h"
+#include "heel/report/experiment_report.h"
 #include "heel/report/figures.h"
 #include "heel/report/run_files.h"
 #include "heel/report/summary.h"
@@ -31,6 +33,10 @@ void write_figure(const std::string& path, const cv::Mat& figure) {
 
 void run_report(const ReportOptions& options) {
   const std::string& directory = options.directory;
+  if (!std::filesystem::exists(directory + "/truth.csv") && report::holds_experiments(directory)) {
+    std::cout << report::report_experiments(directory);
+    return;
+  }
   const sim::MetricsCollector run = report::read_run(directory);
   const sim::FollowMetrics metrics = run.evaluate();
   const auto failed = sim::failed_criteria(metrics, options.criteria);
@@ -53,8 +59,11 @@ void add_report_command(CLI::App& app) {
   auto options = std::make_shared<ReportOptions>();
   CLI::App* command = app.add_subcommand("report",
                                          "Draws path.png, errors.png and frames.png and writes summary.txt "
-                                         "and summary.json into a run's folder");
-  command->add_option("directory", options->directory, "holds truth.csv, ticks.csv and poses.csv")
+                                         "and summary.json into a run's folder; fig1 ... fig8 and summary.md "
+                                         "into a folder of `heel experiment`");
+  command
+      ->add_option("directory", options->directory,
+                   "holds truth.csv, ticks.csv and poses.csv; or experiments")
       ->required();
   command->add_flag("--json", options->json, "print the summary as JSON");
   command->add_option("--max-out-of-view-s", options->criteria.max_out_of_view_s,

@@ -1,0 +1,164 @@
+// Figures and tables of experiments, from rows whose figures are worked out by hand.
+#include "heel/report/experiment_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "heel/error.h"
+#include "heel/experiment/still_file.h"
+#include "heel/report/error_statistics.h"
+#include "heel/report/paper_comparison.h"
+#include "heel/report/paper_figures.h"
+#include "temporary_folder.h"
+
+namespace heel {
+namespace {
+
+using experiment::StillRow;
+using report::StillSample;
+using test::TemporaryFolder;
+using ::testing::HasSubstr;
+
+StillRow row_at(double x_m, double z_m, double yaw_rad, double yaw_error_rad, double certainty = 0.3) {
+  StillRow row;
+  row.name = "made up";
+  row.view = {.x_m = x_m, .z_m = z_m, .yaw_rad = yaw_rad};
+  row.true_x_m = x_m;
+  row.true_z_m = z_m;
+  row.true_yaw_rad = yaw_rad;
+  row.pose.reason = PoseReason::Found;
+  row.pose.certainty = certainty;
+  row.pose.yaw_rad = yaw_rad + yaw_error_rad;
+  row.pose.yaw_sigma_rad = 0.05;
+  row.pose.position_m = {x_m + 0.01, 0.0, z_m - 0.02};
+  row.t_sigma_m = {0.1, 0.1, 0.1};
+  return row;
+}
+
+std::vector<StillSample> written_and_read(const std::vector<StillRow>& rows) {
+  const TemporaryFolder folder;
+  experiment::write_stills(rows, folder.file("rows.csv"));
+  return report::read_stills(folder.file("rows.csv"));
+}
+
+TEST(Stills, AreReadAsTheyWereWritten) {
+  StillRow lost = row_at(0.1, 2.0, 0.5, 0.0);
+  lost.pose.reason = PoseReason::TooFewInliers;
+  lost.surroundings = {3, "mosaic", 0.25};
+  lost.view.blur_px = 2.5;
+  const auto samples = written_and_read({row_at(-0.4, 1.5, 0.3, 0.02), lost});
+  ASSERT_EQ(samples.size(), 2U);
+  EXPECT_TRUE(samples[0].found);
+  EXPECT_NEAR(samples[0].yaw_error_rad(), 0.02, 1e-6);
+  EXPECT_NEAR(samples[0].x_est_m - samples[0].true_x_m, 0.01, 1e-6);
+  EXPECT_TRUE(samples[0].undisturbed());
+  EXPECT_FALSE(samples[1].found);
+  EXPECT_EQ(samples[1].certainty, 0.0) << "not found counts as no certainty";
+  EXPECT_EQ(samples[1].shirt, "mosaic");
+  EXPECT_FALSE(samples[1].undisturbed());
+}
+
+TEST(Stills, FlippedAndWrong) {
+  const double bearing_rad = std::atan2(0.4, 2.0);
+  // 20° to one side of the line of sight, seen 20° to the other.
+  const auto samples = written_and_read(
+      {row_at(0.4, 2.0, bearing_rad + 0.35, -0.70), row_at(0.4, 2.0, bearing_rad + 0.35, -0.30),
+       row_at(0.4, 2.0, bearing_rad + 0.05, -0.10), row_at(0.4, 2.0, bearing_rad + 0.35, 0.10)});
+  EXPECT_TRUE(samples[0].flipped());
+  EXPECT_TRUE(samples[0].wrong());
+  EXPECT_FALSE(samples[1].flipped()) << "still on its own side";
+  EXPECT_TRUE(samples[1].wrong()) << "17 degrees";
+  EXPECT_FALSE(samples[2].flipped()) << "nearly frontal: no sign to lose";
+  EXPECT_FALSE(samples[3].wrong());
+}
+
+TEST(Steps, MeanDeviationAndCertaintyOfEachCommandedValue) {
+  StillRow lost = row_at(0.0, 1.0, 0.2, 0.0);
+  lost.pose.reason = PoseReason::TooFewMatches;
+  const auto steps =
+      report::steps_of(written_and_read({row_at(0.0, 1.0, 0.2, 0.01, 0.4), row_at(0.0, 1.0, 0.2, 0.03, 0.2),
+                                         lost, row_at(0.0, 1.0, -0.2, 0.0, 0.6)}),
+                       &StillSample::yaw_rad, &StillSample::yaw_est_rad, &StillSample::true_yaw_rad, 100.0);
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_NEAR(steps[0].at, -20.0, 1e-9);
+  EXPECT_EQ(steps[1].pictures, 3U);
+  EXPECT_EQ(steps[1].found, 2U);
+  EXPECT_NEAR(steps[1].mean, 22.0, 1e-6);
+  EXPECT_NEAR(steps[1].deviation, 1.0, 1e-6);
+  EXPECT_NEAR(steps[1].mean_abs_error, 2.0, 1e-6);
+  EXPECT_NEAR(steps[1].certainty_mean, 0.2, 1e-6);
+}
+
+TEST(Errors, BinsCountWhatBelongs) {
+  const auto samples = written_and_read(
+      {row_at(0, 2, 0.5, 0.1), row_at(0, 2, 0.5, -0.1), row_at(0, 2, 0.5, -1.0), row_at(0, 4, 0.5, 0.0)});
+  const report::ErrorBin bin =
+      report::error_bin("near", 2.0, samples, [](const StillSample& s) { return s.true_z_m < 3.0; });
+  EXPECT_EQ(bin.found, 3U);
+  EXPECT_EQ(bin.flips, 1U);
+  EXPECT_EQ(bin.wrong, 1U);
+  EXPECT_NEAR(bin.yaw_mean_rad, -1.0 / 3.0, 1e-6);
+  EXPECT_NEAR(bin.yaw_nees, (4.0 + 4.0 + 400.0) / 3.0, 1e-3);
+}
+
+TEST(Errors, TheBandOfHonestDeviationsNarrowsWithTheNumber) {
+  // chi-squared with 100 degrees of freedom: 2.5 % at 74.22, 97.5 % at 129.56.
+  EXPECT_NEAR(report::nees_band(100).low, 0.7422, 0.001);
+  EXPECT_NEAR(report::nees_band(100).high, 1.2956, 0.001);
+}
+
+TEST(Comparison, RSquaredAndMonotony) {
+  EXPECT_NEAR(report::r_squared({0, 1, 2, 3}, {1, 3, 5, 7}), 1.0, 1e-12);
+  EXPECT_NEAR(report::r_squared({0, 1, 2}, {0, 1, 0}), 0.0, 1e-12);
+  std::vector<report::Step> steps(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    steps[i].at = static_cast<double>(i);
+    steps[i].mean = static_cast<double>(i);
+    steps[i].pictures = steps[i].found = 10;
+  }
+  EXPECT_EQ(report::breaks_of_monotony(steps, "m"), "");
+  steps[2].mean = 0.5;
+  EXPECT_THAT(report::breaks_of_monotony(steps, "m"), HasSubstr("falls from 1 to 2 m"));
+  steps[2].found = 4;
+  EXPECT_THAT(report::breaks_of_monotony(steps, "m"),
+              HasSubstr("found in fewer than half of the pictures at 2 m"));
+}
+
+TEST(ExperimentReport, DrawsWhatThereIsAndSaysHowGoodItIs) {
+  const TemporaryFolder folder;
+  const std::string directory = folder.path().string();
+  EXPECT_FALSE(report::holds_experiments(directory));
+  std::vector<StillRow> lateral, yaw;
+  for (int i = -4; i <= 4; ++i) lateral.push_back(row_at(0.2 * i, 2.0, 0.0, 0.01));
+  for (int i = -3; i <= 3; ++i) yaw.push_back(row_at(0.0, 2.0, 0.3 * i, i == 3 ? -0.5 : 0.0));
+  experiment::write_stills(lateral, folder.file("lateral.csv"));
+  experiment::write_stills(yaw, folder.file("yaw.csv"));
+  ASSERT_TRUE(report::holds_experiments(directory));
+  const std::string summary = report::report_experiments(directory);
+  EXPECT_THAT(summary, HasSubstr("R2 1.00000 | yes"));
+  EXPECT_THAT(summary, HasSubstr("wrong above 0.1: 6.2 % of 16"));
+  for (const char* name : {"fig2_t_x.png", "fig4_yaw.png", "fig5_yaw_over_x.png"})
+    EXPECT_FALSE(cv::imread(folder.file(name)).empty()) << name;
+  EXPECT_TRUE(std::filesystem::exists(folder.file("fig4_yaw.csv")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("fig3_t_z.png"))) << "no such rows";
+}
+
+TEST(ExperimentReport, AMissingPictureOfAHardCaseIsNamed) {
+  const TemporaryFolder folder;
+  StillRow row = row_at(0, 2, 0, 0);
+  row.picture = 1;
+  experiment::write_stills({row}, folder.file("hard.csv"));
+  try {
+    report::hard_figure(folder.path().string());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("hard/000.png: cannot read (expected the picture of"));
+  }
+}
+
+}  // namespace
+}  // namespace heel
