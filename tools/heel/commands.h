@@ -25,6 +25,7 @@ void add_features_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_experiment_command(CLI::App& app);
+void add_fit_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_bench_vision_command(CLI::App& bench);
 

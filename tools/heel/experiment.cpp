@@ -1,6 +1,7 @@
 // heel experiment: the paper's experiments, and more, on the pictured world; rows for heel report.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
@@ -9,6 +10,7 @@
 
 #include "commands.h"
 #include "heel/error.h"
+#include "heel/experiment/real_images.h"
 #include "heel/experiment/still_cases.h"
 #include "heel/experiment/still_file.h"
 #include "heel/lockstep/lockstep.h"
@@ -17,6 +19,9 @@
 namespace heel::cli {
 namespace {
 
+constexpr const char* kReal = "real";
+constexpr int kVideoStep = 3;  ///< ten frames a second are enough to see certainty rise and fall
+
 struct ExperimentOptions {
   std::vector<std::string> names;
   std::string out;
@@ -24,6 +29,7 @@ struct ExperimentOptions {
   std::string config_file;
   double teach_distance_m = 1.5;
   int repeats = 0;
+  std::string data;
 };
 
 sim::Scenario base_of(const ExperimentOptions& options) {
@@ -65,8 +71,30 @@ void run_still_experiment(const experiment::StillExperiment& chosen, const Exper
   std::fflush(stdout);
 }
 
+/// HEEL_TEST_DATA, where no folder is named.
+std::string data_folder(const ExperimentOptions& options) {
+  if (!options.data.empty()) return options.data;
+  const char* given = std::getenv("HEEL_TEST_DATA");
+  return given != nullptr ? given : "../shared/data";
+}
+
+void look_at_real_images(const ExperimentOptions& options) {
+  const std::string data = data_folder(options);
+  VisionConfig vision;
+  vision.ransac_budget_ms = 0.0;  // a deadline would make the result depend on the machine
+  const auto pairs = experiment::look_at_pairs(data, vision);
+  if (!pairs.empty()) experiment::write_pairs(pairs, options.out + "/real_pairs.csv");
+  const auto video = experiment::look_at_video(data, kVideoStep, vision);
+  if (!video.empty()) experiment::write_video(video, options.out + "/real_video.csv");
+  std::printf("%-10s %zu pairs, %zu frames of video%s\n", kReal, pairs.size(), video.size(),
+              pairs.empty() || video.empty() ? (": SKIPPED where absent in " + data).c_str() : "");
+  std::fflush(stdout);
+}
+
 void run_experiments(const ExperimentOptions& options) {
   std::filesystem::create_directories(options.out);
+  if (std::find(options.names.begin(), options.names.end(), kReal) != options.names.end())
+    look_at_real_images(options);
   for (const experiment::StillExperiment& known : experiment::still_experiments())
     if (std::find(options.names.begin(), options.names.end(), known.name) != options.names.end())
       run_still_experiment(known, options);
@@ -84,12 +112,16 @@ void add_experiment_command(CLI::App& app) {
     names.emplace_back(known.name);
     help += std::string("\n  ") + known.name + ": " + known.what;
   }
+  names.emplace_back(kReal);
+  help += std::string("\n  ") + kReal + ": homography error on real pairs, certainty over a real video";
   command->add_option("name", options->names, help)->required()->check(CLI::IsMember(names));
   command->add_option("-o,--out", options->out, "folder for the rows and pictures")->required();
   command
       ->add_option("--repeats", options->repeats,
                    "of each pose, over up to eight worlds; errors: thousands of poses")
       ->check(CLI::Range(1, 1000));
+  command->add_option("--data", options->data,
+                      "folder of the real pictures (default: HEEL_TEST_DATA, else ../shared/data)");
   command->add_option("--scenario", options->scenario,
                       "its camera, light and person (default: the simulator's own)");
   command->add_option("--config", options->config_file, "the daemon's configuration (default: its defaults)");

@@ -21,6 +21,7 @@ void add_commands(CLI::App& app) {
   add_features_command(app);
   add_simulate_command(app);
   add_experiment_command(app);
+  add_fit_command(app);
   add_report_command(app);
   add_bench_command(app);
 }

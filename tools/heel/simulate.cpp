@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "heel/error.h"
 #include "heel/lockstep/lockstep.h"
+#include "heel/lockstep/many_runs.h"
 #include "heel/lockstep/metrics.h"
 #include "heel/lockstep/run_record.h"
 #include "heel/report/figures.h"
@@ -29,10 +30,12 @@ struct SimulateOptions {
   std::vector<std::string> scenarios;
   std::string config_file;
   std::string template_file;
+  std::string error_model;
   std::string out;
   double teach_distance_m = 1.5;
   long long seed = -1;
   double duration_s = 0.0;
+  int runs = 1;
   bool json = false;
   sim::FollowCriteria criteria;
 };
@@ -49,7 +52,10 @@ sim::LockstepSettings settings_of(const SimulateOptions& options, const sim::Sce
   settings.scenario = scenario;
   if (!options.config_file.empty()) settings.config = load_config(options.config_file).config;
   sim::apply_scenario(settings.scenario, settings.config);
-  if (!options.template_file.empty())
+  if (!options.error_model.empty()) {
+    settings.errors = errors::read_error_model(options.error_model);
+    settings.shirt.distance_m = options.teach_distance_m;
+  } else if (!options.template_file.empty())
     settings.shirt = read_template(options.template_file);
   else if (settings.scenario.camera.source == "sim")
     settings.shirt = sim::teach_from_world(settings.scenario, options.teach_distance_m);
@@ -154,7 +160,35 @@ void run_several(const SimulateOptions& options, const std::vector<sim::Scenario
   if (report_failed(runs)) throw CLI::RuntimeError(kExitNo);
 }
 
+/// One seed after the other, from the scenario's (or the given) one on.
+void run_many(const SimulateOptions& options) {
+  if (!options.out.empty()) throw Error("--out: given beside --runs (expected one or the other)");
+  if (options.scenarios.size() != 1) throw Error("--runs: several scenarios (expected one)");
+  sim::Scenario scenario = scenario_of(options, options.scenarios.front());
+  sim::ManyRuns many;
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < options.runs; ++i, ++scenario.seed) {
+    const sim::LockstepSettings settings = settings_of(options, scenario);
+    sim::RunRecord record("", settings);
+    sim::run_lockstep(settings, record);
+    many.runs.push_back(record.metrics().evaluate());
+    many.simulated_s += settings.scenario.duration_s;
+  }
+  const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (options.json) {
+    std::cout << sim::to_json(many).dump(2) << '\n';
+    return;
+  }
+  std::cout << sim::many_runs_table(many);
+  std::printf("%zu runs, %.0f s simulated, %.0f x real time\n", many.runs.size(), many.simulated_s,
+              many.simulated_s / took_s);
+}
+
 void run_simulate(const SimulateOptions& options) {
+  if (options.runs > 1) {
+    run_many(options);
+    return;
+  }
   const std::vector<std::string> files = scenario_files(options.scenarios);
   if (files.size() == 1 && files == options.scenarios) {
     run_one(options, scenario_of(options, files.front()));
@@ -190,6 +224,9 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--config", options->config_file, "the daemon's configuration (default: its defaults)");
   command->add_option("--template", options->template_file,
                       "template file (default: taught from the world's reference view)");
+  command->add_option(
+      "--error-model", options->error_model,
+      "draw poses from this model (`heel fit`) instead of pictures, some hundred times faster");
   command->add_option("--teach-distance", options->teach_distance_m, "of that view, metres")
       ->check(CLI::Range(0.3, 10.0))
       ->capture_default_str();
@@ -198,6 +235,8 @@ void add_simulate_command(CLI::App& app) {
                       "each has a folder in it, default " +
                           std::string(kDefaultOut));
   command->add_flag("--json", options->json, "metrics as JSON; of several scenarios as a list");
+  command->add_option("--runs", options->runs, "of one scenario, this many seeds in a row; what they come to")
+      ->check(CLI::Range(1, 100000));
   command->add_option("--max-out-of-view-s", options->criteria.max_out_of_view_s, "fail when longer");
   command->add_option("--max-rms-m", options->criteria.max_rms_m, "fail when the paths lie farther apart");
   command->add_option("--min-path-m", options->criteria.min_robot_path_m,

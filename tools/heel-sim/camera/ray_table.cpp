@@ -26,4 +26,22 @@ RayTable::RayTable(const CameraModel& camera_in) : camera(camera_in) {
   }
 }
 
+RayBounds ray_bounds(const CameraModel& camera) {
+  RayBounds bounds;
+  const auto widen = [&](int u, int v) {
+    const Eigen::Vector2d ideal = camera.undistort_px({u, v});
+    bounds.x_max = std::max(bounds.x_max, static_cast<float>(std::abs(ideal.x() - camera.cx) / camera.fx));
+    bounds.y_max = std::max(bounds.y_max, static_cast<float>(std::abs(ideal.y() - camera.cy) / camera.fy));
+  };
+  for (int u = 0; u < camera.width_px; ++u) {
+    widen(u, 0);
+    widen(u, camera.height_px - 1);
+  }
+  for (int v = 0; v < camera.height_px; ++v) {
+    widen(0, v);
+    widen(camera.width_px - 1, v);
+  }
+  return bounds;
+}
+
 }  // namespace heel::sim

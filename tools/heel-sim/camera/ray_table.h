@@ -7,6 +7,13 @@
 
 namespace heel::sim {
 
+/// The largest |x| and |y| of any ray through the border of the picture: what lies outside is not seen.
+struct RayBounds {
+  float x_max = 0.f;
+  float y_max = 0.f;
+};
+RayBounds ray_bounds(const CameraModel& camera);
+
 struct RayTable {
   explicit RayTable(const CameraModel& camera);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "heel-sim/world/body_parts.h"
+#include "heel-sim/world/detail.h"
 #include "heel-sim/world/mesh.h"
 #include "heel-sim/world/shirts.h"
 #include "heel-sim/world/torso.h"
@@ -49,7 +50,9 @@ struct PersonPose {
 class Person {
  public:
   /// `seed` is of the body, `shirt_seed` of the print: two with the same print wear the same shirt.
-  Person(const PersonSettings& settings, std::uint64_t seed, std::uint64_t shirt_seed);
+  /// Without pictures the surfaces bear no texture.
+  Person(const PersonSettings& settings, std::uint64_t seed, std::uint64_t shirt_seed,
+         Detail detail = Detail::Pictures);
   Person(const Person&) = delete;  // meshes point at the textures
   Person(Person&&) = default;
 

@@ -23,8 +23,8 @@ double distance_to_walk(const FloorPlan& plan, const Eigen::Vector2d& point) {
 }  // namespace
 
 Room::Room(const RoomSettings& settings, const FloorPlan& plan, const Light& light, double window_azimuth_rad,
-           std::uint64_t seed)
-    : light_(light) {
+           std::uint64_t seed, Detail detail)
+    : light_(light), detail_(detail) {
   Eigen::Vector2d low = plan.walked_m.front();
   Eigen::Vector2d high = low;
   for (const Eigen::Vector2d& point : plan.walked_m) {
@@ -68,6 +68,10 @@ void Room::add_rectangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& r
       faces_.push_back(face);
     }
   }
+}
+
+const Texture& Room::surface(const std::function<Canvas()>& drawn) {
+  return textures_.emplace_back(detail_ == Detail::TruthOnly ? Canvas(1, 1, 0.f) : drawn());
 }
 
 void Room::add_block(const Block& block, const Texture& texture) {
@@ -114,8 +118,8 @@ void Room::add_pole(const ObstacleSettings& pole, const Texture& texture) {
 }
 
 void Room::add_placed(const FloorPlan& plan, std::uint64_t seed) {
-  const Texture& plaster = textures_.emplace_back(draw_plaster(derived_seed(seed, 1)));
-  const Texture& crate = textures_.emplace_back(draw_crate(derived_seed(seed, 2)));
+  const Texture& plaster = surface([&] { return draw_plaster(derived_seed(seed, 1)); });
+  const Texture& crate = surface([&] { return draw_crate(derived_seed(seed, 2)); });
   for (const ObstacleSettings& obstacle : plan.obstacles) {
     if (obstacle.kind == ObstacleKind::Pole) add_pole(obstacle, plaster);
     for (const Block& block : blocks_of(obstacle))
@@ -131,7 +135,7 @@ void Room::add_windows(const RoomSettings& settings, const Eigen::Vector2d& low,
                        double azimuth_rad) {
   if (settings.windows <= 0) return;
   constexpr double kWidthM = 1.6, kHeightM = 1.3, kTopM = 2.4, kBeforeWallM = 0.02;
-  const Texture& texture = textures_.emplace_back(draw_window());
+  const Texture& texture = surface([&] { return draw_window(); });
   const double c = std::cos(azimuth_rad);
   const double s = std::sin(azimuth_rad);
   const bool along_y = std::abs(c) >= std::abs(s);  // the wall runs along y
@@ -156,8 +160,8 @@ void Room::add_windows(const RoomSettings& settings, const Eigen::Vector2d& low,
 
 void Room::add_shell(const Eigen::Vector2d& low, const Eigen::Vector2d& high, std::uint64_t seed) {
   const Eigen::Vector2d size = high - low;
-  const Texture& floor = textures_.emplace_back(draw_floor(derived_seed(seed, 1)));
-  const Texture& ceiling = textures_.emplace_back(draw_ceiling(derived_seed(seed, 2)));
+  const Texture& floor = surface([&] { return draw_floor(derived_seed(seed, 1)); });
+  const Texture& ceiling = surface([&] { return draw_ceiling(derived_seed(seed, 2)); });
   add_rectangle({low.x(), high.y(), 0.0}, {size.x(), 0, 0}, {0, -size.y(), 0}, floor, 256.0, {0, 0}, kPatchM);
   add_rectangle({low.x(), low.y(), kCeilingM}, {size.x(), 0, 0}, {0, size.y(), 0}, ceiling, 100.0, {0, 0},
                 kPatchM);
@@ -168,7 +172,7 @@ void Room::add_shell(const Eigen::Vector2d& low, const Eigen::Vector2d& high, st
                                                 {high.x(), high.y(), kCeilingM},
                                                 {high.x(), low.y(), kCeilingM}}};
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Texture& wall = textures_.emplace_back(draw_wall(derived_seed(seed, 10 + i)));
+    const Texture& wall = surface([&] { return draw_wall(derived_seed(seed, 10 + i)); });
     add_rectangle(corners[i], corners[(i + 1) % 4] - corners[i], down, wall, 512.0 / kCeilingM, {0, 0},
                   kPatchM);
   }
@@ -186,9 +190,9 @@ void Room::add_objects(const RoomSettings& settings, const FloorPlan& plan, cons
   Random random(seed);
   std::vector<const Texture*> crates, shelves, screens;
   for (int i = 0; i < 3; ++i) {
-    crates.push_back(&textures_.emplace_back(draw_crate(derived_seed(seed, 20 + i))));
-    shelves.push_back(&textures_.emplace_back(draw_shelf(derived_seed(seed, 30 + i))));
-    screens.push_back(&textures_.emplace_back(draw_screen(derived_seed(seed, 40 + i))));
+    crates.push_back(&surface([&] { return draw_crate(derived_seed(seed, 20 + i)); }));
+    shelves.push_back(&surface([&] { return draw_shelf(derived_seed(seed, 30 + i)); }));
+    screens.push_back(&surface([&] { return draw_screen(derived_seed(seed, 40 + i)); }));
   }
   int placed = 0;
   // A crowded plan may have no room for all of them: the tries are bounded.

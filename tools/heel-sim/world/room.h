@@ -5,8 +5,10 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <vector>
 
+#include "heel-sim/world/detail.h"
 #include "heel-sim/world/light.h"
 #include "heel-sim/world/mesh.h"
 #include "heel-sim/world/obstacle.h"
@@ -33,7 +35,7 @@ struct FloorPlan {
 class Room {
  public:
   Room(const RoomSettings& settings, const FloorPlan& plan, const Light& light, double window_azimuth_rad,
-       std::uint64_t seed);
+       std::uint64_t seed, Detail detail = Detail::Pictures);
 
   const std::vector<StaticFace>& faces() const { return faces_; }
   /// Everything that stands on the floor, walls included.
@@ -44,6 +46,8 @@ class Room {
   void add_rectangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& right, const Eigen::Vector3d& down,
                      const Texture& texture, double texels_per_m, const Eigen::Vector2d& texture_origin,
                      double patch_m);
+  /// A texture of the room's own; without pictures a single texel, drawn by nobody.
+  const Texture& surface(const std::function<Canvas()>& drawn);
   void add_block(const Block& block, const Texture& texture);
   void add_pole(const ObstacleSettings& pole, const Texture& texture);
   void add_windows(const RoomSettings& settings, const Eigen::Vector2d& low, const Eigen::Vector2d& high,
@@ -54,6 +58,7 @@ class Room {
                    const Eigen::Vector2d& high, std::uint64_t seed);
 
   const Light& light_;
+  Detail detail_;
   std::deque<Texture> textures_;  ///< faces keep pointers: addresses must stay
   std::vector<StaticFace> faces_;
   std::vector<Footprint> footprints_;

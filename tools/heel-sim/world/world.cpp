@@ -30,19 +30,19 @@ FloorPlan plan_of(const Scenario& scenario, const std::deque<Figure>& figures) {
 }
 
 /// The target, then the passers-by. A part's seed depends on its place in the file only.
-std::deque<Figure> figures_of(const Scenario& scenario) {
+std::deque<Figure> figures_of(const Scenario& scenario, Detail detail) {
   const std::uint64_t target_seed = derived_seed(scenario.seed, 0x50);
   const std::uint64_t shirt_seed = derived_seed(target_seed, 0x51);
   std::deque<Figure> figures;
   figures.push_back(
-      {Person(scenario.person, target_seed, shirt_seed), Walk(scenario.person_start, scenario.path), 0.0});
+      {Person(scenario.person, target_seed, shirt_seed, detail), Walk(scenario.person_start, scenario.path), 0.0});
   for (std::size_t i = 0; i < scenario.passers_by.size(); ++i) {
     const PasserbySettings& passerby = scenario.passers_by[i];
     const std::uint64_t seed = derived_seed(scenario.seed, 0x1000 + i);
     PersonSettings settings = passerby.person;
     if (passerby.shirt_origin != ShirtOrigin::Own) settings.shirt = scenario.person.shirt;
     const bool same = passerby.shirt_origin == ShirtOrigin::Same;
-    figures.push_back({Person(settings, seed, same ? shirt_seed : derived_seed(seed, 0x51)),
+    figures.push_back({Person(settings, seed, same ? shirt_seed : derived_seed(seed, 0x51), detail),
                        Walk(passerby.start, passerby.path), passerby.walk_after_s});
   }
   return figures;
@@ -66,16 +66,18 @@ RobotMotion moved(const RobotMotion& robot, double dt_s) {
   return out;
 }
 
-World::World(const Scenario& scenario, int threads)
+World::World(const Scenario& scenario, int threads, Detail detail)
     : scenario_(scenario),
-      figures_(figures_of(scenario)),
+      figures_(figures_of(scenario, detail)),
       light_(scenario.light, scenario.seed),
       room_(scenario.room, plan_of(scenario, figures_), light_, scenario.light.window_azimuth_rad,
-            derived_seed(scenario.seed, 0x20)),
+            derived_seed(scenario.seed, 0x20), detail),
       ground_(scenario.room.bump_m, derived_seed(scenario.seed, 0x30)),
       exposure_(scenario.camera.exposure, scenario.camera.sensor.exposure_ms, scenario.light.changes,
                 scenario.duration_s),
-      renderer_(std::make_unique<Renderer>(*this, threads)) {}
+      view_(ray_bounds(scenario.camera.model)) {
+  if (detail == Detail::Pictures) renderer_ = std::make_unique<Renderer>(*this, threads);
+}
 
 World::~World() = default;
 
@@ -116,10 +118,9 @@ bool World::seen_px(const RobotMotion& robot, double t_s,
   for (int i = 0; i < 6; ++i) {
     const Eigen::Vector3d in_camera =
         world_from_camera(moved(robot, offset_s)).inverse() * point_m(t_s + offset_s);
-    const RayTable& rays = renderer_->rays();
     // Beyond the picture distortion means nothing.
-    if (in_camera.z() < 0.1 || std::abs(in_camera.x()) > rays.x_max * 1.2 * in_camera.z() ||
-        std::abs(in_camera.y()) > rays.y_max * 1.2 * in_camera.z())
+    if (in_camera.z() < 0.1 || std::abs(in_camera.x()) > view_.x_max * 1.2 * in_camera.z() ||
+        std::abs(in_camera.y()) > view_.y_max * 1.2 * in_camera.z())
       return false;
     px = project_px(in_camera);
     if (readout_s == 0.0) return true;

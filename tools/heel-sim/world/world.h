@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "heel-sim/camera/exposure.h"
+#include "heel-sim/camera/ray_table.h"
+#include "heel-sim/world/detail.h"
 #include "heel-sim/world/ground.h"
 #include "heel-sim/world/person.h"
 #include "heel-sim/world/room.h"
@@ -66,7 +68,7 @@ class World {
  public:
   /// `threads` draw, the caller among them; 0: as many as there are cores, four at most. The pictures do not
   /// depend on it.
-  explicit World(const Scenario& scenario, int threads = 0);
+  explicit World(const Scenario& scenario, int threads = 0, Detail detail = Detail::Pictures);
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -80,10 +82,10 @@ class World {
   bool walking() const { return walk_start_s_ < kNever; }
 
   Truth truth(const RobotMotion& robot, double t_s) const;
-  /// The picture whose middle row's exposure is centred on `t_s`. A function of the arguments and the
+  /// Of a world made with Detail::Pictures. The picture whose middle row's exposure is centred on `t_s`. A function of the arguments and the
   /// scenario only.
   void render(const RobotMotion& robot, double t_s, std::uint64_t frame, std::vector<std::uint8_t>& grey);
-  ReferenceView reference_view(double distance_m);
+  ReferenceView reference_view(double distance_m);  ///< likewise
 
   Eigen::Isometry3d world_from_camera(const RobotMotion& robot) const;
   /// Shutter time and gain of the picture at `t_s`.
@@ -118,7 +120,8 @@ class World {
   Ground ground_;
   ExposureControl exposure_;
   std::atomic<double> walk_start_s_{kNever};  ///< set by one thread while another draws
-  std::unique_ptr<Renderer> renderer_;
+  RayBounds view_;
+  std::unique_ptr<Renderer> renderer_;  ///< none without pictures
 };
 
 }  // namespace heel::sim

@@ -11,6 +11,7 @@
 #include "heel-sim/world/random.h"
 #include "heel/control.h"
 #include "heel/error.h"
+#include "heel/errors/drawn_poses.h"
 #include "heel/pose_tracker.h"
 #include "robot/arcos_session.h"
 
@@ -51,7 +52,8 @@ class Lockstep {
   LockstepObserver& observer_;
   std::unique_ptr<World> world_;  ///< none when frames come from a file
   std::unique_ptr<FrameSupply> frames_;
-  PoseTracker vision_;
+  std::optional<PoseTracker> vision_;        ///< of pictures
+  std::optional<errors::DrawnPoses> drawn_;  ///< or none
   ControlStage control_;
   ArcosSession session_;
   P3At robot_;
@@ -72,10 +74,17 @@ Lockstep::Lockstep(const LockstepSettings& settings, LockstepObserver& observer)
     : scenario_(settings.scenario),
       control_rate_hz_(settings.config.control.rate_hz),
       observer_(observer),
-      vision_(settings.shirt, settings.scenario.camera.model, settings.config.vision),
       control_(settings.config),
       session_(settings.config.robot),
       robot_(robot_settings(settings.scenario), derived_seed(settings.scenario.seed, 0x60)) {
+  if (settings.errors) {
+    world_ = std::make_unique<World>(scenario_, 1, Detail::TruthOnly);
+    contact_.emplace(*world_, robot_);
+    drawn_.emplace(*settings.errors, scenario_, settings.shirt.distance_m,
+                   derived_seed(scenario_.seed, 0xe0));
+    return;
+  }
+  vision_.emplace(settings.shirt, scenario_.camera.model, settings.config.vision);
   if (scenario_.camera.source == "sim") {
     world_ = std::make_unique<World>(scenario_);
     frames_ = make_world_supply(*world_);
@@ -182,14 +191,25 @@ void Lockstep::expose(TimeNs t_ns) {
 }
 
 void Lockstep::see(const TakenFrame& taken, TimeNs t_start_ns) {
-  FrameView frame = frames_->frame(taken.sequence, taken.t_ns, taken.robot);
-  if (frame.grey == nullptr) {
-    frames_ended_ = true;
-    return;
+  FrameView frame;
+  PoseEstimate pose;
+  double latency_ms = scenario_.vision_latency_ms;
+  if (drawn_) {
+    frame.header.sequence = taken.sequence;
+    frame.header.t_capture_ns = taken.t_ns + taken.stamp_error_ns;
+    pose = drawn_->estimate(frame.header, taken.robot, taken.truth.world);
+    latency_ms *= drawn_->time_share();
+  } else {
+    frame = frames_->frame(taken.sequence, taken.t_ns, taken.robot);
+    if (frame.grey == nullptr) {
+      frames_ended_ = true;
+      return;
+    }
+    frame.header.t_capture_ns += taken.stamp_error_ns;
+    pose = vision_->estimate(frame);
   }
-  frame.header.t_capture_ns += taken.stamp_error_ns;
-  t_vision_free_ns_ = t_start_ns + ns_from_seconds(1e-3 * scenario_.vision_latency_ms);
-  PoseUnderWay done{vision_.estimate(frame), t_vision_free_ns_};
+  t_vision_free_ns_ = t_start_ns + ns_from_seconds(1e-3 * latency_ms);
+  PoseUnderWay done{pose, t_vision_free_ns_};
   done.pose.t_done_ns = t_vision_free_ns_;
   poses_under_way_.push_back(done);
   observer_.on_pose(frame, done.pose, taken.truth);
@@ -226,6 +246,10 @@ void Lockstep::send(std::span<const std::uint8_t> bytes, TimeNs t_ns) {
 }  // namespace
 
 LockstepCounts run_lockstep(const LockstepSettings& settings, LockstepObserver& observer) {
+  if (settings.errors && settings.scenario.camera.source != "sim")
+    throw Error("scenario " + settings.scenario.name + ": frames come from " +
+                settings.scenario.camera.source +
+                " (expected the simulated world: an error model draws poses from its truth)");
   return Lockstep(settings, observer).run();
 }
 

@@ -4,16 +4,20 @@
 //     ↑                                                    ↑ RobotState ──────────┘    ←bytes─┘   │
 //     └──────────────────────────────── true pose of the robot ───────────────────────────────────┘
 //
-// Nothing here reads a clock: the same scenario, configuration and template give the same run to the bit.
+// With an error model, World draws nothing and DrawnPoses stands in PoseTracker's place; all else is the
+// same. Nothing here reads a clock: the same scenario, configuration and template give the same run to the
+// bit.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "heel-sim/robot/p3at.h"
 #include "heel-sim/world/scenario.h"
 #include "heel-sim/world/world.h"
 #include "heel/config.h"
+#include "heel/errors/error_model.h"
 #include "heel/flow.h"
 #include "heel/shirt_template.h"
 
@@ -22,7 +26,9 @@ namespace heel::sim {
 struct LockstepSettings {
   Scenario scenario;
   Config config;
-  ShirtTemplate shirt;
+  ShirtTemplate shirt;  ///< with `errors` only its distance is asked for
+  /// Poses are drawn from this model instead of pictures: some hundred times faster, for statistics.
+  std::optional<errors::ErrorModel> errors;
 };
 
 /// What is true at one moment. Without a world (frames from a file) only the robot's part is.

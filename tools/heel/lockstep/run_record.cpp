@@ -75,8 +75,10 @@ RunRecord::RunRecord(const std::string& directory, const LockstepSettings& setti
     for (const TruthColumn& column : world_truth_columns()) std::fprintf(truth_.get(), ",%s", column.name);
   std::fputc('\n', truth_.get());
   wire_ = create(directory + "/wire.hex");
-  write_template(settings.shirt, directory + "/shirt.heel");
-  std::filesystem::create_directories(directory + "/frames");
+  if (!settings.errors) {
+    write_template(settings.shirt, directory + "/shirt.heel");
+    std::filesystem::create_directories(directory + "/frames");
+  }
   frame_interval_ns_ = ns_from_seconds(settings.scenario.duration_s / kSavedFrames);
   t_next_frame_ns_ = frame_interval_ns_ / 2;
 }
@@ -94,7 +96,7 @@ void RunRecord::on_pose(const FrameView& frame, const PoseEstimate& pose, const 
   metrics_.add(pose_sample(pose, truth));
   if (!recorder_) return;
   recorder_->record(pose);
-  if (pose.t_capture_ns < t_next_frame_ns_) return;
+  if (frame.grey == nullptr || pose.t_capture_ns < t_next_frame_ns_) return;
   t_next_frame_ns_ += frame_interval_ns_;
   save_frame(frame);
 }

@@ -18,11 +18,11 @@ const cv::Scalar kBlue(170, 80, 20), kOrange(40, 130, 230), kGreen(60, 140, 60),
 constexpr int kPanelWidthPx = 420, kPanelHeightPx = 250;
 
 cv::Mat yaw_panel(const ErrorCurve& curve, const std::string& x_label) {
-  Series mean{"mean", kBlue, {}, 1.6, false}, absolute{"mean absolute", kOrange, {}, 1.6, false};
+  Series mean{"away from frontal", kBlue, {}, 1.6, false}, absolute{"mean absolute", kOrange, {}, 1.6, false};
   Series p95{"95 %", kGrey, {}, 1.2, false};
   for (const ErrorBin& bin : curve.bins) {
     if (bin.found == 0) continue;
-    mean.points.emplace_back(bin.middle, kDeg * bin.yaw_mean_rad);
+    mean.points.emplace_back(bin.middle, kDeg * bin.yaw_outward_mean_rad);
     absolute.points.emplace_back(bin.middle, kDeg * bin.yaw_mean_abs_rad);
     p95.points.emplace_back(bin.middle, kDeg * bin.yaw_p95_rad);
   }
@@ -108,7 +108,8 @@ cv::Mat error_map_figure(const std::vector<StillSample>& samples) {
       const cv::Rect2d cell(x, y, kCellWidth, kCellHeight);
       if (bin.found > 0) {
         canvas.bar(cell, heat(kDeg * bin.yaw_mean_abs_rad, kMostDeg));
-        std::snprintf(text, sizeof text, "%+.1f +-%.1f", kDeg * bin.yaw_mean_rad,
+        const bool wide = std::max(std::abs(bin.yaw_mean_rad), bin.yaw_deviation_rad) * kDeg >= 9.95;
+        std::snprintf(text, sizeof text, wide ? "%+.0f +-%.0f" : "%+.1f +-%.1f", kDeg * bin.yaw_mean_rad,
                       kDeg * bin.yaw_deviation_rad);
         canvas.text(text, {x + 0.5 * kCellWidth, y + 19}, 0.36, Canvas::Align::Centre);
       }

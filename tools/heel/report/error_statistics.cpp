@@ -53,7 +53,7 @@ ErrorBin error_bin(const std::string& name, double middle, const std::vector<Sti
   bin.name = name;
   bin.middle = middle;
   std::vector<double> yaw, yaw_abs, x, z;
-  double yaw_nees = 0.0, t_x_nees = 0.0, t_z_nees = 0.0, certainty = 0.0;
+  double outward = 0.0, yaw_nees = 0.0, t_x_nees = 0.0, t_z_nees = 0.0, certainty = 0.0;
   for (const StillSample& s : samples) {
     if (!belongs(s)) continue;
     ++bin.pictures;
@@ -63,6 +63,7 @@ ErrorBin error_bin(const std::string& name, double middle, const std::vector<Sti
     if (std::abs(s.aspect_rad()) >= kLeastFlipAspectRad) ++bin.signed_pictures;
     if (s.flipped()) ++bin.flips;
     yaw.push_back(s.yaw_error_rad());
+    outward += std::copysign(1.0, s.aspect_rad()) * s.yaw_error_rad();
     yaw_abs.push_back(std::abs(s.yaw_error_rad()));
     x.push_back(s.x_est_m - s.true_x_m);
     z.push_back(s.z_est_m - s.true_z_m);
@@ -75,6 +76,7 @@ ErrorBin error_bin(const std::string& name, double middle, const std::vector<Sti
   const auto count = static_cast<double>(bin.found);
   const sim::Quantiles yaw_q = sim::quantiles(yaw), abs_q = sim::quantiles(yaw_abs);
   const sim::Quantiles x_q = sim::quantiles(x), z_q = sim::quantiles(z);
+  bin.yaw_outward_mean_rad = outward / count;
   bin.yaw_mean_rad = yaw_q.mean;
   bin.yaw_deviation_rad = yaw_q.deviation;
   bin.yaw_mean_abs_rad = abs_q.mean;
@@ -107,8 +109,7 @@ std::vector<ErrorCurve> error_curves(const std::vector<StillSample>& samples) {
       "blur", "px", {0.0, 0.5, 2, 4, 6, 9.1}, samples, [](const StillSample& s) { return s.blur_px; },
       [&](const StillSample& s) { return bold(s) && easy_pose(s) && s.light == 1.0 && s.occluded == 0.0; }));
   curves.push_back(curve_over(
-      "light", "of full", {0.05, 0.1, 0.2, 0.4, 0.8, 1.1}, samples,
-      [](const StillSample& s) { return s.light; },
+      "light", "", {0.05, 0.1, 0.2, 0.4, 0.8, 1.1}, samples, [](const StillSample& s) { return s.light; },
       [&](const StillSample& s) {
         return bold(s) && easy_pose(s) && s.blur_px == 0.0 && s.occluded == 0.0;
       }));
@@ -129,18 +130,20 @@ std::vector<ErrorCurve> error_curves(const std::vector<StillSample>& samples) {
 
 void write_errors(const std::vector<ErrorCurve>& curves, const std::string& path) {
   std::ofstream file(path);
-  file << "condition,bin,pictures,found,wrong,with_sign,flips,certainty,yaw_mean_deg,yaw_deviation_deg,"
+  file << "condition,bin,pictures,found,wrong,with_sign,flips,certainty,yaw_mean_deg,yaw_outward_mean_deg,"
+          "yaw_deviation_deg,"
           "yaw_mean_abs_deg,yaw_p95_deg,x_mean_m,x_deviation_m,z_mean_m,z_deviation_m,yaw_nees,t_x_nees,"
           "t_z_nees\n";
   for (const ErrorCurve& curve : curves)
     for (const ErrorBin& b : curve.bins) {
       char line[320];
-      std::snprintf(line, sizeof line,
-                    "%s,%s,%zu,%zu,%zu,%zu,%zu,%.4f,%.3f,%.3f,%.3f,%.3f,%.4f,%.4f,%.4f,%.4f,%.2f,%.2f,%.2f\n",
-                    curve.condition.c_str(), b.name.c_str(), b.pictures, b.found, b.wrong, b.signed_pictures,
-                    b.flips, b.certainty, kDeg * b.yaw_mean_rad, kDeg * b.yaw_deviation_rad,
-                    kDeg * b.yaw_mean_abs_rad, kDeg * b.yaw_p95_rad, b.x_mean_m, b.x_deviation_m, b.z_mean_m,
-                    b.z_deviation_m, b.yaw_nees, b.t_x_nees, b.t_z_nees);
+      std::snprintf(
+          line, sizeof line,
+          "%s,%s,%zu,%zu,%zu,%zu,%zu,%.4f,%.3f,%.3f,%.3f,%.3f,%.3f,%.4f,%.4f,%.4f,%.4f,%.2f,%.2f,%.2f\n",
+          curve.condition.c_str(), b.name.c_str(), b.pictures, b.found, b.wrong, b.signed_pictures, b.flips,
+          b.certainty, kDeg * b.yaw_mean_rad, kDeg * b.yaw_outward_mean_rad, kDeg * b.yaw_deviation_rad,
+          kDeg * b.yaw_mean_abs_rad, kDeg * b.yaw_p95_rad, b.x_mean_m, b.x_deviation_m, b.z_mean_m,
+          b.z_deviation_m, b.yaw_nees, b.t_x_nees, b.t_z_nees);
       file << line;
     }
   if (!file.flush()) throw Error(path + ": cannot write (expected a writable folder)");

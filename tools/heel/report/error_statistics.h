@@ -15,6 +15,8 @@ struct ErrorBin {
   double middle = 0.0;
   std::size_t pictures = 0, found = 0, wrong = 0;
   std::size_t signed_pictures = 0, flips = 0;  ///< found with the back turned enough to have a sign; flipped
+  double yaw_outward_mean_rad =
+      0.0;  ///< error away from facing the camera: negative, seen less turned than it is
   double yaw_mean_rad = 0.0, yaw_deviation_rad = 0.0, yaw_mean_abs_rad = 0.0, yaw_p95_rad = 0.0;
   double x_mean_m = 0.0, x_deviation_m = 0.0, z_mean_m = 0.0, z_deviation_m = 0.0;
   double yaw_nees = 0.0, t_x_nees = 0.0, t_z_nees = 0.0;  ///< means of (error/sigma)²

@@ -10,6 +10,7 @@
 #include "heel/error.h"
 #include "paper_comparison.h"
 #include "paper_figures.h"
+#include "real_report.h"
 #include "run_files.h"
 
 namespace heel::report {
@@ -72,11 +73,11 @@ void draw_pure_translation(const std::vector<StillSample>& samples, const std::s
                {title, x_label, "estimated yaw in degrees"}, "deg");
 }
 
-/// Runs in DIR/runs, by name.
+/// Runs in the folders below, by name.
 std::vector<std::string> run_names(const std::string& directory) {
   std::vector<std::string> names;
-  if (!fs::is_directory(directory + "/runs")) return names;
-  for (const auto& entry : fs::directory_iterator(directory + "/runs"))
+  if (!fs::is_directory(directory)) return names;
+  for (const auto& entry : fs::directory_iterator(directory))
     if (fs::exists(entry.path() / "truth.csv")) names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
@@ -85,7 +86,7 @@ std::vector<std::string> run_names(const std::string& directory) {
 void draw_runs(const std::string& directory, ExperimentData& data, std::vector<RunLine>& lines,
                Writer& writer) {
   std::optional<sim::MetricsCollector> walk, position_only;
-  for (const std::string& name : run_names(directory)) {
+  for (const std::string& name : run_names(directory + "/runs")) {
     const sim::MetricsCollector run = read_run(directory + "/runs/" + name);
     lines.push_back(run_line(name, run));
     if (name == "response")
@@ -105,17 +106,12 @@ void draw_runs(const std::string& directory, ExperimentData& data, std::vector<R
                   "Figure 8: both paths of a long walk");
 }
 
-std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 }  // namespace
 
 bool holds_experiments(const std::string& directory) {
   for (const char* name : {"lateral", "distance", "yaw", "hard", "errors"})
     if (fs::exists(directory + "/" + name + ".csv")) return true;
-  return !run_names(directory).empty();
+  return !run_names(directory + "/runs").empty();
 }
 
 std::string report_experiments(const std::string& directory) {
@@ -149,8 +145,13 @@ std::string report_experiments(const std::string& directory) {
         "## Found, wrong, found again\n\nWhile the person walks; wrong: 15 degrees or a tenth of the "
         "distance off.\n\n" +
         run_table(lines) + "\n";
-  for (const char* extra : {"worlds.md", "real.md"})
-    if (fs::exists(directory + "/" + extra)) summary += text_of(directory + "/" + extra) + "\n";
+  std::vector<RunLine> without;
+  for (const std::string& name : run_names(directory + "/without-pictures"))
+    without.push_back(run_line(name, read_run(directory + "/without-pictures/" + name)));
+  if (const std::string table = worlds_table(lines, without); !table.empty())
+    summary += "## Both worlds on the same scenarios\n\n" + table + "\n";
+  writer.figure("real_video.png", video_figure(directory), "Certainty over a real video");
+  summary += real_section(directory) + "\n";
   summary += "## Figures\n\n" + writer.figures();
   std::ofstream file(directory + "/summary.md");
   file << summary;

@@ -9,6 +9,8 @@
 namespace heel::report {
 namespace {
 
+constexpr double kDeg = 180.0 / M_PI;
+
 /// More than this between two sightings: one frame at least did not show the target.
 constexpr double kLossFrames = 1.5;
 
@@ -71,6 +73,34 @@ std::string run_table(const std::vector<RunLine>& lines) {
     text += row;
   }
   return text;
+}
+
+std::string worlds_table(const std::vector<RunLine>& pictured, const std::vector<RunLine>& without) {
+  std::string rows;
+  for (const RunLine& a : pictured)
+    for (const RunLine& b : without) {
+      if (a.name != b.name) continue;
+      const auto found = [](const RunLine& line) {
+        return line.frames > 0 ? 100.0 * static_cast<double>(line.found) / static_cast<double>(line.frames)
+                               : 0.0;
+      };
+      char row[400];
+      std::snprintf(
+          row, sizeof row,
+          "| %s | %.3f, %.3f m | %.2f, %.2f m | %.1f, %.1f m | %.1f, %.1f %% | %.2f, %.2f | %+.1f ± %.1f, "
+          "%+.1f ± %.1f deg |\n",
+          a.name.c_str(), a.metrics.lateral_m.rms, b.metrics.lateral_m.rms, a.metrics.separation_m.mean,
+          b.metrics.separation_m.mean, a.metrics.robot_path_m, b.metrics.robot_path_m, found(a), found(b),
+          a.metrics.certainty.p50, b.metrics.certainty.p50, kDeg * a.metrics.yaw_error_rad.mean,
+          kDeg * a.metrics.yaw_error_rad.deviation, kDeg * b.metrics.yaw_error_rad.mean,
+          kDeg * b.metrics.yaw_error_rad.deviation);
+      rows += row;
+    }
+  if (rows.empty()) return rows;
+  return "| run: pictured, without pictures | path RMS | separation | robot's way | found | certainty | yaw "
+         "error |\n"
+         "|---|---|---|---|---|---|---|\n" +
+         rows;
 }
 
 }  // namespace heel::report

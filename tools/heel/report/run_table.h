@@ -22,4 +22,8 @@ RunLine run_line(const std::string& name, const sim::MetricsCollector& run);
 /// A line a run, as a Markdown table.
 std::string run_table(const std::vector<RunLine>& lines);
 
+/// The same scenarios in the pictured world and in the world without pictures, by name: Markdown. Empty where
+/// no name is in both.
+std::string worlds_table(const std::vector<RunLine>& pictured, const std::vector<RunLine>& without);
+
 }  // namespace heel::report

@@ -52,6 +52,7 @@ std::vector<StillSample> read_stills(const std::string& path) {
     StillSample s;
     s.name = table.text(i, "name");
     s.shirt = table.text(i, "shirt");
+    s.seed = static_cast<std::uint64_t>(number("seed"));
     s.light = number("light");
     s.x_m = number("x_m");
     s.z_m = number("z_m");
@@ -74,6 +75,7 @@ std::vector<StillSample> read_stills(const std::string& path) {
     s.t_x_sigma_m = number("est_t_x_sigma_m");
     s.t_z_m = number("est_t_z_m");
     s.t_z_sigma_m = number("est_t_z_sigma_m");
+    s.vision_ms = number("vision_ms");
     samples.push_back(s);
   }
   return samples;

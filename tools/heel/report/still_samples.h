@@ -1,6 +1,7 @@
 // Rows of `heel experiment`, and what they come to at each commanded step.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ bool is_wrong(double yaw_error_rad, double off_m, double distance_m);
 /// One picture as the report needs it; radians and metres.
 struct StillSample {
   std::string name, shirt;
+  std::uint64_t seed = 0;
   double light = 1.0, x_m = 0.0, z_m = 0.0, yaw_rad = 0.0, blur_px = 0.0, occluded = 0.0;  // commanded
   double true_x_m = 0.0, true_z_m = 0.0, true_yaw_rad = 0.0, true_t_x_m = 0.0, true_t_z_m = 0.0;
   bool first_look = false;  ///< looked for in the whole frame, not tracked from the frame before
@@ -19,6 +21,7 @@ struct StillSample {
   double certainty = 0.0;  ///< 0 where it was not found
   double yaw_est_rad = 0.0, yaw_sigma_rad = 0.0, x_est_m = 0.0, z_est_m = 0.0;
   double t_x_m = 0.0, t_x_sigma_m = 0.0, t_z_m = 0.0, t_z_sigma_m = 0.0;
+  double vision_ms = 0.0;
 
   double yaw_error_rad() const;
   /// The angle between the back's normal and the line of sight: the plane's sign ambiguity mirrors it.
