@@ -32,6 +32,7 @@ class UartLine {
  private:
   struct Frame {
     TimeNs t_start_ns;
+    TimeNs t_end_ns;  ///< of the stop bit
     int baud;
     std::uint8_t byte;
   };

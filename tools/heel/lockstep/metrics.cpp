@@ -178,22 +178,22 @@ Quantiles quantiles(std::vector<double> values) {
 double lateral_distance_m(const std::vector<PathPoint>& path, const PathPoint& point, std::size_t& near) {
   const std::size_t from = near > kSearchBehind ? near - kSearchBehind : 0;
   const std::size_t to = std::min(path.size() - 1, near + kSearchAhead);
-  double best = kLostAllM;
+  double best2 = kLostAllM * kLostAllM;
   double lateral = kLostAllM;
   for (std::size_t i = from; i < to; ++i) {
     const PathPoint& a = path[i];
     const double ex = path[i + 1].x_m - a.x_m;
     const double ey = path[i + 1].y_m - a.y_m;
-    const double length = std::max(std::hypot(ex, ey), 1e-9);
-    double along = ((point.x_m - a.x_m) * ex + (point.y_m - a.y_m) * ey) / (length * length);
+    const double length2 = std::max(ex * ex + ey * ey, 1e-18);
+    double along = ((point.x_m - a.x_m) * ex + (point.y_m - a.y_m) * ey) / length2;
     // Before its beginning the path goes on straight: the robot starts behind the person.
     along = std::clamp(along, i == 0 ? -1e9 : 0.0, 1.0);
     const double dx = point.x_m - a.x_m - along * ex;
     const double dy = point.y_m - a.y_m - along * ey;
-    const double distance = std::hypot(dx, dy);
-    if (distance >= best) continue;
-    best = distance;
-    lateral = std::copysign(distance, ex * dy - ey * dx);
+    const double distance2 = dx * dx + dy * dy;
+    if (distance2 >= best2) continue;
+    best2 = distance2;
+    lateral = std::copysign(std::sqrt(distance2), ex * dy - ey * dx);
     near = i;
   }
   return lateral;
