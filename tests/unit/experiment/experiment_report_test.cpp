@@ -11,8 +11,10 @@
 #include "heel/error.h"
 #include "heel/experiment/still_file.h"
 #include "heel/report/error_statistics.h"
+#include "heel/report/fit_rows.h"
 #include "heel/report/paper_comparison.h"
 #include "heel/report/paper_figures.h"
+#include "heel/report/run_table.h"
 #include "temporary_folder.h"
 
 namespace heel {
@@ -145,6 +147,63 @@ TEST(ExperimentReport, DrawsWhatThereIsAndSaysHowGoodItIs) {
     EXPECT_FALSE(cv::imread(folder.file(name)).empty()) << name;
   EXPECT_TRUE(std::filesystem::exists(folder.file("fig4_yaw.csv")));
   EXPECT_FALSE(std::filesystem::exists(folder.file("fig3_t_z.png"))) << "no such rows";
+}
+
+TEST(FitRows, TellConditionsAndErrorsOfWhatWasSeen) {
+  const double bearing_rad = std::atan2(0.4, 2.0);
+  StillRow lost = row_at(0.4, 2.0, 0.0, 0.0);
+  lost.pose.reason = PoseReason::TooFewMatches;
+  StillRow after_lost = row_at(0.4, 2.0, bearing_rad + 0.35, -0.70);
+  after_lost.picture = 1;
+  after_lost.surroundings.shirt = "mosaic";
+  StillRow seen = row_at(0.4, 2.0, 0.0, 0.02), tracked = seen;
+  tracked.picture = 1;
+  CameraModel camera{.width_px = 640, .height_px = 480, .fx = 554, .fy = 554, .cx = 320, .cy = 240};
+  const auto rows = report::still_fit_rows(written_and_read({lost, after_lost, seen, tracked}), camera);
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_FALSE(rows[0].found);
+  EXPECT_TRUE(rows[1].conditions.first_look) << "the picture before did not show it";
+  EXPECT_TRUE(rows[1].flipped);
+  EXPECT_TRUE(rows[1].conditions.other_print);
+  EXPECT_FALSE(rows[3].conditions.first_look);
+  EXPECT_FALSE(rows[3].flipped);
+  EXPECT_NEAR(rows[3].conditions.aspect_rad, -bearing_rad, 1e-6);
+  const double bearing_error_rad = std::atan2(0.41, 1.98) - bearing_rad;
+  EXPECT_NEAR(rows[3].bearing_error_rad, bearing_error_rad, 1e-6);
+  EXPECT_NEAR(rows[3].aspect_error_rad, 0.02 - bearing_error_rad, 1e-6);
+  EXPECT_NEAR(rows[3].range_error_share, std::hypot(0.41, 1.98) / std::hypot(0.4, 2.0) - 1.0, 1e-6);
+}
+
+TEST(RunTable, CountsLossesAndHowLongTheyLasted) {
+  sim::MetricsCollector run;
+  for (int i = 0; i <= 100; ++i) {
+    sim::MotionSample sample;
+    sample.t_s = 0.1 * i;
+    sample.has_person = true;
+    sample.person = {0.05 * i, 0.0, 0.0};
+    sample.robot = {0.05 * i - 2.0, 0.0, 0.0};
+    sample.person_speed_m_s = 0.5;
+    sample.back_in_view = i < 40 || i > 44;
+    run.add(sample);
+    sim::PoseSample pose;
+    pose.t_s = 0.1 * i;
+    pose.found = (i < 40 || i > 46) && i != 70;
+    pose.has_truth = pose.found;
+    pose.true_z_m = pose.z_m = 2.0;
+    pose.yaw_rad = i == 80 ? 0.5 : 0.0;
+    run.add(pose);
+  }
+  const report::RunLine line = report::run_line("made up", run);
+  EXPECT_EQ(line.frames, 101U);
+  EXPECT_EQ(line.found, 93U);
+  EXPECT_EQ(line.visible, 96U);
+  EXPECT_EQ(line.wrong, 1U);
+  ASSERT_EQ(line.gaps_s.size(), 2U);
+  EXPECT_NEAR(line.gaps_s[0], 0.8, 1e-9);
+  EXPECT_NEAR(line.gaps_s[1], 0.2, 1e-9);
+  EXPECT_THAT(report::run_table({line}), HasSubstr("| 2 | 0.50 s, 0.80 s |"));
+  EXPECT_EQ(report::worlds_table({line}, {}), "");
+  EXPECT_THAT(report::worlds_table({line}, {line}), HasSubstr("| made up | 0.000, 0.000 m | 2.00, 2.00 m |"));
 }
 
 TEST(ExperimentReport, AMissingPictureOfAHardCaseIsNamed) {

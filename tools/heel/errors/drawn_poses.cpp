@@ -6,16 +6,13 @@
 #include <cmath>
 
 #include "error_fit.h"
+#include "wrapped.h"
 
 namespace heel::errors {
 namespace {
 
 constexpr TimeNs kForgotten_ns = kNsPerS / 2;  ///< as PoseTracker
 constexpr std::uint32_t kTemplateFeatures = 300;
-
-double wrapped(double angle_rad) {
-  return std::remainder(angle_rad, 2.0 * M_PI);
-}
 
 double normal_share_below(double value) {
   return 0.5 * std::erfc(-value / std::sqrt(2.0));
@@ -111,7 +108,7 @@ PoseEstimate DrawnPoses::estimate(const FrameHeader& header, const sim::RobotMot
       std::exp(model_.yaw_sigma_rad.mean_log(now) + model_.yaw_sigma_rad.log_deviation * random_.normal());
   const double log_time = model_.time_share.log_deviation * random_.normal();
 
-  if (!truth.in_view || found >= model_.found_probability(now)) {
+  if (!truth.in_view || truth.occluded || found >= model_.found_probability(now)) {
     pose.reason = PoseReason::TooFewInliers;
     time_share_ = std::exp(model_.missed_log_time_share);
     return pose;

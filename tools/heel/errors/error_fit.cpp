@@ -8,6 +8,7 @@
 #include <string>
 
 #include "heel/error.h"
+#include "wrapped.h"
 
 namespace heel::errors {
 namespace {
@@ -26,10 +27,6 @@ constexpr auto kEven = static_cast<Eigen::Index>(kEvenTerms.size());
 constexpr auto kOdd = static_cast<Eigen::Index>(kOddTerms.size());
 
 using Rows = std::vector<const FitRow*>;
-
-double wrapped(double angle_rad) {
-  return std::remainder(angle_rad, 2.0 * M_PI);
-}
 
 Eigen::MatrixXd even_matrix(const Rows& rows) {
   Eigen::MatrixXd A(static_cast<Eigen::Index>(rows.size()), kEven);

@@ -33,6 +33,10 @@ sim::Scenario still_scenario(const sim::Scenario& base, const StillSurroundings&
   scenario.name = "still";
   scenario.seed = surroundings.seed;
   scenario.path.clear();
+  scenario.passers_by.clear();
+  scenario.obstacles.clear();
+  scenario.light.changes.clear();
+  scenario.room.bump_m = 0.0;
   scenario.person_start = {};
   scenario.person.shirt = sim::shirt_design(surroundings.shirt);
   scenario.light.level = surroundings.light;

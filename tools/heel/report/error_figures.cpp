@@ -8,14 +8,12 @@
 
 #include "canvas.h"
 #include "plot.h"
+#include "style.h"
 
 namespace heel::report {
 namespace {
 
-constexpr double kDeg = 180.0 / M_PI;
-const cv::Scalar kBlue(170, 80, 20), kOrange(40, 130, 230), kGreen(60, 140, 60), kRed(40, 40, 200),
-    kGrey(150, 150, 150);
-constexpr int kPanelWidthPx = 420, kPanelHeightPx = 250;
+constexpr int kErrorPanelWidthPx = 420, kErrorPanelHeightPx = 250;
 
 cv::Mat yaw_panel(const ErrorCurve& curve, const std::string& x_label) {
   Series mean{"away from frontal", kBlue, {}, 1.6, false}, absolute{"mean absolute", kOrange, {}, 1.6, false};
@@ -26,8 +24,8 @@ cv::Mat yaw_panel(const ErrorCurve& curve, const std::string& x_label) {
     absolute.points.emplace_back(bin.middle, kDeg * bin.yaw_mean_abs_rad);
     p95.points.emplace_back(bin.middle, kDeg * bin.yaw_p95_rad);
   }
-  return plot({"yaw error", x_label, "degrees", false, false, {}}, {p95, absolute, mean}, kPanelWidthPx,
-              kPanelHeightPx);
+  return plot({"yaw error", x_label, "degrees", false, false, {}}, {p95, absolute, mean}, kErrorPanelWidthPx,
+              kErrorPanelHeightPx);
 }
 
 cv::Mat share_panel(const ErrorCurve& curve, const std::string& x_label) {
@@ -40,7 +38,7 @@ cv::Mat share_panel(const ErrorCurve& curve, const std::string& x_label) {
     certainty.points.emplace_back(bin.middle, bin.certainty);
   }
   return plot({"found, wrong, certainty", x_label, "share", false, true, {}}, {found, certainty, wrong},
-              kPanelWidthPx, kPanelHeightPx);
+              kErrorPanelWidthPx, kErrorPanelHeightPx);
 }
 
 /// log10 of the mean normalised error squared: 0 is honest, 1 ten times too much.
@@ -55,7 +53,7 @@ cv::Mat honesty_panel(const ErrorCurve& curve, const std::string& x_label) {
     honest.points.emplace_back(bin.middle, 0.0);
   }
   return plot({"log10 of (error / sigma) squared", x_label, "log10", false, false, {}},
-              {honest, yaw, t_x, t_z}, kPanelWidthPx, kPanelHeightPx);
+              {honest, yaw, t_x, t_z}, kErrorPanelWidthPx, kErrorPanelHeightPx);
 }
 
 /// White at nothing, through yellow to dark red at `most` and beyond.

@@ -7,11 +7,11 @@
 
 #include "heel/error.h"
 #include "heel/lockstep/metrics.h"
+#include "style.h"
 
 namespace heel::report {
 namespace {
 
-constexpr double kDeg = 180.0 / M_PI;
 constexpr double kNormal95 = 1.959964;
 // Where a curve shows one condition, the others stay where the robot follows: near enough and not averted.
 constexpr double kEasyZM = 3.0, kEasyAspectRad = 45.0 / kDeg;

@@ -12,12 +12,12 @@
 #include "paper_figures.h"
 #include "real_report.h"
 #include "run_files.h"
+#include "style.h"
 
 namespace heel::report {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kDeg = 180.0 / M_PI;
 
 class Writer {
  public:
@@ -25,7 +25,8 @@ class Writer {
 
   void figure(const std::string& name, const cv::Mat& picture, const std::string& caption) {
     if (picture.empty()) return;
-    if (!cv::imwrite(directory_ + "/" + name, picture, {cv::IMWRITE_PNG_COMPRESSION, 9}))
+    if (!cv::imwrite(directory_ + "/" + name, picture,
+                     {cv::IMWRITE_PNG_COMPRESSION, 9, cv::IMWRITE_JPEG_QUALITY, 62}))
       throw Error(directory_ + "/" + name + ": cannot write (expected a writable folder)");
     figures_ += "![" + caption + "](" + name + ")\n\n";
   }
@@ -122,7 +123,7 @@ std::string report_experiments(const std::string& directory) {
   data.yaw = stills_if_any(directory + "/yaw.csv");
   data.errors = stills_if_any(directory + "/errors.csv");
 
-  writer.figure("fig1_hard.png", hard_figure(directory), "Figure 1: the shirt found in twelve hard cases");
+  writer.figure("fig1_hard.jpg", hard_figure(directory), "Figure 1: the shirt found in twelve hard cases");
   draw_stills(data, writer);
   draw_pure_translation(data.lateral, "fig5_yaw_over_x", &StillSample::x_m,
                         "Figure 5: yaw of a person who only moves sideways", "sideways offset in m", writer);

@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "plot.h"
+#include "style.h"
 
 namespace heel::report {
 namespace {
 
-constexpr double kDeg = 180.0 / M_PI;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-const cv::Scalar kPerson(40, 130, 230);
-const cv::Scalar kRobot(170, 80, 20);
 const cv::Scalar kLost(40, 40, 220);
 const cv::Scalar kTruth(150, 150, 150);
 constexpr int kWidthPx = 1100, kPathHeightPx = 740, kPanelHeightPx = 270;

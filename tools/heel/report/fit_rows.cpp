@@ -4,12 +4,10 @@
 #include <functional>
 #include <string>
 
+#include "style.h"
+
 namespace heel::report {
 namespace {
-
-double wrapped(double angle_rad) {
-  return std::remainder(angle_rad, 2.0 * M_PI);
-}
 
 /// On the floor of the camera frame.
 struct Seen {

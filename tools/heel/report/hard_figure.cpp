@@ -9,16 +9,16 @@
 #include "csv_table.h"
 #include "heel/error.h"
 #include "paper_figures.h"
+#include "style.h"
 
 namespace heel::report {
 namespace {
 
-constexpr int kColumns = 4;
-constexpr int kTileWidthPx = 300;
-constexpr double kDeg = 180.0 / M_PI;
-constexpr int kShift = 4;  ///< OpenCV's fixed-point places
+constexpr int kHardColumns = 4;
+constexpr int kHardTileWidthPx = 264;
+constexpr int kCornerShift = 4;  ///< OpenCV's fixed-point places
 
-cv::Mat tile(const cv::Mat& grey, const CsvTable& table, std::size_t row) {
+cv::Mat hard_tile(const cv::Mat& grey, const CsvTable& table, std::size_t row) {
   cv::Mat out;
   cv::cvtColor(grey, out, cv::COLOR_GRAY2BGR);
   const bool found = table.number(row, "found") != 0.0;
@@ -28,10 +28,10 @@ cv::Mat tile(const cv::Mat& grey, const CsvTable& table, std::size_t row) {
     std::vector<cv::Point> corners;
     for (int i = 0; i < 4; ++i) {
       const std::string corner = "corner_" + std::to_string(i);
-      corners.emplace_back(cvRound(table.number(row, corner + "_x_px") * (1 << kShift)),
-                           cvRound(table.number(row, corner + "_y_px") * (1 << kShift)));
+      corners.emplace_back(cvRound(table.number(row, corner + "_x_px") * (1 << kCornerShift)),
+                           cvRound(table.number(row, corner + "_y_px") * (1 << kCornerShift)));
     }
-    cv::polylines(out, corners, true, cv::Scalar(60, 220, 60), 3, cv::LINE_AA, kShift);
+    cv::polylines(out, corners, true, cv::Scalar(60, 220, 60), 3, cv::LINE_AA, kCornerShift);
     std::snprintf(values, sizeof values, "yaw %+.0f (true %+.0f) deg, certainty %.2f",
                   kDeg * table.number(row, "est_yaw_rad"), kDeg * table.number(row, "true_yaw_rad"),
                   table.number(row, "certainty"));
@@ -41,7 +41,7 @@ cv::Mat tile(const cv::Mat& grey, const CsvTable& table, std::size_t row) {
   cv::putText(out, table.text(row, "name"), {12, out.rows - 40}, cv::FONT_HERSHEY_SIMPLEX, 0.85, ink, 2,
               cv::LINE_AA);
   cv::putText(out, values, {12, out.rows - 12}, cv::FONT_HERSHEY_SIMPLEX, 0.8, ink, 2, cv::LINE_AA);
-  cv::resize(out, out, {kTileWidthPx, kTileWidthPx * grey.rows / grey.cols}, 0, 0, cv::INTER_AREA);
+  cv::resize(out, out, {kHardTileWidthPx, kHardTileWidthPx * grey.rows / grey.cols}, 0, 0, cv::INTER_AREA);
   cv::copyMakeBorder(out, out, 2, 2, 2, 2, cv::BORDER_CONSTANT, cv::Scalar::all(255));
   return out;
 }
@@ -59,13 +59,13 @@ cv::Mat hard_figure(const std::string& directory) {
     const cv::Mat grey = cv::imread(directory + name, cv::IMREAD_GRAYSCALE);
     if (grey.empty())
       throw Error(directory + name + ": cannot read (expected the picture of " + table.place(row) + ")");
-    tiles.push_back(tile(grey, table, row));
+    tiles.push_back(hard_tile(grey, table, row));
   }
   if (tiles.empty()) return {};
-  while (tiles.size() % kColumns != 0)
+  while (tiles.size() % kHardColumns != 0)
     tiles.emplace_back(tiles.front().size(), CV_8UC3, cv::Scalar::all(255));
-  std::vector<cv::Mat> rows(tiles.size() / kColumns);
-  for (std::size_t i = 0; i < rows.size(); ++i) cv::hconcat(&tiles[i * kColumns], kColumns, rows[i]);
+  std::vector<cv::Mat> rows(tiles.size() / kHardColumns);
+  for (std::size_t i = 0; i < rows.size(); ++i) cv::hconcat(&tiles[i * kHardColumns], kHardColumns, rows[i]);
   cv::Mat sheet;
   cv::vconcat(rows, sheet);
   return sheet;

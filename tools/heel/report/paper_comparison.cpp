@@ -6,11 +6,11 @@
 #include <cstdio>
 
 #include "error_statistics.h"
+#include "style.h"
 
 namespace heel::report {
 namespace {
 
-constexpr double kDeg = 180.0 / M_PI;
 constexpr double kPaperReliable = 0.1, kPaperRarely = 0.6;
 constexpr double kTrustedShare = 0.95;  ///< of the pictures at an angle: found, with certainty above 0.1
 constexpr double kGoalYawDeg = 2.0, kGoalFlips = 0.001, kGoalRSquared = 0.999, kGoalFollowM = 0.15;

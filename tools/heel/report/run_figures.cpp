@@ -5,13 +5,13 @@
 
 #include "paper_figures.h"
 #include "plot.h"
+#include "style.h"
 
 namespace heel::report {
 namespace {
 
-constexpr double kDeg = 180.0 / M_PI;
-const cv::Scalar kPerson(40, 130, 230), kRobot(170, 80, 20), kOther(90, 150, 60), kGrey(150, 150, 150);
-constexpr int kWidthPx = 900, kPathHeightPx = 330, kPanelHeightPx = 230, kWalkHeightPx = 640;
+const cv::Scalar kPositionOnly = kGreen;
+constexpr int kRunWidthPx = 900, kRunPathHeightPx = 330, kRunPanelHeightPx = 230, kWalkHeightPx = 640;
 
 Series robot_path(const sim::MetricsCollector& run, const char* name, const cv::Scalar& bgr) {
   Series path{name, bgr, {}, 2.0, false};
@@ -27,7 +27,7 @@ Series person_path(const sim::MetricsCollector& run) {
   return path;
 }
 
-std::string printed(const char* format, double a, double b) {
+std::string titled(const char* format, double a, double b) {
   char text[160];
   std::snprintf(text, sizeof text, format, a, b);
   return text;
@@ -57,15 +57,17 @@ cv::Mat response_figure(const sim::MetricsCollector& run) {
   const auto begin = offset.points.empty() ? cv::Point2d() : offset.points.front();
   const auto turned = heading.points.empty() ? cv::Point2d() : heading.points.front();
   const std::vector<cv::Mat> panels{
-      plot({printed("Figure 7: set down %.2f m beside the line, turned by %.0f degrees", begin.y, turned.y),
+      plot({titled("Figure 7: set down %.2f m beside the line, turned by %.0f degrees", begin.y, turned.y),
             "x in m",
             "y in m",
             true,
             false,
             {}},
-           {person_path(run), robot_path(run, "robot", kRobot)}, kWidthPx, kPathHeightPx),
-      plot({"", "way driven in m", "offset in m", false, false, x}, {zero, offset}, kWidthPx, kPanelHeightPx),
-      plot({"", "way driven in m", "degrees", false, false, x}, {zero, heading}, kWidthPx, kPanelHeightPx)};
+           {person_path(run), robot_path(run, "robot", kRobot)}, kRunWidthPx, kRunPathHeightPx),
+      plot({"", "way driven in m", "offset in m", false, false, x}, {zero, offset}, kRunWidthPx,
+           kRunPanelHeightPx),
+      plot({"", "way driven in m", "degrees", false, false, x}, {zero, heading}, kRunWidthPx,
+           kRunPanelHeightPx)};
   cv::Mat out;
   cv::vconcat(panels, out);
   return out;
@@ -74,15 +76,15 @@ cv::Mat response_figure(const sim::MetricsCollector& run) {
 cv::Mat walk_figure(const sim::MetricsCollector& run, const sim::MetricsCollector* position_only) {
   const sim::FollowMetrics metrics = run.evaluate();
   std::vector<Series> series;
-  std::string title = printed("Figure 8: %.0f m walked, the robot's path %.2f m RMS beside",
-                              metrics.person_path_m, metrics.lateral_m.rms);
+  std::string title = titled("Figure 8: %.0f m walked, the robot's path %.2f m RMS beside",
+                             metrics.person_path_m, metrics.lateral_m.rms);
   if (position_only != nullptr) {
-    series.push_back(robot_path(*position_only, "robot that follows the position only", kOther));
-    title += printed(" (position only: %.2f m)", position_only->evaluate().lateral_m.rms, 0.0);
+    series.push_back(robot_path(*position_only, "robot that follows the position only", kPositionOnly));
+    title += titled(" (position only: %.2f m)", position_only->evaluate().lateral_m.rms, 0.0);
   }
   series.push_back(person_path(run));
   series.push_back(robot_path(run, "robot", kRobot));
-  return plot({title, "x in m", "y in m", true, false, {}}, series, kWidthPx, kWalkHeightPx);
+  return plot({title, "x in m", "y in m", true, false, {}}, series, kRunWidthPx, kWalkHeightPx);
 }
 
 }  // namespace heel::report

@@ -5,11 +5,10 @@
 #include <cstdio>
 
 #include "still_samples.h"
+#include "style.h"
 
 namespace heel::report {
 namespace {
-
-constexpr double kDeg = 180.0 / M_PI;
 
 /// More than this between two sightings: one frame at least did not show the target.
 constexpr double kLossFrames = 1.5;

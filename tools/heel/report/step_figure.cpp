@@ -1,17 +1,15 @@
 // Figures 2 … 6.
 #include <cmath>
-#include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "paper_figures.h"
 #include "plot.h"
+#include "style.h"
 
 namespace heel::report {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-const cv::Scalar kBlue(170, 80, 20), kOrange(40, 130, 230), kGrey(150, 150, 150), kGreen(60, 140, 60);
-constexpr int kWidthPx = 900, kValueHeightPx = 380, kCertaintyHeightPx = 230;
+constexpr int kStepWidthPx = 900, kValueHeightPx = 380, kCertaintyHeightPx = 230;
 
 void add_bar(Series& bars, double x, double low, double high) {
   bars.points.emplace_back(x, low);
@@ -45,10 +43,10 @@ cv::Mat step_figure(const StepFigure& what, const std::vector<Step>& steps) {
   const Span x = steps.empty() ? Span{} : Span{steps.front().at, steps.back().at};
   const Series reliable{"0.1: reliable", kGrey, {{x.low, 0.1}, {x.high, 0.1}}, 1.0, false};
   const cv::Mat above = plot({what.title, what.x_label, what.y_label, false, false, x},
-                             {truth, bars, mean, dots}, kWidthPx, kValueHeightPx);
+                             {truth, bars, mean, dots}, kStepWidthPx, kValueHeightPx);
   const cv::Mat below =
       plot({"Certainty: inliers / template features", what.x_label, "0 ... 1", false, true, x},
-           {reliable, found, certainty, certainty_mean}, kWidthPx, kCertaintyHeightPx);
+           {reliable, found, certainty, certainty_mean}, kStepWidthPx, kCertaintyHeightPx);
   cv::Mat out;
   cv::vconcat(above, below, out);
   return out;

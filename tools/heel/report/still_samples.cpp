@@ -9,6 +9,7 @@
 #include "csv_table.h"
 #include "heel/error.h"
 #include "heel/lockstep/metrics.h"
+#include "style.h"
 
 namespace heel::report {
 namespace {
@@ -16,10 +17,6 @@ namespace {
 constexpr double kWrongYawRad = 15.0 * M_PI / 180.0;
 constexpr double kWrongShare = 0.1;
 constexpr double kWrongLeastM = 0.15;
-
-double wrapped(double angle_rad) {
-  return std::remainder(angle_rad, 2.0 * M_PI);
-}
 
 }  // namespace
 
