@@ -34,8 +34,8 @@ std::deque<Figure> figures_of(const Scenario& scenario, Detail detail) {
   const std::uint64_t target_seed = derived_seed(scenario.seed, 0x50);
   const std::uint64_t shirt_seed = derived_seed(target_seed, 0x51);
   std::deque<Figure> figures;
-  figures.push_back(
-      {Person(scenario.person, target_seed, shirt_seed, detail), Walk(scenario.person_start, scenario.path), 0.0});
+  figures.push_back({Person(scenario.person, target_seed, shirt_seed, detail),
+                     Walk(scenario.person_start, scenario.path), 0.0});
   for (std::size_t i = 0; i < scenario.passers_by.size(); ++i) {
     const PasserbySettings& passerby = scenario.passers_by[i];
     const std::uint64_t seed = derived_seed(scenario.seed, 0x1000 + i);

@@ -82,8 +82,8 @@ class World {
   bool walking() const { return walk_start_s_ < kNever; }
 
   Truth truth(const RobotMotion& robot, double t_s) const;
-  /// Of a world made with Detail::Pictures. The picture whose middle row's exposure is centred on `t_s`. A function of the arguments and the
-  /// scenario only.
+  /// Of a world made with Detail::Pictures. The picture whose middle row's exposure is centred on `t_s`. A
+  /// function of the arguments and the scenario only.
   void render(const RobotMotion& robot, double t_s, std::uint64_t frame, std::vector<std::uint8_t>& grey);
   ReferenceView reference_view(double distance_m);  ///< likewise
 
