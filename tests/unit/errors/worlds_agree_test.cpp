@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ctime>
 #include <iostream>
 
 #include "heel-sim/world/world.h"
@@ -144,19 +143,6 @@ TEST(PosesWithoutPictures, RepeatToTheBitAndDifferBySeed) {
   EXPECT_EQ(run(settings).yaw_error_rad.mean, first);
   settings.scenario.seed = 7;
   EXPECT_NE(run(settings).yaw_error_rad.mean, first);
-}
-
-TEST(PosesWithoutPictures, AreMadeManyTimesFasterThanTimePasses) {
-  if (test::kSanitized) GTEST_SKIP() << "sanitizers take the time";
-  LockstepSettings settings = settings_for(kBends, 60.0);
-  settings.errors = errors::read_error_model(kModel);
-  const auto begin = std::clock();
-  constexpr int kRuns = 5;
-  for (int i = 0; i < kRuns; ++i) run(settings);
-  // Processor time, which a busy machine does not stretch.
-  const double took_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  std::cout << kRuns * 60.0 / took_s << " x real time\n";
-  EXPECT_GT(kRuns * 60.0 / took_s, 500.0);
 }
 
 TEST(PosesWithoutPictures, NeedTheSimulatedWorld) {
