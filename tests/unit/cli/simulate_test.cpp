@@ -40,6 +40,7 @@ class Simulate : public ::testing::Test {
 };
 
 TEST_F(Simulate, OneScenarioGivesOneObject) {
+  if (test::kThreadSanitizer) GTEST_SKIP() << "the lock-step tests run the same threads for a shorter time";
   const Outcome run = simulate({scenario("walk"), "--json", "--seed", "5"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
@@ -68,6 +69,7 @@ TEST_F(Simulate, AFolderGivesATableAndPictures) {
 
 TEST_F(Simulate, SeveralGiveAList) {
   if (test::kThreadSanitizer) GTEST_SKIP() << "the lock-step tests run the same threads for a shorter time";
+  if (test::kThreadSanitizer) GTEST_SKIP() << "the lock-step tests run the same threads for a shorter time";
   const Outcome run = simulate({scenario("one"), scenario("two"), "--json", "-o", folder_.file("out")});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
@@ -77,6 +79,7 @@ TEST_F(Simulate, SeveralGiveAList) {
 }
 
 TEST_F(Simulate, ALimitThatIsNotMetNamesItsScenario) {
+  if (test::kThreadSanitizer) GTEST_SKIP() << "the lock-step tests run the same threads for a shorter time";
   if (test::kThreadSanitizer) GTEST_SKIP() << "the lock-step tests run the same threads for a shorter time";
   const Outcome run =
       simulate({scenario("one"), scenario("two"), "--min-path-m", "50", "-o", folder_.file("out")});
