@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "each_simd_target.h"
 #include "heel/matching.h"
 
 namespace heel::test {
@@ -110,6 +111,74 @@ TEST(FeaturesMatcher, AgreesWithExhaustiveSearch) {
       }
     }
   }
+}
+
+void expect_the_plain_matches(const FeatureSet& ref, const FeatureSet& cur, const MatchSettings& settings) {
+  const std::vector<Match> expected = plain_match(ref, cur, settings);
+  for_each_simd_target([&] {
+    Matcher matcher(static_cast<int>(ref.features.size()), static_cast<int>(cur.features.size()), settings);
+    std::vector<Match> matches;
+    matcher.match(ref, cur, matches);
+    ASSERT_EQ(matches.size(), expected.size());
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      ASSERT_EQ(matches[i].ref, expected[i].ref);
+      ASSERT_EQ(matches[i].cur, expected[i].cur);
+    }
+  });
+}
+
+// Closer together than bytes can tell, so that everything is left to the exact look: from all but equal to
+// easily told apart.
+TEST(FeaturesMatcher, IsExactWhereBytesCannotTell) {
+  for (const double apart : {0.01, 0.03, 0.1, 0.3}) {
+    for (const float ratio : {0.8f, 0.97f, 2.f}) {
+      SCOPED_TRACE(std::to_string(apart) + " apart, ratio " + std::to_string(ratio));
+      FeatureSet one = random_features(1, 31);
+      FeatureSet ref = one, cur;
+      for (int i = 1; i < 60; ++i) {
+        ref.features.push_back(one.features[0]);
+        ref.descriptors.push_back(one.descriptors[0]);
+      }
+      ref = disturbed(ref, 0, apart, 32);
+      cur = disturbed(ref, 0, ratio > 1.f ? apart : apart / 3.0, 33);
+      expect_the_plain_matches(ref, cur, {.ratio = ratio});
+      EXPECT_FALSE(plain_match(ref, cur, {.ratio = 0.97f}).empty());
+    }
+  }
+}
+
+// Elements that bytes do not reach, opposite descriptors, whose bytes' product is the least there is, and one
+// descriptor for all.
+TEST(FeaturesMatcher, IsExactForDescriptorsNoPictureGives) {
+  const auto of = [](std::size_t k, float value) {
+    Descriptor descriptor{};
+    descriptor[k] = value;
+    return descriptor;
+  };
+  FeatureSet ref, cur;
+  const auto add = [](FeatureSet& set, const Descriptor& descriptor) {
+    set.features.emplace_back();
+    set.features.back().laplacian = 1;
+    set.descriptors.push_back(descriptor);
+  };
+  for (std::size_t k = 0; k < 20; ++k) {
+    add(ref, of(k, 1.f));
+    add(cur, of(k, k % 2 == 0 ? 1.f : -1.f));
+  }
+  Descriptor dense;
+  for (std::size_t k = 0; k < dense.size(); ++k) dense[k] = k % 2 == 0 ? 0.125f : -0.125f;
+  Descriptor opposite = dense;
+  for (float& value : opposite) value = -value;
+  add(ref, dense);
+  add(cur, opposite);
+  expect_the_plain_matches(ref, cur, {});
+  add(cur, dense);
+  expect_the_plain_matches(ref, cur, {});
+  EXPECT_GT(plain_match(ref, cur, {}).size(), 10U);
+
+  FeatureSet same;
+  for (int i = 0; i < 70; ++i) add(same, dense);
+  expect_the_plain_matches(same, same, {});
 }
 
 TEST(FeaturesMatcher, NeverPairsOppositeSigns) {
