@@ -15,11 +15,15 @@ function(heel_compile_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# heel_test(NAME SOURCES … DEPENDS … [SERIAL]): a GoogleTest program; each of its tests is a ctest entry.
+# heel_test(NAME SOURCES … DEPENDS … [SERIAL] [THREADS] [AS_ONE ENTRY]): a GoogleTest program; each of its tests is
+# a ctest entry.
 # SERIAL: its tests run in real time and are not to share the machine with others.
+# THREADS: what it tests runs in several threads. The thread sanitizer's preset leaves the others out
+# (HEEL_ONLY_THREADED_TESTS): one thread races with nobody, at fifty times the price.
+# AS_ONE: all its tests are one entry of that name, because they share what took long to make.
 # Tests that need ../shared-style data find it in HEEL_TEST_DATA and call GTEST_SKIP() without it.
 function(heel_test name)
-  cmake_parse_arguments(ARG "SERIAL" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL;THREADS" "TIMEOUT;AS_ONE" "SOURCES;DEPENDS;LABELS" ${ARGN})
   if(NOT HEEL_BUILD_TESTS)
     return()
   endif()
@@ -35,9 +39,19 @@ function(heel_test name)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON)
     heel_compile_alone(${CMAKE_SOURCE_DIR}/tests/allocation_count.cpp)  # takes the C library's place
   endif()
+  if(HEEL_ONLY_THREADED_TESTS AND NOT ARG_THREADS)
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+    return()
+  endif()
+  add_dependencies(heel_tests ${name})
   set(properties TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_SERIAL})
   if(ARG_LABELS)
     list(APPEND properties LABELS "${ARG_LABELS}")
   endif()
-  gtest_discover_tests(${name} PROPERTIES ${properties} DISCOVERY_TIMEOUT 60)
+  if(ARG_AS_ONE)
+    add_test(NAME ${ARG_AS_ONE} COMMAND ${name})
+    set_tests_properties(${ARG_AS_ONE} PROPERTIES ${properties} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+  else()
+    gtest_discover_tests(${name} PROPERTIES ${properties} DISCOVERY_TIMEOUT 60)
+  endif()
 endfunction()

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,7 +75,16 @@ class VideoOnTheWire : public ::testing::Test {
     scene_.emplace(video);
   }
 
-  FrameCommands simulate(double gain_yaw_1_s) const {
+  /// Once for each gain, whichever tests ask.
+  const FrameCommands& simulate(double gain_yaw_1_s) const {
+    static std::map<double, FrameCommands> known;
+    const auto [entry, is_new] = known.try_emplace(gain_yaw_1_s);
+    if (is_new) entry->second = run(gain_yaw_1_s);
+    return entry->second;
+  }
+
+ private:
+  FrameCommands run(double gain_yaw_1_s) const {
     const test::Outcome ran =
         test::run_heel(scene_->folder(),
                        {"simulate", scene_->write_scenario(), "--config", scene_->write_config(gain_yaw_1_s),

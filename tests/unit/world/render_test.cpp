@@ -106,22 +106,6 @@ TEST(WorldPicture, MotionBlursAlongTheMotion) {
   EXPECT_GT(energy(turning, 640), 0.3 * energy(still, 640));  // upright ones mostly stay
 }
 
-TEST(WorldPicture, IsTheSameForAnyNumberOfThreads) {
-  Scenario scenario;
-  scenario.camera.model = default_camera_model();
-  scenario.camera.readout_ms = 20;
-  scenario.camera.sensor.glare = 0.1;
-  scenario.camera.jpeg_quality = 80;
-  scenario.room.windows = 4;
-  std::vector<std::uint8_t> alone, shared;
-  const RobotMotion robot{-1.7, 0, 0.02, 0.4, 0.3};
-  World(scenario, 1).render(robot, 0.5, 7, alone);
-  for (const int threads : {2, 3, 7}) {
-    World(scenario, threads).render(robot, 0.5, 7, shared);
-    EXPECT_EQ(alone, shared) << threads;
-  }
-}
-
 TEST(ReferenceView, IsSquareToTheBack) {
   Scenario scenario = marked_scenario();
   World world(scenario);

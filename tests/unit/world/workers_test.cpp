@@ -1,7 +1,13 @@
-// Work shared among threads: every piece is done once, whoever does it.
+// Work shared among threads: every piece is done once, whoever does it, and the picture is the same.
 #include "heel-sim/camera/workers.h"
 
 #include <gtest/gtest.h>
+
+#include <atomic>
+#include <vector>
+
+#include "heel-sim/world/world.h"
+#include "sanitized.h"
 
 namespace heel::sim {
 namespace {
@@ -24,6 +30,22 @@ TEST(Workers, EveryPieceIsDoneOnce) {
 TEST(Workers, AtLeastTheCallerWorks) {
   EXPECT_GE(Workers(0).threads(), 1);
   EXPECT_LE(Workers(0).threads(), 4);
+}
+
+TEST(WorldPicture, IsTheSameForAnyNumberOfThreads) {
+  Scenario scenario;
+  scenario.camera.model = default_camera_model();
+  scenario.camera.readout_ms = 20;
+  scenario.camera.sensor.glare = 0.1;
+  scenario.camera.jpeg_quality = 80;
+  scenario.room.windows = 4;
+  std::vector<std::uint8_t> alone, shared;
+  const RobotMotion robot{-1.7, 0, 0.02, 0.4, 0.3};
+  World(scenario, 1).render(robot, 0.5, 7, alone);
+  for (const int threads : test::kThreadSanitizer ? std::vector{3} : std::vector{2, 3, 7}) {
+    World(scenario, threads).render(robot, 0.5, 7, shared);
+    EXPECT_EQ(alone, shared) << threads;
+  }
 }
 
 }  // namespace
