@@ -42,13 +42,15 @@ void CaptureLoop::try_open() {
   if (open_) {
     if (was_open_) reopened_.fetch_add(1, std::memory_order_relaxed);
     was_open_ = true;
-    told_unavailable_ = false;
+    told_problem_.clear();
     told_refused_ = false;
     tell(EventKind::CameraOpened, 0, 0, source_.description().c_str());
     return;
   }
-  if (!told_unavailable_) tell(EventKind::CameraUnavailable, 0, 0, source_.problem().c_str());
-  told_unavailable_ = true;
+  if (source_.problem() != told_problem_) {
+    told_problem_ = source_.problem();
+    tell(EventKind::CameraUnavailable, 0, 0, told_problem_.c_str());
+  }
   pause();
 }
 

@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <string>
 
 #include "capture/frame_source.h"
 #include "heel/flow.h"
@@ -59,10 +60,10 @@ class CaptureLoop {
   CaptureLoopSettings settings_;
 
   bool open_ = false;
-  bool delivered_ = false;         // a frame has come since the opening; without one it counts as failed
-  bool was_open_ = false;          // an opening is a reopening from now on
-  bool told_unavailable_ = false;  // once for each outage
-  bool told_refused_ = false;      // once for each opening
+  bool delivered_ = false;     // a frame has come since the opening; without one it counts as failed
+  bool was_open_ = false;      // an opening is a reopening from now on
+  std::string told_problem_;   // of an opening: once for each reason in an outage
+  bool told_refused_ = false;  // once for each opening
   TimeNs pause_ns_;
 
   std::atomic<std::uint32_t> stop_{0};  // also the futex of pauses

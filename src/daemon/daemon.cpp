@@ -65,8 +65,9 @@ class Daemon {
 
   TickRecord status_;
   bool ready_ = false;
-  std::uint64_t told_open_failures_ = 0;
-  TimeNs t_ended_ns_ = 0;  // when a file camera's last frame was given; 0: not yet
+  std::uint64_t seen_open_failures_ = 0;
+  std::string told_open_error_;  // empty: none since the robot last answered
+  TimeNs t_ended_ns_ = 0;        // when a file camera's last frame was given; 0: not yet
   std::atomic<bool> failed_{false};
 };
 
@@ -192,10 +193,15 @@ void Daemon::look_after(TimeNs now_ns) {
 }
 
 void Daemon::tell_of_the_line() {
+  if (robot_has_answered()) told_open_error_.clear();
   const std::uint64_t failures = control_.open_failures();
-  // Once for each outage, not for each attempt.
-  if (failures != 0 && told_open_failures_ == 0) spdlog::warn("robot: {}", control_.last_open_error());
-  told_open_failures_ = status_.robot.phase == LinkPhase::Closed ? failures : 0;
+  if (failures == seen_open_failures_) return;
+  seen_open_failures_ = failures;
+  // Once for each reason in an outage, not for each attempt.
+  std::string error = control_.last_open_error();
+  if (error == told_open_error_) return;
+  spdlog::warn("{}", error);
+  told_open_error_ = std::move(error);
 }
 
 bool Daemon::robot_has_answered() const {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 
@@ -71,6 +72,26 @@ TEST_F(Heeld, IsNotReadyWithoutARobotAndSaysWhy) {
   EXPECT_TRUE(notify_.receives("READY=1", 30.0)) << logs();
   daemon_->signal(SIGINT);
   EXPECT_EQ(daemon_->wait(5.0), 0);
+}
+
+TEST_F(Heeld, SaysWhyTheLineDoesNotOpenOnceForEachReason) {
+  const auto lines = [this](const std::string& what) {
+    const std::string text = daemon_->output();
+    int n = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+    return n;
+  };
+  start_heeld(scene_.write_config());
+  ASSERT_TRUE(daemon_->says("cannot open: No such file", 30.0)) << daemon_->output();
+  std::ofstream(scene_.path("robot")) << "no terminal";
+  ASSERT_TRUE(daemon_->says("is not a terminal", 10.0)) << daemon_->output();
+  std::filesystem::remove(scene_.path("robot"));
+  start_robot();
+  ASSERT_TRUE(notify_.receives("READY=1", 30.0)) << logs();
+  // Long enough for several rounds of whoever tells.
+  sleep_s(1.0);
+  EXPECT_LE(lines("No such file"), 2) << logs();  // before the other reason, and perhaps after it
+  EXPECT_EQ(lines("is not a terminal"), 1) << logs();
 }
 
 TEST_F(Heeld, KilledWhileTheWheelsTurnTheRobotStandsWithinItsWatchdogAndDoesNotJumpAfter) {

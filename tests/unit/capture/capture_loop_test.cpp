@@ -33,7 +33,8 @@ class ScriptedSource final : public FrameSource {
     if (openings.empty()) return OpenResult::Opened;
     const OpenResult result = openings.front();
     openings.pop_front();
-    return result == OpenResult::Opened ? result : fail(result, "not there");
+    if (result == OpenResult::Opened) return result;
+    return fail(result, result == OpenResult::Absent ? "not there" : "not allowed");
   }
   FrameResult wait_frame(TimeNs timeout_ns, FrameView& frame) override {
     if (results.empty()) {
@@ -147,9 +148,18 @@ TEST_F(CaptureLoopTest, EventsCarryTheProblemAndItsTime) {
   Event event;
   ASSERT_TRUE(events_.pop(event));
   EXPECT_EQ(event.kind, EventKind::CameraUnavailable);
-  EXPECT_STREQ(event.text.data(), "test:script: not there");
+  EXPECT_STREQ(event.text.data(), "test:script: not allowed");
   EXPECT_GE(event.t_ns, before_ns);
   EXPECT_LE(event.t_ns, monotonic_now_ns());
+}
+
+TEST_F(CaptureLoopTest, EveryNewReasonInAnOutageIsTold) {
+  source_.openings = {OpenResult::Absent, OpenResult::Absent, OpenResult::Refused, OpenResult::Refused,
+                      OpenResult::Opened};
+  source_.results = {Frame};
+  loop_.run();
+  EXPECT_THAT(kinds(), testing::ElementsAre(EventKind::CameraUnavailable, EventKind::CameraUnavailable,
+                                            EventKind::CameraOpened));
 }
 
 TEST_F(CaptureLoopTest, UnusableFramesAreCountedNotDeadly) {
