@@ -3,37 +3,21 @@
 #include <spdlog/async.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cstdlib>
 #include <string>
 
 #include "heel/error.h"
+#include "runtime/journal_sink.h"
 
 namespace heel {
 
 namespace {
 
 constexpr std::size_t kQueuedMessages = 4096;
-
-// sd-daemon(3): "<N>" at the line's beginning is the priority.
-class JournalPriority : public spdlog::custom_flag_formatter {
- public:
-  void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& line) override {
-    //                                       trace debug info warn  error critical off
-    static constexpr std::array<char, 7> kPriority{'7', '7', '6', '4', '3', '2', '7'};
-    line.push_back('<');
-    line.push_back(kPriority[static_cast<std::size_t>(message.level)]);
-    line.push_back('>');
-  }
-  std::unique_ptr<custom_flag_formatter> clone() const override {
-    return std::make_unique<JournalPriority>();
-  }
-};
 
 spdlog::level::level_enum parse_level(const std::string& level) {
   for (const char* known : {"trace", "debug", "info", "warn", "error", "critical", "off"}) {
@@ -44,14 +28,9 @@ spdlog::level::level_enum parse_level(const std::string& level) {
 }
 
 spdlog::sink_ptr make_sink() {
-  spdlog::sink_ptr sink;
-  if (stderr_is_journal()) {
-    sink = std::make_shared<spdlog::sinks::stderr_sink_mt>();
-    sink->set_formatter(make_journal_formatter());
-  } else {
-    sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
-    sink->set_formatter(make_terminal_formatter());
-  }
+  if (stderr_is_journal()) return make_journal_sink();
+  auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+  sink->set_formatter(make_terminal_formatter());
   return sink;
 }
 
@@ -62,12 +41,6 @@ bool stderr_is_journal() {
   struct stat file {};
   if (stream == nullptr || fstat(STDERR_FILENO, &file) != 0) return false;
   return stream == std::to_string(file.st_dev) + ":" + std::to_string(file.st_ino);
-}
-
-std::unique_ptr<spdlog::formatter> make_journal_formatter() {
-  auto formatter = std::make_unique<spdlog::pattern_formatter>();
-  formatter->add_flag<JournalPriority>('*').set_pattern("%*%v");
-  return formatter;
 }
 
 std::unique_ptr<spdlog::formatter> make_terminal_formatter() {

@@ -1,6 +1,6 @@
-// Logging: spdlog's default logger, asynchronous, on standard error. Under systemd each line carries the
-// journal's priority prefix ("<4>") and no time of its own. Hot threads do not log: they push Event records
-// (heel/flow.h), which the telemetry thread formats.
+// Logging: spdlog's default logger, asynchronous, on standard error; under systemd in the journal, with
+// fields (journal_sink.h). Hot threads do not log: they push Event records (heel/flow.h), which the telemetry
+// thread formats.
 #pragma once
 
 #include <memory>
@@ -25,8 +25,6 @@ void stop_logging();
 /// inherits the variable, but not the stream).
 bool stderr_is_journal();
 
-/// "<PRIORITY>text", PRIORITY as in syslog(3).
-std::unique_ptr<spdlog::formatter> make_journal_formatter();
 /// "HH:MM:SS.mmm level text", for a person at a terminal.
 std::unique_ptr<spdlog::formatter> make_terminal_formatter();
 

@@ -57,6 +57,24 @@ spdlog::level::level_enum event_level(EventKind kind) {
   return spdlog::level::warn;
 }
 
+const char* event_part(EventKind kind) {
+  switch (kind) {
+    case EventKind::Overrun:
+      return "schedule";
+    case EventKind::Note:
+    case EventKind::Warning:
+      return "robot";  // what the session with it says
+    case EventKind::CameraOpened:
+    case EventKind::CameraUnavailable:
+    case EventKind::CameraLost:
+    case EventKind::CameraEnded:
+    case EventKind::FrameRefused:
+    case EventKind::FrameCorrupt:
+      break;
+  }
+  return "camera";
+}
+
 bool event_repeats(EventKind kind) {
   return kind == EventKind::FrameCorrupt || kind == EventKind::Overrun;
 }

@@ -14,6 +14,9 @@ std::string event_text(const Event& event);
 
 spdlog::level::level_enum event_level(EventKind kind);
 
+/// The part of heel it concerns: "camera", "robot" or "schedule".
+const char* event_part(EventKind kind);
+
 /// Events that can come with every frame or tick, and are therefore logged at most once a second.
 bool event_repeats(EventKind kind);
 

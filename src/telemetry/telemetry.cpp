@@ -4,6 +4,7 @@
 
 #include "runtime/clock.h"
 #include "runtime/futex.h"
+#include "runtime/journal_sink.h"
 #include "telemetry/event_text.h"
 
 namespace heel {
@@ -68,12 +69,14 @@ void Telemetry::take(const TickRecord& tick) {
     const std::string text = tick.stop_reason == StopReason::None
                                  ? std::string("following")
                                  : std::string("at rest: ") + to_string(tick.stop_reason);
-    spdlog::info("{}", text);
+    log_event({.part = "supervisor", .event = to_string(tick.stop_reason)}, spdlog::level::info, text);
     if (recorder_) recorder_->remark(tick.t_ns, text);
   }
   if (first || tick.robot.phase != newest_.tick.robot.phase) {
     const std::string text = std::string("link to the robot: ") + to_string(tick.robot.phase);
-    spdlog::log(tick.robot.phase == LinkPhase::Lost ? spdlog::level::warn : spdlog::level::info, "{}", text);
+    const bool lost = tick.robot.phase == LinkPhase::Lost;
+    log_event({.part = "robot", .event = to_string(tick.robot.phase)},
+              lost ? spdlog::level::warn : spdlog::level::info, text);
     if (recorder_) recorder_->remark(tick.t_ns, text);
   }
   ++newest_.ticks;
@@ -87,7 +90,8 @@ void Telemetry::take(const Event& event) {
   const bool too_soon = logged_ns != 0 && event.t_ns - logged_ns < kRepeatNs;
   if (event_repeats(event.kind) && too_soon) return;
   logged_ns = event.t_ns;
-  spdlog::log(event_level(event.kind), "{}", event_text(event));
+  log_event({.part = event_part(event.kind), .event = to_string(event.kind)}, event_level(event.kind),
+            event_text(event));
   if (recorder_) recorder_->record(event);
 }
 

@@ -1,18 +1,22 @@
-// Logging: levels, the journal's prefix, and that it is only used when standard error is the journal.
+// Logging: levels, the journal's fields, and that it is only used when standard error is the journal.
 #include "runtime/logging.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <mutex>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "heel/error.h"
+#include "runtime/journal_sink.h"
 
 namespace heel {
 namespace {
@@ -28,12 +32,37 @@ std::string written(std::unique_ptr<spdlog::formatter> formatter, spdlog::level:
   return out.str();
 }
 
-TEST(Logging, JournalLinesCarryTheSyslogPriority) {
-  EXPECT_EQ(written(make_journal_formatter(), spdlog::level::debug, "text"), "<7>text\n");
-  EXPECT_EQ(written(make_journal_formatter(), spdlog::level::info, "text"), "<6>text\n");
-  EXPECT_EQ(written(make_journal_formatter(), spdlog::level::warn, "text"), "<4>text\n");
-  EXPECT_EQ(written(make_journal_formatter(), spdlog::level::err, "text"), "<3>text\n");
-  EXPECT_EQ(written(make_journal_formatter(), spdlog::level::critical, "text"), "<2>text\n");
+std::vector<std::string> fields_of(spdlog::level::level_enum level, const spdlog::source_loc& source = {}) {
+  return journal_fields(spdlog::details::log_msg(source, "test", level, "text"));
+}
+
+TEST(Logging, JournalMessagesCarryTheSyslogPriority) {
+  using testing::Contains;
+  EXPECT_THAT(fields_of(spdlog::level::debug), Contains("PRIORITY=7"));
+  EXPECT_THAT(fields_of(spdlog::level::info), Contains("PRIORITY=6"));
+  EXPECT_THAT(fields_of(spdlog::level::warn), Contains("PRIORITY=4"));
+  EXPECT_THAT(fields_of(spdlog::level::err), Contains("PRIORITY=3"));
+  EXPECT_THAT(fields_of(spdlog::level::critical), Contains("PRIORITY=2"));
+}
+
+TEST(Logging, JournalMessagesSayWhatTheyAreAbout) {
+  EXPECT_THAT(fields_of(spdlog::level::info),
+              testing::ElementsAre("MESSAGE=text", "PRIORITY=6", "SYSLOG_IDENTIFIER=heeld"));
+
+  class Kept : public spdlog::sinks::base_sink<std::mutex> {
+   public:
+    std::vector<std::string> fields;
+    void sink_it_(const spdlog::details::log_msg& message) override { fields = journal_fields(message); }
+    void flush_() override {}
+  };
+  const auto kept = std::make_shared<Kept>();
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>("test", kept));
+  log_event({.part = "camera", .event = "camera lost"}, spdlog::level::warn, "camera lost: {} unplugged");
+  spdlog::set_default_logger(before);
+  EXPECT_THAT(kept->fields,
+              testing::ElementsAre("MESSAGE=camera lost: {} unplugged", "PRIORITY=4",
+                                   "SYSLOG_IDENTIFIER=heeld", "HEEL_PART=camera", "HEEL_EVENT=camera lost"));
 }
 
 TEST(Logging, TerminalLinesCarryTimeAndLevel) {

@@ -19,8 +19,10 @@ inline int occurrences(const std::string& text, const std::string& what) {
 class CollectedLog {
  public:
   CollectedLog() : before_(spdlog::default_logger()) {
-    spdlog::set_default_logger(
-        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(out_)));
+    auto logger =
+        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(out_));
+    logger->set_pattern("[%l] %v");
+    spdlog::set_default_logger(std::move(logger));
   }
   CollectedLog(const CollectedLog&) = delete;
   CollectedLog& operator=(const CollectedLog&) = delete;
