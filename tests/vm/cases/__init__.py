@@ -1,0 +1,1 @@
+"""One case a file: what it shows in the first line, and run(bench)."""

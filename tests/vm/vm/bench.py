@@ -1,0 +1,118 @@
+"""What a case of the suite works with: the machine, the robots, heeld's service; checks; measured faults."""
+import time
+
+from . import wait
+from .service import FRAME_TIMEOUT_S, Service
+
+SPEED_M_S = 0.6
+DECELERATION_M_S2 = 1.5
+# What the emulator may add: both processors of the machine are the emulator's, the simulator's and others'.
+EMULATOR_S = 1.0
+STOPPING_S = SPEED_M_S / DECELERATION_M_S2
+CAMERA_REST_S = FRAME_TIMEOUT_S + STOPPING_S + EMULATOR_S
+WATCHDOG_REST_S = 2.0 + STOPPING_S + EMULATOR_S
+RECOVERY_S = 60.0
+AFTERWARDS_S = 1.0  # recorded beyond the recovery
+
+
+class CheckFailed(Exception):
+    pass
+
+
+class Bench:
+    def __init__(self, machine, robots, new_robot, package, say):
+        self.machine = machine
+        self.guest = machine.agent
+        self.service = Service(machine)
+        self.robots = robots        # by the device of the guest they stand behind: "16550", "FTDI"
+        self.new_robot = new_robot  # (name, faults) → another simulated robot
+        self.package = package      # the .deb's path in the guest
+        self.say = say
+        self.rows = []              # of the table
+
+    def check(self, holds, what):
+        if not holds:
+            raise CheckFailed(what)
+        self.say(f"    ok: {what}")
+
+    def wait(self, what, condition, timeout_s=wait.LONGEST_S, step_s=0.2):
+        """As a check that may take a while."""
+        begin_s = time.monotonic()
+        wait.until(what, condition, timeout_s, step_s)
+        self.say(f"    ok: {what} ({time.monotonic() - begin_s:.1f} s)")
+
+    def wait_until_following(self, robot):
+        begin_s = time.monotonic()
+        self.wait(f"{robot.name} moves", lambda: robot.moved_since(begin_s), RECOVERY_S)
+        self.wait(f"{robot.name} is at speed", lambda: robot.speed_m_s() > 0.5 * SPEED_M_S, RECOVERY_S)
+
+    def in_guest(self, command):
+        """Runs it and returns the guest's CLOCK_MONOTONIC just before, seconds."""
+        return float(self.guest.run(f"cut -d' ' -f1 /proc/uptime; {command}").split("\n")[0])
+
+    def fault(self, device, name, robot, cause, cure, rest_within_s):
+        """A fault that must bring the moving robot to rest, and whose end must let it move again. cause and cure are commands
+        for the guest or functions. Times are taken before them and by the simulator's truth, so they are upper bounds."""
+        self.say(f"  {device}: {name}")
+        self.wait_until_following(robot)
+        caused_s, begin_s = time.monotonic(), self._do(cause)
+        rested_s = wait.until(f"{robot.name} at rest", lambda: robot.rested_since(caused_s), 30)
+        self.check(rested_s - caused_s <= rest_within_s,
+                   f"at rest after {rested_s - caused_s:.2f} s (at most {rest_within_s:.2f} s)")
+        time.sleep(1.0)
+        self.check(abs(robot.speed_m_s()) < 0.01, "and stays at rest")
+        cured_s = time.monotonic()
+        self._do(cure)
+        moved_s = wait.until(f"{robot.name} moves again", lambda: robot.moved_since(cured_s), RECOVERY_S)
+        self._record(device, name, begin_s, rested_s - caused_s, moved_s - cured_s)
+
+    def blip(self, device, name, robot, cause, cure=None, rest_at_most_s=None):
+        """A fault that needs nothing but heeld to be over; the robot may stop for it or go on."""
+        self.say(f"  {device}: {name}")
+        self.wait_until_following(robot)
+        caused_s, begin_s = time.monotonic(), self._do(cause)
+        time.sleep(4.0)
+        if cure is not None:
+            self._do(cure)
+        rested_s = robot.rested_since(caused_s)
+        moved_s = None
+        if rested_s is not None:
+            moved_s = wait.until(f"{robot.name} moves again", lambda: robot.moved_since(rested_s), RECOVERY_S)
+        self.check(rest_at_most_s is None or rested_s is None or rested_s - caused_s <= rest_at_most_s,
+                   "goes on" if rested_s is None else f"at rest after {rested_s - caused_s:.2f} s and moves again")
+        self._record(device, name, begin_s, rested_s and rested_s - caused_s, moved_s and moved_s - rested_s)
+
+    def timed_fault(self, device, name, robot, begin_s, lasts_s, rest_at_most_s=None):
+        """A fault that the simulated robot was started with: begin_s seconds after its start, for lasts_s."""
+        self.say(f"  {device}: {name}")
+        self.wait_until_following(robot)
+        caused_s = robot.at(begin_s)
+        self.check(time.monotonic() < caused_s, "it follows before the fault")
+        cured_s = caused_s + lasts_s
+        time.sleep(caused_s - time.monotonic())
+        guest_s = self.in_guest("true")
+        time.sleep(max(0.0, cured_s + 3.0 - time.monotonic()))
+        rested_s = robot.rested_since(caused_s)
+        moved_s = wait.until(f"{robot.name} moves again", lambda: robot.moved_since(max(cured_s, rested_s or 0.0)), RECOVERY_S)
+        if rest_at_most_s is not None:
+            self.check(rested_s is not None and rested_s - caused_s <= rest_at_most_s,
+                       f"at rest after {(rested_s or moved_s) - caused_s:.2f} s (at most {rest_at_most_s:.2f} s)")
+        self._record(device, name, guest_s, rested_s and rested_s - caused_s, rested_s and moved_s - max(cured_s, rested_s))
+
+    def _do(self, what):
+        if isinstance(what, str):
+            return self.in_guest(what)
+        now_s = self.in_guest("true")
+        what()
+        return now_s
+
+    def _record(self, device, name, begin_s, rest_s, recovery_s):
+        end_s = self.in_guest("true") + AFTERWARDS_S
+        wait.until("the recording has it", lambda: self.service.recorded_until() > end_s, step_s=0.5)
+        row = {"device": device, "fault": name, "rest_s": rest_s, "recovery_s": recovery_s,
+               **self.service.losses(begin_s, end_s)}
+        row["events"] = self.service.events("^(?!deadline)", begin_s)  # for whoever asks why
+        self.rows.append(row)
+        recovery = "went on" if recovery_s is None else f"moves again after {recovery_s:.2f} s"
+        self.say(f"    ok: {recovery}; {row['without_picture_s']} s without a picture, {row['without_robot_s']} s without "
+                 f"the robot, {row['bytes_discarded']} bytes discarded")
