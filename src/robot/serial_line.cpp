@@ -23,6 +23,8 @@
 namespace heel {
 namespace {
 
+constexpr TimeNs kHangUpNs = 2 * kNsPerS;  // from the first failure of a port until the kernel hangs it up
+
 /// poll with a timeout in nanoseconds. True when any of `events`, or a hang-up, is there.
 bool poll_one(int fd, short events, TimeNs timeout_ns, short* seen = nullptr) {
   pollfd entry{fd, events, 0};
@@ -133,6 +135,10 @@ void SerialLine::close() {
     // Closing a port waits for its output, half a minute when nobody takes it: drop what is left.
     if (fd_ >= 0) {
       ::tcflush(fd_, TCOFLUSH);
+      // USB adapters' drivers drop nothing. One that has been pulled out fails before the kernel hangs the
+      // port up; closed in between, it holds up the kernel as well, and plugged in again it stays unknown so
+      // long.
+      if (unsent_bytes() > 0) poll_one(fd_, 0, kHangUpNs);
       sp_close(port_);
     }
     sp_free_port(port_);
