@@ -36,7 +36,8 @@ class DriverCount {
 
 /// False: the stamp lies in the future or more than a second back, and cannot be of CLOCK_MONOTONIC.
 inline bool is_believable_stamp(TimeNs stamp_ns, TimeNs arrived_ns) {
-  return stamp_ns <= arrived_ns && arrived_ns - stamp_ns <= kNsPerS;
+  // Not by the difference of the two, which can overflow.
+  return stamp_ns <= arrived_ns && stamp_ns >= arrived_ns - kNsPerS;
 }
 
 }  // namespace heel

@@ -35,8 +35,11 @@ bool is_absence(int error) {
 
 TimeNs capture_time_ns(const v4l2_buffer& buffer, TimeNs exposure_ns, TimeNs arrived_ns) {
   if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) return arrived_ns;
-  const TimeNs stamp_ns =
-      static_cast<TimeNs>(buffer.timestamp.tv_sec) * kNsPerS + buffer.timestamp.tv_usec * kNsPerUs;
+  // A driver's 64-bit nanoseconds may have wrapped: seconds that do not fit back into nanoseconds are no
+  // time.
+  const std::int64_t stamp_s = buffer.timestamp.tv_sec;
+  if (stamp_s < 0 || stamp_s > arrived_ns / kNsPerS) return arrived_ns;
+  const TimeNs stamp_ns = stamp_s * kNsPerS + buffer.timestamp.tv_usec * kNsPerUs;
   if (!is_believable_stamp(stamp_ns, arrived_ns)) return arrived_ns;
   // Start-of-exposure stamps lie half an exposure before its middle, end-of-frame stamps (at least) half
   // an exposure after it.

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
@@ -174,6 +175,21 @@ TEST(V4l2CaptureTime, FollowsTheFlagsAndDistrustsNonsense) {
   EXPECT_EQ(capture_time_ns(stamped(kMonotonic, kArrived + kNsPerMs), 0, kArrived), kArrived)
       << "in the future";
   EXPECT_EQ(capture_time_ns(stamped(kMonotonic, kArrived - 2 * kNsPerS), 0, kArrived), kArrived) << "stale";
+}
+
+TEST(V4l2CaptureTime, DistrustsStampsRoundTheWrapOf64BitNanoseconds) {
+  constexpr TimeNs kArrived = 100 * kNsPerS;
+  // The last full second of 64 bits, the first of the negative ones beyond, and what no nanoseconds hold.
+  for (const std::int64_t t_s :
+       {std::int64_t{9223372036}, std::int64_t{-9223372037}, std::numeric_limits<std::int64_t>::min(),
+        std::numeric_limits<std::int64_t>::max()}) {
+    v4l2_buffer buffer = stamped(V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC, 0);
+    buffer.timestamp.tv_sec = t_s;
+    EXPECT_EQ(capture_time_ns(buffer, 0, kArrived), kArrived) << t_s;
+  }
+  for (const TimeNs t_ns : {std::numeric_limits<TimeNs>::min(), std::numeric_limits<TimeNs>::max()}) {
+    EXPECT_FALSE(is_believable_stamp(t_ns, kArrived)) << t_ns;
+  }
 }
 
 TEST_F(V4l2SourceTest, EveryErrorOfTheDeviceMeansLostAndOpeningAgainWorks) {
