@@ -22,7 +22,12 @@ class BaudSweep {
   void attempt(int baud) { current_ = baud; }
   /// The rate is ours to choose.
   bool sweeps() const { return sweeps_; }
-  void found() { good_ = current_; }
+  /// The robot was understood; the next sweep begins from the first rate, where a robot is that was off and
+  /// on.
+  void found() {
+    good_ = current_;
+    next_ = 0;
+  }
   void restart() {
     current_ = good_;
     next_ = 0;

@@ -1,0 +1,42 @@
+// The order of baud rates: the last good one, then the rest from the slowest on, each sweep anew.
+#include "robot/baud_sweep.h"
+
+#include <gtest/gtest.h>
+
+namespace heel {
+namespace {
+
+BaudSweep sweep_from(const char* address) {
+  return BaudSweep(parse_robot_address(address));
+}
+
+TEST(BaudSweep, TriesTheGoodRateThenTheOthersThenBeginsAgain) {
+  BaudSweep sweep = sweep_from("serial:/dev/ttyS1@38400");
+  EXPECT_EQ(sweep.current(), 38400);
+  for (const int expected : {9600, 19200, 57600, 115200}) {
+    EXPECT_TRUE(sweep.advance());
+    EXPECT_EQ(sweep.current(), expected);
+  }
+  EXPECT_FALSE(sweep.advance());
+  EXPECT_EQ(sweep.current(), 38400);
+}
+
+TEST(BaudSweep, AfterTheRobotWasUnderstoodTheNextSweepBeginsFromTheFirstRate) {
+  BaudSweep sweep = sweep_from("serial:/dev/ttyS1@38400");
+  ASSERT_TRUE(sweep.advance());
+  sweep.found();
+  // Raised to a faster one, and then the robot is switched off and on: it is at 9600 again.
+  sweep.attempt(38400);
+  sweep.found();
+  ASSERT_TRUE(sweep.advance());
+  EXPECT_EQ(sweep.current(), 9600);
+}
+
+TEST(BaudSweep, OverTcpThereIsNothingToTry) {
+  BaudSweep sweep = sweep_from("tcp:localhost:8101");
+  EXPECT_FALSE(sweep.sweeps());
+  EXPECT_FALSE(sweep.advance());
+}
+
+}  // namespace
+}  // namespace heel
