@@ -1,9 +1,10 @@
 """The FTDI adapter falls out while the robot moves: its watchdog stops it; plugged in again, it is found by its name."""
-from vm.bench import WATCHDOG_REST_S
+from cases.appearing import standing
 
 
 def run(bench):
+    standing(bench)
     robot, machine = bench.robots["FTDI"], bench.machine
     bench.fault("FTDI", "unplugged, plugged in", robot, cause=lambda: machine.unplug_ftdi("ftdi"),
-                cure=lambda: machine.plug_ftdi("ftdi", robot.pty), rest_within_s=WATCHDOG_REST_S)
+                cure=lambda: machine.plug_ftdi("ftdi", robot.pty))
     bench.check("ttyUSB" in bench.guest.run("readlink /dev/heel-robot"), "/dev/heel-robot names the adapter again")

@@ -1,7 +1,9 @@
 """SIGHUP: systemd is told RELOADING with the time, and READY again; a bad file changes nothing."""
+from cases.appearing import standing
 
 
 def run(bench):
+    standing(bench)
     guest, service = bench.guest, bench.service
     guest.run("systemd-analyze log-level debug")
     service.configure(camera="v4l2:/dev/video0", robot="serial:/dev/heel-robot@38400", more="[gate]\nv_max_m_s = 0.5\n")

@@ -1,10 +1,12 @@
 """The camera's driver lets go of it while the robot moves, and takes it again; then the service is stopped."""
+from cases.appearing import standing
 from vm.bench import CAMERA_REST_S
 
 DRIVER = "/sys/bus/platform/drivers/vivid"
 
 
 def run(bench):
+    standing(bench)
     robot = bench.robots["FTDI"]
     bench.fault("vivid", "unbound, bound", robot, cause=f"echo vivid.0 >{DRIVER}/unbind", cure=f"echo vivid.0 >{DRIVER}/bind",
                 rest_within_s=CAMERA_REST_S)

@@ -6,11 +6,12 @@ from .service import FRAME_TIMEOUT_S, Service
 
 SPEED_M_S = 0.6
 DECELERATION_M_S2 = 1.5
-# What the emulator may add: both processors of the machine are the emulator's, the simulator's and others'.
-EMULATOR_S = 1.0
+# What the emulator may add to what heeld does: both processors of the machine are the emulator's, the simulator's and others'.
+EMULATOR_S = 1.5
 STOPPING_S = SPEED_M_S / DECELERATION_M_S2
 CAMERA_REST_S = FRAME_TIMEOUT_S + STOPPING_S + EMULATOR_S
-WATCHDOG_REST_S = 2.0 + STOPPING_S + EMULATOR_S
+SILENCE_REST_S = 0.5 + STOPPING_S + EMULATOR_S  # sip_timeout_s
+WATCHDOG_REST_S = 2.0 + STOPPING_S + 0.3        # after the last byte the robot heard: nothing of it is emulated
 RECOVERY_S = 60.0
 AFTERWARDS_S = 1.0  # recorded beyond the recovery
 
@@ -29,6 +30,12 @@ class Bench:
         self.package = package      # the .deb's path in the guest
         self.say = say
         self.rows = []              # of the table
+
+    def reset(self):
+        """After a failed case: nothing runs, nothing is plugged in."""
+        self.guest.status_of("systemctl stop heeld usb-camera heel-sim; systemctl reset-failed; rm -rf /etc/heel/adapters")
+        self.machine.unplug_all()
+        self.guest.status_of("modprobe -r vivid; modprobe -r v4l2loopback; modprobe -r vimc")
 
     def check(self, holds, what):
         if not holds:
@@ -50,15 +57,20 @@ class Bench:
         """Runs it and returns the guest's CLOCK_MONOTONIC just before, seconds."""
         return float(self.guest.run(f"cut -d' ' -f1 /proc/uptime; {command}").split("\n")[0])
 
-    def fault(self, device, name, robot, cause, cure, rest_within_s):
+    def fault(self, device, name, robot, cause, cure, rest_within_s=None):
         """A fault that must bring the moving robot to rest, and whose end must let it move again. cause and cure are commands
-        for the guest or functions. Times are taken before them and by the simulator's truth, so they are upper bounds."""
+        for the guest or functions. Times are taken before them and by the simulator's truth, so they are upper bounds.
+        Without rest_within_s it is the robot's watchdog that must stop it."""
         self.say(f"  {device}: {name}")
         self.wait_until_following(robot)
         caused_s, begin_s = time.monotonic(), self._do(cause)
         rested_s = wait.until(f"{robot.name} at rest", lambda: robot.rested_since(caused_s), 30)
-        self.check(rested_s - caused_s <= rest_within_s,
-                   f"at rest after {rested_s - caused_s:.2f} s (at most {rest_within_s:.2f} s)")
+        if rest_within_s is None:
+            alone_s = rested_s - robot.last_heard(rested_s)
+            self.check(alone_s <= WATCHDOG_REST_S, f"at rest {alone_s:.2f} s after the last byte (at most {WATCHDOG_REST_S:.2f} s)")
+        else:
+            self.check(rested_s - caused_s <= rest_within_s,
+                       f"at rest after {rested_s - caused_s:.2f} s (at most {rest_within_s:.2f} s)")
         time.sleep(1.0)
         self.check(abs(robot.speed_m_s()) < 0.01, "and stays at rest")
         cured_s = time.monotonic()
@@ -66,12 +78,12 @@ class Bench:
         moved_s = wait.until(f"{robot.name} moves again", lambda: robot.moved_since(cured_s), RECOVERY_S)
         self._record(device, name, begin_s, rested_s - caused_s, moved_s - cured_s)
 
-    def blip(self, device, name, robot, cause, cure=None, rest_at_most_s=None):
+    def blip(self, device, name, robot, cause, cure=None, rest_at_most_s=None, lasts_s=4.0):
         """A fault that needs nothing but heeld to be over; the robot may stop for it or go on."""
         self.say(f"  {device}: {name}")
         self.wait_until_following(robot)
         caused_s, begin_s = time.monotonic(), self._do(cause)
-        time.sleep(4.0)
+        time.sleep(lasts_s)
         if cure is not None:
             self._do(cure)
         rested_s = robot.rested_since(caused_s)

@@ -24,6 +24,7 @@ class Machine:
         self._process = subprocess.Popen(self._command(image, tty_s1), cwd=folder, stdin=subprocess.DEVNULL,
                                          stdout=open(os.path.join(folder, "qemu.log"), "wb"), stderr=subprocess.STDOUT)
         self.agent = None
+        self._plugged = []
 
     def _command(self, image, tty_s1):
         return [
@@ -59,10 +60,16 @@ class Machine:
         self.qmp.execute("chardev-add", id=f"{name}-line",
                          backend={"type": "serial", "data": {"device": pty}})
         self.qmp.execute("device_add", driver="usb-serial", id=name, bus="usb.0", chardev=f"{name}-line", serial=serial)
+        self._plugged.append(name)
 
     def unplug_ftdi(self, name):
+        self._plugged.remove(name)
         self.qmp.execute("device_del", id=name)
         wait.until(f"{name}: QEMU lets go of the line", lambda: self._chardev_removed(f"{name}-line"), 20)
+
+    def unplug_all(self):
+        for name in list(self._plugged):
+            self.unplug_ftdi(name)
 
     def _chardev_removed(self, name):
         try:

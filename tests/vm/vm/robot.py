@@ -18,7 +18,8 @@ class Robot:
         self.pty = os.path.join(folder, f"{name}.pty")
         self._truth = os.path.join(folder, f"{name}.csv")
         self._log_path = os.path.join(folder, f"{name}.log")
-        command = [heel_sim, "--robot", f"pty:{self.pty}", "--truth", self._truth, "--truth-rate", "100",
+        self._wire = os.path.join(folder, f"{name}.wire")
+        command = [heel_sim, "--robot", f"pty:{self.pty}", "--truth", self._truth, "--truth-rate", "100", "--wire", self._wire,
                    "--boot-baud", str(boot_baud)]
         for fault in faults:
             command += ["--fault", fault]
@@ -69,6 +70,12 @@ class Robot:
 
     def moved_since(self, t_s):
         return self._since(t_s, lambda row: abs(row[1]) > MOVING_M_S)
+
+    def last_heard(self, before_s):
+        """When the last bytes before that time came."""
+        with open(self._wire) as file:
+            times_s = [float(line.split(" ", 1)[0]) for line in file if line.endswith("\n")]
+        return max(t_s for t_s in times_s if t_s <= before_s)
 
     def at(self, t_s):
         """A time since the simulator's start, as faults are given, on the host's clock."""
