@@ -33,7 +33,7 @@ class Bench:
 
     def reset(self):
         """After a failed case: nothing runs, nothing is plugged in."""
-        self.guest.status_of("systemctl stop heeld usb-camera heel-sim; systemctl reset-failed; rm -rf /etc/heel/adapters")
+        self.guest.status_of("systemctl stop heeld usb-camera loopback-camera; systemctl reset-failed; rm -rf /etc/heel/adapters")
         self.machine.unplug_all()
         self.guest.status_of("modprobe -r vivid; modprobe -r v4l2loopback; modprobe -r vimc")
 
@@ -64,13 +64,14 @@ class Bench:
         self.say(f"  {device}: {name}")
         self.wait_until_following(robot)
         caused_s, begin_s = time.monotonic(), self._do(cause)
+        effective_s = time.monotonic()  # by now at the latest: a command takes the emulator up to two seconds
         rested_s = wait.until(f"{robot.name} at rest", lambda: robot.rested_since(caused_s), 30)
         if rest_within_s is None:
             alone_s = rested_s - robot.last_heard(rested_s)
             self.check(alone_s <= WATCHDOG_REST_S, f"at rest {alone_s:.2f} s after the last byte (at most {WATCHDOG_REST_S:.2f} s)")
         else:
-            self.check(rested_s - caused_s <= rest_within_s,
-                       f"at rest after {rested_s - caused_s:.2f} s (at most {rest_within_s:.2f} s)")
+            late_s = rested_s - effective_s
+            self.check(late_s <= rest_within_s, f"at rest {late_s:.2f} s after it had happened (at most {rest_within_s:.2f} s)")
         time.sleep(1.0)
         self.check(abs(robot.speed_m_s()) < 0.01, "and stays at rest")
         cured_s = time.monotonic()
