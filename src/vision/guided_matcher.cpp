@@ -6,8 +6,6 @@
 #include <limits>
 #include <tuple>
 
-#include "shape_plausibility.h"
-
 namespace heel {
 namespace {
 
@@ -34,16 +32,15 @@ void GuidedMatcher::look_at(const FeatureSet& cur, std::span<const Eigen::Vector
   });
 }
 
-void GuidedMatcher::match(const Eigen::Matrix3d& H_cur_from_ref, const FeatureSet& ref,
-                          std::span<const Eigen::Vector2d> ref_px, std::vector<Match>& out) {
+void GuidedMatcher::match(std::span<const PredictedView> predicted, const FeatureSet& ref,
+                          std::vector<Match>& out) {
   taken_by_.assign(candidates_.size(), -1);
   out.clear();
   const double radius2_px2 = settings_.radius_px * settings_.radius_px;
 
   for (std::size_t r = 0; r < ref.features.size(); ++r) {
-    const Eigen::Vector2d predicted_px = (H_cur_from_ref * ref_px[r].homogeneous()).hnormalized();
-    const double predicted_sigma =
-        static_cast<double>(ref.features[r].sigma_px) * local_scale(H_cur_from_ref, ref_px[r]);
+    const Eigen::Vector2d& predicted_px = predicted[r].px;
+    const double predicted_sigma = static_cast<double>(ref.features[r].sigma_px) * predicted[r].scale;
     const double smallest_sigma = predicted_sigma / settings_.scale_ratio;
     const double largest_sigma = predicted_sigma * settings_.scale_ratio;
     float nearest2 = std::numeric_limits<float>::infinity(), second2 = nearest2;

@@ -20,8 +20,14 @@ struct GuidedMatchSettings {
   float ratio = 0.9f;         ///< nearest / second nearest within the radius
 };
 
-/// Pairs template features with frame features under H. Each frame feature is given to at most one template
-/// feature, the nearest.
+/// Where a template feature should be in the frame, undistorted, and how many times larger.
+struct PredictedView {
+  Eigen::Vector2d px;
+  double scale = 0.0;  ///< 0: not to be seen
+};
+
+/// Pairs template features with frame features near where they should be. Each frame feature is given to at
+/// most one template feature, the nearest.
 class GuidedMatcher {
  public:
   GuidedMatcher(int max_cur, const GuidedMatchSettings& settings);
@@ -30,10 +36,9 @@ class GuidedMatcher {
   /// are to outlive these.
   void look_at(const FeatureSet& cur, std::span<const Eigen::Vector2d> cur_px);
 
-  /// `ref_px`: the template features' undistorted positions, in their order. Allocates nothing when `out` has
-  /// capacity for a match for each template feature.
-  void match(const Eigen::Matrix3d& H_cur_from_ref, const FeatureSet& ref,
-             std::span<const Eigen::Vector2d> ref_px, std::vector<Match>& out);
+  /// `predicted`: one for each template feature, in their order. Allocates nothing when `out` has capacity
+  /// for a match for each template feature.
+  void match(std::span<const PredictedView> predicted, const FeatureSet& ref, std::vector<Match>& out);
 
  private:
   /// What is asked first of a frame feature, top to bottom.

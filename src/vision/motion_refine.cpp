@@ -15,7 +15,9 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix26d = Eigen::Matrix<double, 2, 6>;
 
 constexpr DescentLimits kMotionDescent{.max_steps = 30, .converged = 1e-8, .max_damping = 1e10};
-constexpr double kBehindCost = 1e12;  // px², of a point that would lie behind the camera
+constexpr double kLeastVariance = 1e-4;  // px²; no feature is placed better than to 0.01 px
+constexpr double kFarthest = 10.0;       // d, before anything is seen
+constexpr double kBehindCost = 1e12;     // px², of a point that would lie behind the camera
 
 struct Pose {
   Eigen::Matrix3d R;
@@ -59,27 +61,57 @@ struct PoseDescent {
     const Eigen::Vector3d Kt = K_cur * pose.t;
     double cost = 0.0;
     for (const WhitenedPair& pair : pairs) {
-      const Eigen::Vector3d pixel = KR * pair.direction_ref + Kt;  // its third component is the depth
+      const Eigen::Vector3d pixel = KR * pair.point_ref + Kt;  // its third component is the depth
       cost += pixel.z() > 0.0 ? (pair.whitening * (pixel.hnormalized() - pair.cur_px)).squaredNorm()
                               : kBehindCost;
     }
     return cost;
   }
 
+  /// d whitened residual / d (ω, δt).
+  Matrix26d jacobian(const WhitenedPair& pair, const Eigen::Vector3d& rotated,
+                     const Eigen::Vector3d& pixel) const {
+    const Matrix23d by_point = pair.whitening * projection_jacobian(pixel) * K_cur;
+    Matrix26d J;
+    J << by_point * -skew(rotated), by_point;
+    return J;
+  }
+
   GaussNewtonEquations<6> equations(const Pose& pose) const {
     GaussNewtonEquations<6> equations;
     for (const WhitenedPair& pair : pairs) {
-      const Eigen::Vector3d rotated = pose.R * pair.direction_ref;
+      const Eigen::Vector3d rotated = pose.R * pair.point_ref;
       const Eigen::Vector3d pixel = K_cur * (rotated + pose.t);
       if (pixel.z() <= 0.0) continue;
       const Eigen::Vector2d residual = pair.whitening * (pixel.hnormalized() - pair.cur_px);
-      const Matrix23d by_point = pair.whitening * projection_jacobian(pixel) * K_cur;
-      Matrix26d J;
-      J << by_point * -skew(rotated), by_point;
+      const Matrix26d J = jacobian(pair, rotated, pixel);
       equations.N.noalias() += J.transpose() * J;
       equations.gradient.noalias() += J.transpose() * residual;
     }
     return equations;
+  }
+
+  /// With N' = N / σ² + P, P the little that is known beforehand, the noise gives N'⁻¹. A departure of the
+  /// surface moves the minimum by −N'⁻¹ Σ Jᵀ (∂r/∂a) / σ²: the departures, known by their deviation only, add
+  /// the squares of that.
+  Matrix6d covariance(const Pose& pose, double variance_px2) const {
+    Matrix6d N = Matrix6d::Zero();
+    Eigen::Matrix<double, 6, 5> by_shape = Eigen::Matrix<double, 6, 5>::Zero();
+    for (const WhitenedPair& pair : pairs) {
+      const Eigen::Vector3d rotated = pose.R * pair.point_ref;
+      const Eigen::Vector3d pixel = K_cur * (rotated + pose.t);
+      if (pixel.z() <= 0.0) continue;
+      const Matrix26d J = jacobian(pair, rotated, pixel);
+      const Eigen::Vector2d by_depth = J.rightCols<3>() * (rotated / pair.point_ref.z());
+      N.noalias() += J.transpose() * J;
+      by_shape.noalias() += J.transpose() * by_depth * pair.departures.transpose();
+    }
+    Matrix6d precision = N / variance_px2;
+    precision.diagonal().head<3>().array() += 1.0 / (M_PI * M_PI);
+    precision.diagonal().tail<3>().array() += 1.0 / (kFarthest * kFarthest);
+    const Matrix6d of_noise = precision.inverse();
+    const Eigen::Matrix<double, 6, 5> moved = of_noise * by_shape / variance_px2;
+    return of_noise + moved * moved.transpose();
   }
 
   Pose stepped(const Pose& pose, const Vector6d& step) const { return turned_and_moved(pose, step); }
@@ -119,12 +151,19 @@ FrontalPoseEstimator::FrontalPoseEstimator(std::size_t max_pairs) : capacity_(ma
 void FrontalPoseEstimator::load(const FrontalProblem& problem) {
   const Eigen::Matrix3d K_ref_inverse = problem.K_ref.inverse();
   pairs_.clear();
-  for (const PointPair& pair : problem.pairs.first(std::min(problem.pairs.size(), capacity_)))
-    pairs_.push_back({K_ref_inverse * pair.ref_px.homogeneous(), pair.cur_px,
-                      whitening(problem.H_cur_from_ref, pair.ref_px)});
+  for (const PointPair& pair : problem.pairs.first(std::min(problem.pairs.size(), capacity_))) {
+    const Eigen::Vector3d ray = K_ref_inverse * pair.ref_px.homogeneous();
+    pairs_.push_back({problem.surface.point(ray), pair.cur_px, whitening(problem.H_cur_from_ref, pair.ref_px),
+                      problem.surface.departures(ray)});
+  }
 }
 
-FrontalMotion FrontalPoseEstimator::refine(const Eigen::Matrix3d& K_cur, const PlaneMotion& start) const {
+FrontalMotion FrontalPoseEstimator::refine(const FrontalProblem& problem, const PlaneMotion& start) {
+  load(problem);
+  return descend(problem.K_cur, start);
+}
+
+FrontalMotion FrontalPoseEstimator::descend(const Eigen::Matrix3d& K_cur, const PlaneMotion& start) const {
   const PoseDescent descent{pairs_, K_cur};
   Pose pose{start.R_cur_from_ref, start.t_over_d};
   const double cost = levenberg_marquardt(descent, kMotionDescent, pose);
@@ -135,18 +174,19 @@ FrontalMotion FrontalPoseEstimator::refine(const Eigen::Matrix3d& K_cur, const P
   motion.cost_px2 = cost;
   const double variance = cost / std::max(1.0, 2.0 * static_cast<double>(pairs_.size()) - 6.0);
   motion.noise_px = std::sqrt(variance);
-  motion.covariance = variance * descent.equations(pose).N.inverse();
+  motion.covariance = descent.covariance(pose, std::max(variance, kLeastVariance));
   return motion;
 }
 
 FrontalPose FrontalPoseEstimator::estimate(const FrontalProblem& problem, const PlaneMotion& start) {
   load(problem);
-  FrontalMotion chosen = refine(problem.K_cur, start);
-  FrontalMotion other = refine(problem.K_cur, mirrored_motion(problem, chosen));
+  FrontalMotion chosen = descend(problem.K_cur, start);
+  FrontalMotion other = descend(problem.K_cur, mirrored_motion(problem, chosen));
   if (other.cost_px2 < chosen.cost_px2) std::swap(chosen, other);
 
   FrontalPose pose;
   pose.motion = chosen;
+  pose.other = other;
   pose.yaw_rad = yaw_of_rotation(chosen.R_cur_from_ref);
   // Two hypotheses of equal prior: their odds are exp(−Δχ²/2).
   const double chi2_excess =

@@ -1,9 +1,10 @@
-// The camera's motion against a plane whose normal is known, from pixels: the last step after the
-// decomposition. The decomposition explains all eight degrees of freedom of H by a motion and *some* normal,
-// and near the frontal view hands the noise of the perspective terms to the normal and with it to the yaw.
-// The reference view is frontoparallel by definition, so six degrees of freedom explain the same pairs,
-// several times more precisely, and their covariance is the honest one. Convention: X_cur = R X_ref + (t/d) d
-// on the plane z = d, n = (0,0,1): with d = 1, X_ref = (x, y, 1).
+// The camera's motion against a surface whose place in the reference view is known, from pixels: the last
+// step after the decomposition. The decomposition explains all eight degrees of freedom of H by a motion and
+// *some* normal, and near the frontal view hands the noise of the perspective terms to the normal and with it
+// to the yaw. The reference view is frontoparallel by definition, so six degrees of freedom explain the same
+// pairs, several times more precisely, and their covariance is the honest one. Convention: X_cur = R X_ref +
+// (t/d) d on the plane z = d, n = (0,0,1): with d = 1, X_ref = (x, y, 1), and behind it on a curved back
+// (BackSurface).
 #pragma once
 
 #include <Eigen/Core>
@@ -11,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "back_surface.h"
 #include "heel/homography.h"
 #include "heel/motion.h"
 
@@ -24,6 +26,7 @@ struct FrontalProblem {
   Eigen::Matrix3d K_ref, K_cur;
   Eigen::Matrix3d H_cur_from_ref;  ///< tells how far the reference pixels' noise is magnified
   Eigen::Vector2d centre_ref_px;   ///< the template's centre: about it the ambiguity turns
+  BackSurface surface = {};        ///< what the reference pixels are pictures of; a plane unless told
 };
 
 struct FrontalMotion {
@@ -32,7 +35,8 @@ struct FrontalMotion {
   /// Σ rᵀ W r, px²; W whitens the noise of both images, of equal size.
   double cost_px2 = 0.0;
   double noise_px = 0.0;  ///< one standard deviation of a coordinate, either image
-  /// Of (ω, δt): R = exp(ω) R̂, t = t̂ + δt.
+  /// Of (ω, δt): R = exp(ω) R̂, t = t̂ + δt; from the noise and from the surface's departures. Finite even
+  /// where the pairs leave a direction open: nobody turns by more than π or is farther than 10 d.
   Matrix6d covariance = Matrix6d::Zero();
 };
 
@@ -44,6 +48,7 @@ PlaneMotion mirrored_motion(const FrontalProblem& problem, const FrontalMotion& 
 /// The better of both minima, with variances that include the chance of having chosen the wrong one.
 struct FrontalPose {
   FrontalMotion motion;
+  FrontalMotion other;  ///< the minimum not chosen
   double yaw_rad = 0.0;
   double yaw_sigma_rad = 0.0;
   Eigen::Vector3d t_over_d_sigma = Eigen::Vector3d::Zero();
@@ -59,16 +64,20 @@ class FrontalPoseEstimator {
   /// image.
   FrontalPose estimate(const FrontalProblem& problem, const PlaneMotion& start);
 
+  /// To the minimum next to `start` alone.
+  FrontalMotion refine(const FrontalProblem& problem, const PlaneMotion& start);
+
   /// What of a pair stays the same in every step.
   struct WhitenedPair {
-    Eigen::Vector3d direction_ref;  ///< (x, y, 1): the point on the plane, d = 1
+    Eigen::Vector3d point_ref;  ///< X_ref / d
     Eigen::Vector2d cur_px;
     Eigen::Matrix2d whitening;  ///< makes the residual's noise 1 px in every direction
+    Vector5d departures;        ///< BackSurface::departures
   };
 
  private:
   void load(const FrontalProblem& problem);
-  FrontalMotion refine(const Eigen::Matrix3d& K_cur, const PlaneMotion& start) const;
+  FrontalMotion descend(const Eigen::Matrix3d& K_cur, const PlaneMotion& start) const;
 
   std::size_t capacity_;
   std::vector<WhitenedPair> pairs_;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "back_surface.h"
 #include "guided_matcher.h"
 #include "heel/error.h"
 #include "heel/homography.h"
@@ -17,6 +18,7 @@
 #include "heel/motion.h"
 #include "motion_refine.h"
 #include "shape_plausibility.h"
+#include "surface_follower.h"
 
 namespace heel {
 namespace {
@@ -99,6 +101,28 @@ Eigen::Vector2d undistorted(const CameraModel& camera, const Feature& feature) {
   return camera.undistort_px({static_cast<double>(feature.x_px), static_cast<double>(feature.y_px)});
 }
 
+std::vector<Eigen::Vector2d> undistorted(const CameraModel& camera, const FeatureSet& set) {
+  std::vector<Eigen::Vector2d> px;
+  for (const Feature& feature : set.features) px.push_back(undistorted(camera, feature));
+  return px;
+}
+
+/// The back over the template's region. Without a distance κ has no scale: then it is a plane, and its
+/// deviations are those of pixels alone.
+BackSurface back_surface(const Outline& outline_px, const Eigen::Matrix3d& K_ref_inverse, double distance_m,
+                         const VisionConfig& config) {
+  const Eigen::Vector3d first = K_ref_inverse * outline_px[0].homogeneous();
+  const Eigen::Vector3d last = K_ref_inverse * outline_px[2].homogeneous();
+  BackSurface surface;
+  surface.axis_x = 0.5 * (first.x() + last.x());
+  surface.axis_y = 0.5 * (first.y() + last.y());
+  surface.half_size = 0.5 * (last - first).head<2>();
+  if (!(distance_m > 0.0)) return surface;
+  surface.bend = config.back_curvature_1_m * distance_m;
+  surface.shape_sigma = config.back_shape_sigma_m / distance_m;
+  return surface;
+}
+
 }  // namespace
 
 struct PoseEstimator::Impl {
@@ -112,6 +136,7 @@ struct PoseEstimator::Impl {
   PoseReason check_shape();
   PoseReason match_again(PoseEstimate& pose);
   PoseReason find_motion(PoseEstimate& pose);
+  void predict_from_homography();
 
   bool scales_agree();
   double distance_m;
@@ -124,6 +149,7 @@ struct PoseEstimator::Impl {
   Outline outline_px;                         // undistorted corners of the region
   Eigen::Vector2d centre_px;                  // undistorted centre of the region
   Eigen::Matrix3d K_ref, K_ref_inverse, K_cur, K_cur_inverse;
+  BackSurface surface;
   ScaleRange range;
   ShapeLimits shape_limits;
   ExpectedView anywhere;  // every size at which the robot may follow
@@ -134,12 +160,14 @@ struct PoseEstimator::Impl {
   GuidedMatcher guided_matcher;
   HomographyEstimator homography_estimator;
   FrontalPoseEstimator frontal_estimator;
+  SurfaceFollower surface_follower;
   FeatureSet frame_features;
   std::vector<Eigen::Vector2d> frame_px;  // undistorted, one for each feature
   std::vector<Match> matches;
   std::vector<PointPair> pairs;  // one for each match, undistorted
   std::vector<std::uint8_t> inlier_mask;
   RobustHomography homography;
+  std::vector<PredictedView> predicted;  // one for each template feature
   std::vector<PointPair> inliers;
   std::vector<Eigen::Vector2d> inliers_ref;  // normalised
   std::vector<double> disagreement;          // of the inliers' scales
@@ -152,6 +180,7 @@ PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current
       camera(current_camera),
       config(given),
       reference(checked_template_features(shirt, current_camera, given)),
+      reference_px(undistorted(shirt.camera, reference)),
       K_ref(shirt.camera.K()),
       K_ref_inverse(K_ref.inverse()),
       K_cur(camera.K()),
@@ -162,15 +191,15 @@ PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current
               MatchSettings{static_cast<float>(config.match_ratio), true}),
       guided_matcher(config.max_features, GuidedMatchSettings{}),
       homography_estimator(static_cast<int>(reference.features.size()), ransac_settings(config)),
-      frontal_estimator(reference.features.size()) {
+      frontal_estimator(reference.features.size()),
+      surface_follower({reference, reference_px, K_ref_inverse}, frontal_estimator) {
   const std::size_t count = reference.features.size();
-  for (const Feature& feature : reference.features)
-    reference_px.push_back(undistorted(shirt.camera, feature));
   const double left = shirt.roi.x_px, right = shirt.roi.x_px + shirt.roi.width_px - 1;
   const double top = shirt.roi.y_px, bottom = shirt.roi.y_px + shirt.roi.height_px - 1;
   outline_px = {shirt.camera.undistort_px({left, top}), shirt.camera.undistort_px({right, top}),
                 shirt.camera.undistort_px({right, bottom}), shirt.camera.undistort_px({left, bottom})};
   centre_px = shirt.camera.undistort_px({0.5 * (left + right), 0.5 * (top + bottom)});
+  surface = back_surface(outline_px, K_ref_inverse, shirt.distance_m, config);
   shape_limits.scale_min = range.min * kTiltShrink;
   shape_limits.scale_max = range.max * kScaleMargin;
 
@@ -182,6 +211,7 @@ PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current
   matches.reserve(count);
   pairs.reserve(count);
   inlier_mask.reserve(count);
+  predicted.resize(count);
   inliers.reserve(count);
   inliers_ref.reserve(count);
   disagreement.reserve(count);
@@ -277,6 +307,12 @@ bool PoseEstimator::Impl::scales_agree() {
   return *middle <= std::log(kMaxScaleDisagreement);
 }
 
+void PoseEstimator::Impl::predict_from_homography() {
+  const Eigen::Matrix3d& H = homography.H_cur_from_ref;
+  for (std::size_t i = 0; i < predicted.size(); ++i)
+    predicted[i] = {(H * reference_px[i].homogeneous()).hnormalized(), local_scale(H, reference_px[i])};
+}
+
 /// Steps 3–6 once more, guided by a homography that has passed every check: more pairs, above all towards the
 /// edges, so a steadier fit. The first round's error at the edges may be larger than the guide's radius; the
 /// second starts from a better one. Only now, when the pairs there are have been found, is the certainty held
@@ -284,7 +320,8 @@ bool PoseEstimator::Impl::scales_agree() {
 PoseReason PoseEstimator::Impl::match_again(PoseEstimate& pose) {
   guided_matcher.look_at(frame_features, frame_px);
   for (int round = 0; round < kGuidedRounds; ++round) {
-    guided_matcher.match(homography.H_cur_from_ref, reference, reference_px, matches);
+    predict_from_homography();
+    guided_matcher.match(predicted, reference, matches);
     pair_up(matches);
     mark(times, VisionStage::GuidedMatching);
     const PoseReason reason = find_homography(pose);
@@ -306,9 +343,10 @@ PoseReason PoseEstimator::Impl::find_motion(PoseEstimate& pose) {
   const MotionChoice choice = choose_motion(motions, inliers_ref);
   if (choice.best < 0) return PoseReason::NoValidMotion;
 
-  const FrontalProblem problem{inliers, K_ref, K_cur, homography.H_cur_from_ref, centre_px};
-  const FrontalPose result =
+  const FrontalProblem problem{inliers, K_ref, K_cur, homography.H_cur_from_ref, centre_px, surface};
+  FrontalPose result =
       frontal_estimator.estimate(problem, motions.motions[static_cast<std::size_t>(choice.best)]);
+  if (surface.bend > 0.0) result = surface_follower.follow(problem, result, guided_matcher, frame_px);
   const Eigen::Matrix3d& R = result.motion.R_cur_from_ref;
   const Eigen::Vector3d& t = result.motion.t_over_d;
   const Eigen::Vector3d centre_over_d = R * (K_ref_inverse * centre_px.homogeneous()) + t;

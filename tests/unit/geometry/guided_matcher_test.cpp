@@ -4,6 +4,7 @@
 
 #include "allocation_count.h"
 #include "scene.h"
+#include "vision/shape_plausibility.h"
 
 namespace {
 
@@ -13,6 +14,7 @@ using heel::FeatureSet;
 using heel::GuidedMatcher;
 using heel::GuidedMatchSettings;
 using heel::Match;
+using heel::PredictedView;
 
 /// A descriptor about `apart` away from the one with the same first direction.
 Descriptor descriptor(std::size_t direction, float apart = 0.f) {
@@ -44,11 +46,17 @@ struct Scene {
   void add_cur(double x, double y, float sigma, const Descriptor& what, int laplacian = 1) {
     add(cur, cur_px, x, y, sigma, what, laplacian);
   }
+  std::vector<PredictedView> predicted() const {
+    std::vector<PredictedView> views;
+    for (const Eigen::Vector2d& px : ref_px)
+      views.push_back({heel_test::mapped(H, px), heel::local_scale(H, px)});
+    return views;
+  }
   std::vector<Match> match() const {
     GuidedMatcher matcher(100, GuidedMatchSettings{});
     std::vector<Match> out;
     matcher.look_at(cur, cur_px);
-    matcher.match(H, ref, ref_px, out);
+    matcher.match(predicted(), ref, out);
     return out;
   }
 };
@@ -117,9 +125,10 @@ TEST(GuidedMatcher, AgreesWithTryingEveryPairAndAllocatesNothing) {
   GuidedMatcher matcher(200, GuidedMatchSettings{});
   std::vector<Match> out;
   out.reserve(200);
+  const std::vector<PredictedView> views = scene.predicted();
   const std::uint64_t before = heel::test::allocations_of_this_thread();
   matcher.look_at(scene.cur, scene.cur_px);
-  matcher.match(scene.H, scene.ref, scene.ref_px, out);
+  matcher.match(views, scene.ref, out);
   if (heel::test::counts_allocations()) {
     EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
   }

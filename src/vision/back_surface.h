@@ -1,0 +1,59 @@
+// The back as a surface over the reference view. A back is no plane: across it, it falls away from the camera
+// as an ellipse does from its end, z = b (1 − √(1 − X²/a²)) ≈ κ X² with κ = b / (2 a²), for X from the
+// middle. In units of the distance d of the middle, along the ray (x, y, 1) of the reference view:
+//   X_ref / d = (x, y, 1) (1 + κ d (x − x_c)²)
+// κ d = 0 is the paper's plane. No back is that curve: the body has blades and a spine, cloth has folds, and
+// it breathes. The departure is taken for smooth, a sum of five shapes of the place (u, v) in the region,
+// −1…1:
+//   δz = σ_shape (a₁ u + a₂ v + a₃ (u² − ⅓) + a₄ u v + a₅ (v² − ⅓)),  a ~ N(0, I)
+// Smooth departures do not average out over many points, so they are what an honest deviation rests on.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "projection.h"
+
+namespace heel {
+
+using Vector5d = Eigen::Matrix<double, 5, 1>;
+
+struct BackSurface {
+  double bend = 0.0;    ///< κ d
+  double axis_x = 0.0;  ///< x_c, normalised reference coordinate of the back's middle
+  double axis_y = 0.0;  ///< of its middle from top to bottom
+  Eigen::Vector2d half_size = Eigen::Vector2d::Ones();  ///< of the region, normalised
+  double shape_sigma = 0.0;                             ///< σ_shape / d
+
+  double depth_over_d(double x) const { return 1.0 + bend * (x - axis_x) * (x - axis_x); }
+
+  /// X_ref / d under the normalised reference point (x, y, 1).
+  Eigen::Vector3d point(const Eigen::Vector3d& ray) const { return depth_over_d(ray.x()) * ray; }
+
+  /// How strongly each of the five shapes moves the point along its ray, in units of d.
+  Vector5d departures(const Eigen::Vector3d& ray) const {
+    const double u = (ray.x() - axis_x) / half_size.x(), v = (ray.y() - axis_y) / half_size.y();
+    Vector5d shapes;
+    shapes << u, v, u * u - 1.0 / 3.0, u * v, v * v - 1.0 / 3.0;
+    return shape_sigma * shapes;
+  }
+
+  /// d point / d (x, y).
+  Eigen::Matrix<double, 3, 2> derivative(const Eigen::Vector3d& ray) const {
+    Eigen::Matrix<double, 3, 2> by_xy;
+    const double s = depth_over_d(ray.x());
+    by_xy.col(0) = s * Eigen::Vector3d::UnitX() + 2.0 * bend * (ray.x() - axis_x) * ray;
+    by_xy.col(1) = s * Eigen::Vector3d::UnitY();
+    return by_xy;
+  }
+};
+
+/// How the surface's image moves with the reference pixel: d cur_px / d ref_px. Its determinant is negative
+/// where the surface turns its inside to the current camera.
+inline Eigen::Matrix2d image_derivative(const BackSurface& surface, const Eigen::Matrix3d& K_ref_inverse,
+                                        const Eigen::Matrix3d& KR_cur, const Eigen::Vector3d& Kt_cur,
+                                        const Eigen::Vector3d& ray) {
+  return projection_jacobian(KR_cur * surface.point(ray) + Kt_cur) * KR_cur * surface.derivative(ray) *
+         K_ref_inverse.topLeftCorner<2, 2>();
+}
+
+}  // namespace heel
