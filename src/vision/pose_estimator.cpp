@@ -23,6 +23,10 @@
 namespace heel {
 namespace {
 
+// So many times better the plane must explain what is seen to be it: a picture, or a board to try heel with.
+constexpr double kFlatter = 1.25;
+constexpr double kLeastNoisePx = 0.3;  // no fit is better for less
+
 // A plane turned by 75° loses half its linear size (√cos 75°): features and outline shrink by that much
 // beside what the distance does.
 constexpr double kTiltShrink = 0.5;
@@ -121,6 +125,11 @@ BackSurface back_surface(const Outline& outline_px, const Eigen::Matrix3d& K_ref
   surface.bend = config.back_curvature_1_m * distance_m;
   surface.shape_sigma = config.back_shape_sigma_m / distance_m;
   return surface;
+}
+
+/// How well a pose explains what is seen: by many pairs and little error.
+double explained(std::size_t pairs, const FrontalPose& pose) {
+  return static_cast<double>(pairs) / std::max(kLeastNoisePx, pose.motion.noise_px);
 }
 
 }  // namespace
@@ -343,10 +352,17 @@ PoseReason PoseEstimator::Impl::find_motion(PoseEstimate& pose) {
   const MotionChoice choice = choose_motion(motions, inliers_ref);
   if (choice.best < 0) return PoseReason::NoValidMotion;
 
-  const FrontalProblem problem{inliers, K_ref, K_cur, homography.H_cur_from_ref, centre_px, surface};
-  FrontalPose result =
-      frontal_estimator.estimate(problem, motions.motions[static_cast<std::size_t>(choice.best)]);
-  if (surface.bend > 0.0) result = surface_follower.follow(problem, result, guided_matcher, frame_px);
+  const PlaneMotion& start = motions.motions[static_cast<std::size_t>(choice.best)];
+  FrontalProblem problem{inliers, K_ref, K_cur, homography.H_cur_from_ref, centre_px, surface};
+  problem.surface.bend = 0.0;
+  FrontalPose result = frontal_estimator.estimate(problem, start);
+  if (surface.bend > 0.0) {
+    problem.surface = surface;
+    const FrontalPose curved = surface_follower.follow(problem, frontal_estimator.estimate(problem, start),
+                                                       guided_matcher, frame_px);
+    if (explained(inliers.size(), result) < kFlatter * explained(surface_follower.pairs(), curved))
+      result = curved;
+  }
   const Eigen::Matrix3d& R = result.motion.R_cur_from_ref;
   const Eigen::Vector3d& t = result.motion.t_over_d;
   const Eigen::Vector3d centre_over_d = R * (K_ref_inverse * centre_px.homogeneous()) + t;

@@ -92,7 +92,10 @@ FrontalPose SurfaceFollower::follow(const FrontalProblem& problem, const Frontal
     best = other;
     std::swap(fitting_, best_fitting_);
   }
-  if (best.support < 0.0) return start;
+  if (best.support < 0.0) {
+    best_fitting_.clear();
+    return start;
+  }
   FrontalProblem of_surface = problem;
   of_surface.pairs = best_fitting_;
   return estimator_.estimate(of_surface, as_start(best.motion));

@@ -29,9 +29,12 @@ class SurfaceFollower {
 
   /// `problem`: as the homography's pairs posed it, `start` its solution; its pairs are replaced by those
   /// that fit the surface. `matcher` looks at the frame's features, `frame_px` are their undistorted pixels.
-  /// Where too few fit, `start` is the answer.
+  /// Where too few fit, `start` is the answer, of no pairs.
   FrontalPose follow(const FrontalProblem& problem, const FrontalPose& start, GuidedMatcher& matcher,
                      std::span<const Eigen::Vector2d> frame_px);
+
+  /// How many pairs the last answer rests on.
+  std::size_t pairs() const { return best_fitting_.size(); }
 
  private:
   struct Fit {

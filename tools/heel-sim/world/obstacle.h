@@ -26,7 +26,7 @@ struct ObstacleSettings {
 
 /// A block of the room standing on the floor, or hanging over it.
 struct Block {
-  Eigen::Vector2d centre_m;
+  Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
   double heading_rad = 0.0;
   double length_m = 0.0;
   double width_m = 0.0;
@@ -39,7 +39,7 @@ std::vector<Block> blocks_of(const ObstacleSettings& obstacle);
 
 /// A shape on the floor as sonars, bumpers and lines of sight meet it: a rectangle or a disc.
 struct Footprint {
-  Eigen::Vector2d centre_m;
+  Eigen::Vector2d centre_m = Eigen::Vector2d::Zero();
   double heading_rad = 0.0;
   double length_m = 0.0;  ///< of a rectangle
   double width_m = 0.0;
