@@ -8,6 +8,7 @@ function(heel_library name)
   add_library(${name} STATIC ${sources})
   target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src)
   target_link_libraries(${name} PUBLIC ${ARG_DEPENDS} PRIVATE heel_options ${ARG_PRIVATE_DEPENDS})
+  heel_precompiled(${name})
 endfunction()
 
 # heel_compile_alone(FILES …): never joined with others, because their names or macros would meet.
@@ -38,6 +39,7 @@ function(heel_test name)
     target_compile_options(${name} PRIVATE -O1 -Wno-subobject-linkage)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON)
     heel_compile_alone(${CMAKE_SOURCE_DIR}/tests/allocation_count.cpp)  # takes the C library's place
+    heel_precompiled_test(${name})
   endif()
   if(HEEL_ONLY_THREADED_TESTS AND NOT ARG_THREADS)
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
