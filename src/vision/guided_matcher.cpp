@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <numeric>
 
 namespace heel {
 namespace {
+
+constexpr int kMostCells = 128;  // either way
 
 float squared_distance(const Descriptor& a, const Descriptor& b) {
   const Eigen::Map<const Eigen::Matrix<float, kDescriptorSize, 1>> u(a.data()), v(b.data());
@@ -19,17 +21,46 @@ float squared_distance(const Descriptor& a, const Descriptor& b) {
 GuidedMatcher::GuidedMatcher(int max_cur, const GuidedMatchSettings& settings) : settings_(settings) {
   candidates_.reserve(static_cast<std::size_t>(max_cur));
   taken_by_.reserve(static_cast<std::size_t>(max_cur));
+  begin_.reserve(kMostCells * kMostCells + 1);
 }
 
 void GuidedMatcher::look_at(const FeatureSet& cur, std::span<const Eigen::Vector2d> cur_px) {
   cur_ = &cur;
-  candidates_.clear();
-  for (std::size_t i = 0; i < cur_px.size(); ++i)
-    candidates_.push_back({cur_px[i].y(), cur_px[i].x(), static_cast<double>(cur.features[i].sigma_px),
-                           static_cast<std::int32_t>(i), cur.features[i].laplacian});
-  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(a.y_px, a.index) < std::tie(b.y_px, b.index);
-  });
+  Eigen::AlignedBox2d box(Eigen::Vector2d::Zero());
+  if (!cur_px.empty()) box = Eigen::AlignedBox2d(cur_px.front());
+  for (const Eigen::Vector2d& px : cur_px) box.extend(px);
+  origin_px_ = box.min();
+  cell_px_ = std::max(settings_.radius_px, box.sizes().maxCoeff() / (kMostCells - 1));
+  columns_ = static_cast<int>(box.sizes().x() / cell_px_) + 1;
+  rows_ = static_cast<int>(box.sizes().y() / cell_px_) + 1;
+
+  // Counted, then put in place from the last, so that features of a cell stay in their order.
+  begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+  const auto cell_of = [&](const Eigen::Vector2d& px) {
+    return static_cast<std::size_t>(row_of(px.y()) * columns_ + column_of(px.x()));
+  };
+  for (const Eigen::Vector2d& px : cur_px) ++begin_[cell_of(px)];
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  candidates_.resize(cur_px.size());
+  for (std::size_t i = cur_px.size(); i-- > 0;) {
+    const std::int32_t place = --begin_[cell_of(cur_px[i])];
+    candidates_[static_cast<std::size_t>(place)] = {cur_px[i].x(), cur_px[i].y(),
+                                                    static_cast<double>(cur.features[i].sigma_px),
+                                                    static_cast<std::int32_t>(i), cur.features[i].laplacian};
+  }
+}
+
+int GuidedMatcher::column_of(double x_px) const {
+  return static_cast<int>(std::clamp((x_px - origin_px_.x()) / cell_px_, 0.0, columns_ - 1.0));
+}
+
+int GuidedMatcher::row_of(double y_px) const {
+  return static_cast<int>(std::clamp((y_px - origin_px_.y()) / cell_px_, 0.0, rows_ - 1.0));
+}
+
+GuidedMatcher::Cells GuidedMatcher::cells_near(const Eigen::Vector2d& px) const {
+  const double r = settings_.radius_px;
+  return {column_of(px.x() - r), row_of(px.y() - r), column_of(px.x() + r), row_of(px.y() + r)};
 }
 
 void GuidedMatcher::match(std::span<const PredictedView> predicted, const FeatureSet& ref,
@@ -40,21 +71,18 @@ void GuidedMatcher::match(std::span<const PredictedView> predicted, const Featur
 
   for (std::size_t r = 0; r < ref.features.size(); ++r) {
     const Eigen::Vector2d& predicted_px = predicted[r].px;
+    if (!(predicted[r].scale > 0.0) || !predicted_px.allFinite()) continue;
     const double predicted_sigma = static_cast<double>(ref.features[r].sigma_px) * predicted[r].scale;
     const double smallest_sigma = predicted_sigma / settings_.scale_ratio;
     const double largest_sigma = predicted_sigma * settings_.scale_ratio;
     float nearest2 = std::numeric_limits<float>::infinity(), second2 = nearest2;
     std::size_t nearest = 0;
-    auto candidate =
-        std::lower_bound(candidates_.begin(), candidates_.end(), predicted_px.y() - settings_.radius_px,
-                         [](const Candidate& c, double y_px) { return c.y_px < y_px; });
-    for (; candidate != candidates_.end() && candidate->y_px <= predicted_px.y() + settings_.radius_px;
-         ++candidate) {
-      if (candidate->laplacian != ref.features[r].laplacian) continue;
-      const double dx_px = candidate->x_px - predicted_px.x(), dy_px = candidate->y_px - predicted_px.y();
-      if (!(dx_px * dx_px + dy_px * dy_px < radius2_px2)) continue;
-      if (candidate->sigma_px < smallest_sigma || candidate->sigma_px > largest_sigma) continue;
-      const auto c = static_cast<std::size_t>(candidate->index);
+    const auto consider = [&](const Candidate& candidate) {
+      if (candidate.laplacian != ref.features[r].laplacian) return;
+      const double dx_px = candidate.x_px - predicted_px.x(), dy_px = candidate.y_px - predicted_px.y();
+      if (!(dx_px * dx_px + dy_px * dy_px < radius2_px2)) return;
+      if (candidate.sigma_px < smallest_sigma || candidate.sigma_px > largest_sigma) return;
+      const auto c = static_cast<std::size_t>(candidate.index);
       const float distance2 = squared_distance(ref.descriptors[r], cur_->descriptors[c]);
       if (distance2 < nearest2) {
         second2 = nearest2;
@@ -63,6 +91,13 @@ void GuidedMatcher::match(std::span<const PredictedView> predicted, const Featur
       } else {
         second2 = std::min(second2, distance2);
       }
+    };
+    const Cells near = cells_near(predicted_px);
+    for (int row = near.top; row <= near.bottom; ++row) {
+      const auto cell = static_cast<std::size_t>(row * columns_);
+      const auto first = static_cast<std::size_t>(begin_[cell + static_cast<std::size_t>(near.left)]);
+      const auto end = static_cast<std::size_t>(begin_[cell + static_cast<std::size_t>(near.right) + 1]);
+      for (std::size_t i = first; i < end; ++i) consider(candidates_[i]);
     }
     const float limit = settings_.max_distance;
     if (!(nearest2 < limit * limit) || nearest2 > settings_.ratio * settings_.ratio * second2) continue;

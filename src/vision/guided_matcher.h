@@ -41,17 +41,30 @@ class GuidedMatcher {
   void match(std::span<const PredictedView> predicted, const FeatureSet& ref, std::vector<Match>& out);
 
  private:
-  /// What is asked first of a frame feature, top to bottom.
+  /// What is asked first of a frame feature.
   struct Candidate {
-    double y_px, x_px;
+    double x_px, y_px;
     double sigma_px;
     std::int32_t index;
     std::int8_t laplacian;
   };
+  /// A rectangle of cells, both ends included.
+  struct Cells {
+    int left, top, right, bottom;
+  };
+  int column_of(double x_px) const;
+  int row_of(double y_px) const;
+  Cells cells_near(const Eigen::Vector2d& px) const;
 
   GuidedMatchSettings settings_;
   const FeatureSet* cur_ = nullptr;
+  // The frame's features by cells as wide as the radius (wider where few features spread far), row by row:
+  // cell i has those from begin_[i] to begin_[i + 1].
   std::vector<Candidate> candidates_;
+  std::vector<std::int32_t> begin_;
+  Eigen::Vector2d origin_px_ = Eigen::Vector2d::Zero();
+  double cell_px_ = 1.0;
+  int columns_ = 0, rows_ = 0;
   std::vector<std::int32_t> taken_by_;  // for each frame feature, index into `out` or −1
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "levenberg_marquardt.h"
 #include "projection.h"
@@ -19,22 +20,26 @@ using Vector8d = Eigen::Matrix<double, 8, 1>;
 // Converged: far below what noise moves the cost by.
 constexpr DescentLimits kHomographyDescent{.max_steps = 20, .converged = 1e-5, .max_damping = 1e8};
 
+/// The upper half, row by row.
+using Symmetric3 = std::array<double, 6>;
+
+Symmetric3 symmetric_part(const Eigen::Matrix3d& A) {
+  return {A(0, 0), A(0, 1), A(0, 2), A(1, 1), A(1, 2), A(2, 2)};
+}
+
 // A residual's derivative by the row-major entries of a 3 × 3 matrix Q, where it depends on Q through Q p
 // only, is M ⊗ pᵀ with M (2 × 3). Its normal matrix Mᵀ W M ⊗ p pᵀ is a product of two symmetric 3 × 3
 // matrices: 36 different numbers instead of 81, which is what is summed.
 class NormalEquations {
  public:
-  void add_gradient(const Matrix23d& M, const Eigen::Vector2d& weighted_residual, const Eigen::Vector3d& p) {
-    const Eigen::Vector3d m = M.transpose() * weighted_residual;
-    for (int i = 0; i < 3; ++i) gradient_.segment<3>(3 * i) += m(i) * p;
+  void add_gradient(const Eigen::Vector3d& MtWr, const Eigen::Vector3d& p) {
+    for (int i = 0; i < 3; ++i) gradient_.segment<3>(3 * i) += MtWr(i) * p;
   }
 
-  void add_product(const Eigen::Matrix3d& MtWM, const Eigen::Vector3d& p) {
-    const std::array<double, 6> a = {MtWM(0, 0), MtWM(0, 1), MtWM(0, 2), MtWM(1, 1), MtWM(1, 2), MtWM(2, 2)};
-    const std::array<double, 6> b = {p(0) * p(0), p(0) * p(1), p(0) * p(2),
-                                     p(1) * p(1), p(1) * p(2), p(2) * p(2)};
+  void add_product(const Symmetric3& MtWM, const Eigen::Vector3d& p) {
+    const Symmetric3 ppt = {p(0) * p(0), p(0) * p(1), p(0) * p(2), p(1) * p(1), p(1) * p(2), p(2) * p(2)};
     for (std::size_t i = 0; i < 6; ++i)
-      for (std::size_t k = 0; k < 6; ++k) products_[i][k] += a[i] * b[k];
+      for (std::size_t k = 0; k < 6; ++k) products_[i][k] += MtWM[i] * ppt[k];
   }
 
   /// Over the first eight entries: the ninth, H(2,2), is fixed.
@@ -66,47 +71,44 @@ double loss_weight(double error_px2, double limit_px2) {
   return u * u;
 }
 
-double total_loss_px2(std::span<const PointPair> pairs, const Eigen::Matrix3d& H, double limit_px2) {
-  const Eigen::Matrix3d H_inverse = H.inverse();
-  double sum = 0.0;
-  for (const PointPair& pair : pairs)
-    sum += loss_px2(symmetric_transfer_error_px2(H, H_inverse, pair), limit_px2);
-  return sum;
-}
-
-/// Gauss–Newton's equations at H. Backwards, with p = H⁻¹ x_cur: d(H⁻¹ x) = −H⁻¹ dH p.
-NormalEquations linearise(std::span<const PointPair> pairs, const Eigen::Matrix3d& H, double limit_px2) {
-  const Eigen::Matrix3d H_inverse = H.inverse();
-  NormalEquations equations;
-  for (const PointPair& pair : pairs) {
-    const Eigen::Vector3d x = pair.ref_px.homogeneous();
-    const Eigen::Vector3d q = H * x;
-    const Eigen::Vector2d forward_px = q.hnormalized() - pair.cur_px;
-    const Eigen::Vector3d p = H_inverse * pair.cur_px.homogeneous();
-    const Eigen::Vector2d backward_px = p.hnormalized() - pair.ref_px;
-    const double weight = loss_weight(forward_px.squaredNorm() + backward_px.squaredNorm(), limit_px2);
-    if (!(weight > 0.0)) continue;
-
-    const Matrix23d forward = projection_jacobian(q);
-    equations.add_product(weight * forward.transpose() * forward, x);
-    equations.add_gradient(forward, weight * forward_px, x);
-    const Matrix23d backward = -projection_jacobian(p) * H_inverse;
-    equations.add_product(weight * backward.transpose() * backward, p);
-    equations.add_gradient(backward, weight * backward_px, p);
-  }
-  return equations;
-}
-
 /// The loss over the pairs as the minimiser sees it; H(2,2) stays what it is.
 struct LossDescent {
   std::span<const PointPair> pairs;
   double limit_px2;
 
-  double cost(const Eigen::Matrix3d& H) const { return total_loss_px2(pairs, H, limit_px2); }
+  /// Backwards, with p = H⁻¹ x_cur: d(H⁻¹ x) = −H⁻¹ dH p.
   GaussNewtonEquations<8> equations(const Eigen::Matrix3d& H) const {
-    const NormalEquations sums = linearise(pairs, H, limit_px2);
-    return {sums.matrix(), sums.gradient()};
+    const Eigen::Matrix3d H_inverse = H.inverse();
+    NormalEquations sums;
+    double loss = 0.0;
+    for (const PointPair& pair : pairs) {
+      const Eigen::Vector3d x = pair.ref_px.homogeneous();
+      const Eigen::Vector3d q = H * x;
+      const Eigen::Vector2d forward_px = q.hnormalized() - pair.cur_px;
+      const Eigen::Vector3d p = H_inverse * pair.cur_px.homogeneous();
+      const Eigen::Vector2d backward_px = p.hnormalized() - pair.ref_px;
+      const double error_px2 = forward_px.squaredNorm() + backward_px.squaredNorm();
+      loss += loss_px2(error_px2, limit_px2);
+      const double weight = loss_weight(error_px2, limit_px2);
+      if (!(weight > 0.0)) continue;
+
+      // M = J, the projection's derivative, whose JᵀJ is mostly zeros and ones.
+      const double i = 1.0 / q.z(), u = q.x() * i, v = q.y() * i, wii = weight * i * i;
+      sums.add_product({wii, 0.0, -wii * u, wii, -wii * v, wii * (u * u + v * v)}, x);
+      const Eigen::Vector2d pull = weight * i * forward_px;
+      sums.add_gradient({pull.x(), pull.y(), -u * pull.x() - v * pull.y()}, x);
+      // M = −J H⁻¹.
+      const Matrix23d M = -projection_jacobian(p) * H_inverse;
+      const Eigen::Vector3d m0 = M.row(0), m1 = M.row(1), w0 = weight * m0, w1 = weight * m1;
+      sums.add_product({w0.x() * m0.x() + w1.x() * m1.x(), w0.x() * m0.y() + w1.x() * m1.y(),
+                        w0.x() * m0.z() + w1.x() * m1.z(), w0.y() * m0.y() + w1.y() * m1.y(),
+                        w0.y() * m0.z() + w1.y() * m1.z(), w0.z() * m0.z() + w1.z() * m1.z()},
+                       p);
+      sums.add_gradient(backward_px.x() * w0 + backward_px.y() * w1, p);
+    }
+    return {loss, sums.matrix(), sums.gradient()};
   }
+
   Eigen::Matrix3d stepped(const Eigen::Matrix3d& H, const Vector8d& step) const {
     Eigen::Matrix3d result = H;
     for (int i = 0; i < 8; ++i) result(i / 3, i % 3) += step(i);
@@ -119,7 +121,7 @@ struct LossDescent {
 double refine_homography(std::span<const PointPair> pairs, double limit_px2,
                          Eigen::Matrix3d& H_cur_from_ref) {
   Eigen::Matrix3d H = H_cur_from_ref / H_cur_from_ref(2, 2);
-  if (!H.allFinite()) return total_loss_px2(pairs, H_cur_from_ref, limit_px2);
+  if (!H.allFinite()) return std::numeric_limits<double>::infinity();
   const double cost = levenberg_marquardt(LossDescent{pairs, limit_px2}, kHomographyDescent, H);
   H_cur_from_ref = H;
   return cost;
@@ -145,14 +147,14 @@ HomographyPrecision homography_precision(std::span<const PointPair> pairs,
     const Eigen::Matrix2d DtD = D.transpose() * D;
     const Eigen::Matrix2d W = Eigen::Matrix2d::Identity() + DtD;
     const Eigen::Matrix2d S = Eigen::Matrix2d::Identity() + DtD.inverse();
-    normal.add_product(J.transpose() * W * J, x);
-    spread.add_product(J.transpose() * (W * S * W) * J, x);
+    normal.add_product(symmetric_part(J.transpose() * W * J), x);
+    spread.add_product(symmetric_part(J.transpose() * (W * S * W) * J), x);
     whitened += r.dot(S.inverse() * r);
     forward_px2 += r.squaredNorm();
   }
   const double n = static_cast<double>(pairs.size());
   const double variance = whitened / std::max(1.0, 2.0 * n - 8.0);
-  const Matrix8d inverse = normal.matrix().inverse();
+  const Matrix8d inverse = normal.matrix().ldlt().solve(Matrix8d::Identity());
   precision.covariance.topLeftCorner<8, 8>() = variance * inverse * spread.matrix() * inverse;
   precision.noise_px = std::sqrt(variance);
   precision.rms_px = std::sqrt(forward_px2 / n);

@@ -12,9 +12,8 @@ namespace heel {
 namespace {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix26d = Eigen::Matrix<double, 2, 6>;
 
-constexpr DescentLimits kMotionDescent{.max_steps = 30, .converged = 1e-8, .max_damping = 1e10};
+constexpr int kStepsToMinimum = 30;
 constexpr double kLeastVariance = 1e-4;  // px²; no feature is placed better than to 0.01 px
 constexpr double kFarthest = 10.0;       // d, before anything is seen
 constexpr double kBehindCost = 1e12;     // px², of a point that would lie behind the camera
@@ -23,12 +22,6 @@ struct Pose {
   Eigen::Matrix3d R;
   Eigen::Vector3d t;
 };
-
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d S;
-  S << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return S;
-}
 
 using WhitenedPair = FrontalPoseEstimator::WhitenedPair;
 
@@ -54,62 +47,82 @@ Pose turned_and_moved(const Pose& pose, const Vector6d& step) {
 /// The problem as the minimiser sees it.
 struct PoseDescent {
   std::span<const WhitenedPair> pairs;
-  const Eigen::Matrix3d& K_cur;
+  FrontalPoseEstimator::Linearised& linearised;
 
-  double cost(const Pose& pose) const {
-    const Eigen::Matrix3d KR = K_cur * pose.R;
-    const Eigen::Vector3d Kt = K_cur * pose.t;
+  /// Fills `linearised`, both residuals of a pair at a time; returns the cost. Points behind the camera have
+  /// no derivative.
+  double linearise(const Pose& pose) const {
     double cost = 0.0;
+    Eigen::Index row = 0;
     for (const WhitenedPair& pair : pairs) {
-      const Eigen::Vector3d pixel = KR * pair.point_ref + Kt;  // its third component is the depth
-      cost += pixel.z() > 0.0 ? (pair.whitening * (pixel.hnormalized() - pair.cur_px)).squaredNorm()
-                              : kBehindCost;
+      const Eigen::Vector3d r = pose.R * pair.point_ref;
+      const Eigen::Vector3d point = r + pose.t;
+      Eigen::Vector2d residual = Eigen::Vector2d::Zero(), by_x = residual, by_y = residual, by_z = residual;
+      if (point.z() > 0.0) {
+        const double inverse_z = 1.0 / point.z();
+        const Eigen::Vector2d direction = inverse_z * point.head<2>();
+        residual = pair.whitening * (direction - pair.direction);
+        by_x = inverse_z * pair.whitening.col(0);
+        by_y = inverse_z * pair.whitening.col(1);
+        by_z = -direction.x() * by_x - direction.y() * by_y;
+        cost += residual.squaredNorm();
+      } else {
+        cost += kBehindCost;
+      }
+      const auto set = [&](Eigen::Index column, const Eigen::Vector2d& by) {
+        linearised.J.col(column).segment<2>(row) = by;
+      };
+      set(0, r.y() * by_z - r.z() * by_y);  // a turn ω moves the point by ω × r
+      set(1, r.z() * by_x - r.x() * by_z);
+      set(2, r.x() * by_y - r.y() * by_x);
+      set(3, by_x);
+      set(4, by_y);
+      set(5, by_z);
+      linearised.residuals.segment<2>(row) = residual;
+      row += 2;
     }
     return cost;
   }
 
-  /// d whitened residual / d (ω, δt).
-  Matrix26d jacobian(const WhitenedPair& pair, const Eigen::Vector3d& rotated,
-                     const Eigen::Vector3d& pixel) const {
-    const Matrix23d by_point = pair.whitening * projection_jacobian(pixel) * K_cur;
-    Matrix26d J;
-    J << by_point * -skew(rotated), by_point;
-    return J;
-  }
-
   GaussNewtonEquations<6> equations(const Pose& pose) const {
     GaussNewtonEquations<6> equations;
-    for (const WhitenedPair& pair : pairs) {
-      const Eigen::Vector3d rotated = pose.R * pair.point_ref;
-      const Eigen::Vector3d pixel = K_cur * (rotated + pose.t);
-      if (pixel.z() <= 0.0) continue;
-      const Eigen::Vector2d residual = pair.whitening * (pixel.hnormalized() - pair.cur_px);
-      const Matrix26d J = jacobian(pair, rotated, pixel);
-      equations.N.noalias() += J.transpose() * J;
-      equations.gradient.noalias() += J.transpose() * residual;
-    }
+    equations.cost = linearise(pose);
+    const auto J = linearised.J.topRows(rows());
+    equations.N = normal_matrix();
+    for (int i = 0; i < 6; ++i) equations.gradient(i) = J.col(i).dot(linearised.residuals.head(rows()));
     return equations;
   }
+
+  /// Jᵀ J of what is linearised.
+  Matrix6d normal_matrix() const {
+    const auto J = linearised.J.topRows(rows());
+    Matrix6d N;
+    for (int i = 0; i < 6; ++i)
+      for (int k = i; k < 6; ++k) N(i, k) = N(k, i) = J.col(i).dot(J.col(k));
+    return N;
+  }
+
+  Eigen::Index rows() const { return 2 * static_cast<Eigen::Index>(pairs.size()); }
 
   /// With N' = N / σ² + P, P the little that is known beforehand, the noise gives N'⁻¹. A departure of the
   /// surface moves the minimum by −N'⁻¹ Σ Jᵀ (∂r/∂a) / σ²: the departures, known by their deviation only, add
   /// the squares of that.
   Matrix6d covariance(const Pose& pose, double variance_px2) const {
-    Matrix6d N = Matrix6d::Zero();
+    linearise(pose);
     Eigen::Matrix<double, 6, 5> by_shape = Eigen::Matrix<double, 6, 5>::Zero();
+    Eigen::Index row = 0;
     for (const WhitenedPair& pair : pairs) {
-      const Eigen::Vector3d rotated = pose.R * pair.point_ref;
-      const Eigen::Vector3d pixel = K_cur * (rotated + pose.t);
-      if (pixel.z() <= 0.0) continue;
-      const Matrix26d J = jacobian(pair, rotated, pixel);
-      const Eigen::Vector2d by_depth = J.rightCols<3>() * (rotated / pair.point_ref.z());
-      N.noalias() += J.transpose() * J;
-      by_shape.noalias() += J.transpose() * by_depth * pair.departures.transpose();
+      const Eigen::Vector3d ray =
+          pose.R * (pair.point_ref / pair.point_ref.z());  // along it the surface departs
+      for (int axis = 0; axis < 2; ++axis, ++row) {
+        const auto J = linearised.J.row(row);
+        by_shape += J.transpose() * (J.tail<3>().dot(ray) * pair.departures.transpose());
+      }
     }
-    Matrix6d precision = N / variance_px2;
+    Matrix6d precision = normal_matrix() / variance_px2;
     precision.diagonal().head<3>().array() += 1.0 / (M_PI * M_PI);
     precision.diagonal().tail<3>().array() += 1.0 / (kFarthest * kFarthest);
-    const Matrix6d of_noise = precision.inverse();
+    const Matrix6d of_noise = precision.ldlt().solve(Matrix6d::Identity());
     const Eigen::Matrix<double, 6, 5> moved = of_noise * by_shape / variance_px2;
     return of_noise + moved * moved.transpose();
   }
@@ -129,6 +142,10 @@ double wrapped(double angle_rad) {
   return std::remainder(angle_rad, 2.0 * M_PI);
 }
 
+Eigen::Matrix3d half_turn_about(const Eigen::Vector3d& axis) {
+  return 2.0 * axis * axis.transpose() - Eigen::Matrix3d::Identity();
+}
+
 }  // namespace
 
 PlaneMotion mirrored_motion(const FrontalProblem& problem, const FrontalMotion& motion) {
@@ -136,57 +153,61 @@ PlaneMotion mirrored_motion(const FrontalProblem& problem, const FrontalMotion& 
   const Eigen::Vector3d centre_cur = motion.R_cur_from_ref * centre_ref + motion.t_over_d;
   const Eigen::Vector3d sight = centre_cur.normalized();
   const Eigen::Vector3d normal_cur = motion.R_cur_from_ref.col(2);
-  const Eigen::Vector3d mirrored = 2.0 * sight.dot(normal_cur) * sight - normal_cur;
+  // Half a turn about the normal, then half a turn about the line of sight: twice the angle from one to the
+  // other.
   PlaneMotion other;
-  other.R_cur_from_ref =
-      Eigen::Quaterniond::FromTwoVectors(normal_cur, mirrored).toRotationMatrix() * motion.R_cur_from_ref;
+  other.R_cur_from_ref = half_turn_about(sight) * half_turn_about(normal_cur) * motion.R_cur_from_ref;
   other.t_over_d = centre_cur - other.R_cur_from_ref * centre_ref;
   return other;
 }
 
 FrontalPoseEstimator::FrontalPoseEstimator(std::size_t max_pairs) : capacity_(max_pairs) {
   pairs_.reserve(capacity_);
+  linearised_.J.resize(2 * static_cast<Eigen::Index>(capacity_), 6);
+  linearised_.residuals.resize(2 * static_cast<Eigen::Index>(capacity_));
 }
 
 void FrontalPoseEstimator::load(const FrontalProblem& problem) {
-  const Eigen::Matrix3d K_ref_inverse = problem.K_ref.inverse();
+  const Eigen::Matrix3d K_ref_inverse = problem.K_ref.inverse(), K_cur_inverse = problem.K_cur.inverse();
   pairs_.clear();
   for (const PointPair& pair : problem.pairs.first(std::min(problem.pairs.size(), capacity_))) {
     const Eigen::Vector3d ray = K_ref_inverse * pair.ref_px.homogeneous();
-    pairs_.push_back({problem.surface.point(ray), pair.cur_px, whitening(problem.H_cur_from_ref, pair.ref_px),
+    pairs_.push_back({problem.surface.point(ray), (K_cur_inverse * pair.cur_px.homogeneous()).head<2>(),
+                      whitening(problem.H_cur_from_ref, pair.ref_px) * problem.K_cur.topLeftCorner<2, 2>(),
                       problem.surface.departures(ray)});
   }
 }
 
-FrontalMotion FrontalPoseEstimator::refine(const FrontalProblem& problem, const PlaneMotion& start) {
+FrontalMotion FrontalPoseEstimator::refine(const FrontalProblem& problem, const PlaneMotion& start,
+                                           int max_steps) {
   load(problem);
-  return descend(problem.K_cur, start);
+  return descend(start, max_steps);
 }
 
-FrontalMotion FrontalPoseEstimator::descend(const Eigen::Matrix3d& K_cur, const PlaneMotion& start) const {
-  const PoseDescent descent{pairs_, K_cur};
+FrontalMotion FrontalPoseEstimator::descend(const PlaneMotion& start, int max_steps) {
   Pose pose{start.R_cur_from_ref, start.t_over_d};
-  const double cost = levenberg_marquardt(descent, kMotionDescent, pose);
-
+  const double cost = levenberg_marquardt(
+      PoseDescent{pairs_, linearised_},
+      DescentLimits{.max_steps = max_steps, .converged = 1e-5, .max_damping = 1e10}, pose);
   FrontalMotion motion;
   motion.R_cur_from_ref = Eigen::Quaterniond(pose.R).normalized().toRotationMatrix();
   motion.t_over_d = pose.t;
   motion.cost_px2 = cost;
-  const double variance = cost / std::max(1.0, 2.0 * static_cast<double>(pairs_.size()) - 6.0);
-  motion.noise_px = std::sqrt(variance);
-  motion.covariance = descent.covariance(pose, std::max(variance, kLeastVariance));
+  motion.noise_px = std::sqrt(cost / std::max(1.0, 2.0 * static_cast<double>(pairs_.size()) - 6.0));
   return motion;
 }
 
 FrontalPose FrontalPoseEstimator::estimate(const FrontalProblem& problem, const PlaneMotion& start) {
   load(problem);
-  FrontalMotion chosen = descend(problem.K_cur, start);
-  FrontalMotion other = descend(problem.K_cur, mirrored_motion(problem, chosen));
+  FrontalMotion chosen = descend(start, kStepsToMinimum);
+  FrontalMotion other = descend(mirrored_motion(problem, chosen), kStepsToMinimum);
   if (other.cost_px2 < chosen.cost_px2) std::swap(chosen, other);
 
   FrontalPose pose;
   pose.motion = chosen;
   pose.other = other;
+  pose.covariance = PoseDescent{pairs_, linearised_}.covariance(
+      {chosen.R_cur_from_ref, chosen.t_over_d}, std::max(chosen.noise_px * chosen.noise_px, kLeastVariance));
   pose.yaw_rad = yaw_of_rotation(chosen.R_cur_from_ref);
   // Two hypotheses of equal prior: their odds are exp(−Δχ²/2).
   const double chi2_excess =
@@ -196,11 +217,11 @@ FrontalPose FrontalPoseEstimator::estimate(const FrontalProblem& problem, const 
 
   const Eigen::Vector3d gradient = yaw_gradient(chosen.R_cur_from_ref);
   const double apart_rad = wrapped(yaw_of_rotation(other.R_cur_from_ref) - pose.yaw_rad);
-  pose.yaw_sigma_rad = std::sqrt(gradient.dot(chosen.covariance.topLeftCorner<3, 3>() * gradient) +
+  pose.yaw_sigma_rad = std::sqrt(gradient.dot(pose.covariance.topLeftCorner<3, 3>() * gradient) +
                                  pose.ambiguity * apart_rad * apart_rad);
   for (int i = 0; i < 3; ++i) {
     const double apart = other.t_over_d(i) - chosen.t_over_d(i);
-    pose.t_over_d_sigma(i) = std::sqrt(chosen.covariance(3 + i, 3 + i) + pose.ambiguity * apart * apart);
+    pose.t_over_d_sigma(i) = std::sqrt(pose.covariance(3 + i, 3 + i) + pose.ambiguity * apart * apart);
   }
   return pose;
 }

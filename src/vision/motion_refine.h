@@ -35,9 +35,6 @@ struct FrontalMotion {
   /// Σ rᵀ W r, px²; W whitens the noise of both images, of equal size.
   double cost_px2 = 0.0;
   double noise_px = 0.0;  ///< one standard deviation of a coordinate, either image
-  /// Of (ω, δt): R = exp(ω) R̂, t = t̂ + δt; from the noise and from the surface's departures. Finite even
-  /// where the pairs leave a direction open: nobody turns by more than π or is farther than 10 d.
-  Matrix6d covariance = Matrix6d::Zero();
 };
 
 /// The other minimum a plane seen from afar has: its normal mirrored in the line of sight to its centre
@@ -49,6 +46,9 @@ PlaneMotion mirrored_motion(const FrontalProblem& problem, const FrontalMotion& 
 struct FrontalPose {
   FrontalMotion motion;
   FrontalMotion other;  ///< the minimum not chosen
+  /// Of (ω, δt): R = exp(ω) R̂, t = t̂ + δt; from the noise and from the surface's departures. Finite even
+  /// where the pairs leave a direction open: nobody turns by more than π or is farther than 10 d.
+  Matrix6d covariance = Matrix6d::Zero();
   double yaw_rad = 0.0;
   double yaw_sigma_rad = 0.0;
   Eigen::Vector3d t_over_d_sigma = Eigen::Vector3d::Zero();
@@ -64,23 +64,30 @@ class FrontalPoseEstimator {
   /// image.
   FrontalPose estimate(const FrontalProblem& problem, const PlaneMotion& start);
 
-  /// To the minimum next to `start` alone.
-  FrontalMotion refine(const FrontalProblem& problem, const PlaneMotion& start);
+  /// Towards the minimum next to `start` alone, by at most `max_steps` steps.
+  FrontalMotion refine(const FrontalProblem& problem, const PlaneMotion& start, int max_steps);
 
   /// What of a pair stays the same in every step.
   struct WhitenedPair {
     Eigen::Vector3d point_ref;  ///< X_ref / d
-    Eigen::Vector2d cur_px;
-    Eigen::Matrix2d whitening;  ///< makes the residual's noise 1 px in every direction
+    Eigen::Vector2d direction;  ///< (x/z, y/z) of the pixel in the current view
+    Eigen::Matrix2d whitening;  ///< from directions to pixels whose noise is 1 px in every direction
     Vector5d departures;        ///< BackSurface::departures
+  };
+
+  /// The derivatives of all residuals, two a pair: a column for each of (ω, δt). And the residuals.
+  struct Linearised {
+    Eigen::Matrix<double, Eigen::Dynamic, 6> J;
+    Eigen::VectorXd residuals;
   };
 
  private:
   void load(const FrontalProblem& problem);
-  FrontalMotion descend(const Eigen::Matrix3d& K_cur, const PlaneMotion& start) const;
+  FrontalMotion descend(const PlaneMotion& start, int max_steps);
 
   std::size_t capacity_;
   std::vector<WhitenedPair> pairs_;
+  Linearised linearised_;
 };
 
 }  // namespace heel

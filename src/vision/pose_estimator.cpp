@@ -37,7 +37,7 @@ constexpr int kGuidedRounds = 2;
 // Round the expected view: what a homography found from few pairs is off at the outline, by share of its
 // size; and how far features' scales lie from what it predicts, with what the target may come nearer in a
 // second.
-constexpr double kViewMargin = 0.15;
+constexpr double kViewMargin = 0.1;
 constexpr double kViewScaleMargin = 1.3;
 constexpr double kApproach_1_s = 1.0;
 

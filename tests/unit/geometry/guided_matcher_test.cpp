@@ -2,6 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
 #include "allocation_count.h"
 #include "scene.h"
 #include "vision/shape_plausibility.h"
@@ -60,6 +67,44 @@ struct Scene {
     return out;
   }
 };
+
+using IndexPairs = std::vector<std::pair<int, int>>;
+
+IndexPairs as_pairs(const std::vector<Match>& matches) {
+  IndexPairs pairs;
+  for (const Match& match : matches) pairs.emplace_back(match.ref, match.cur);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+/// The same rules without any order of the frame's features.
+std::vector<Match> by_trying_every_pair(const Scene& scene, const std::vector<PredictedView>& views) {
+  const GuidedMatchSettings rules;
+  std::map<int, Match> of_frame_feature;
+  for (std::size_t r = 0; r < views.size(); ++r) {
+    std::vector<std::pair<float, int>> near;
+    for (std::size_t c = 0; c < scene.cur_px.size(); ++c) {
+      const double sigma = scene.ref.features[r].sigma_px * views[r].scale;
+      const double ratio = scene.cur.features[c].sigma_px / sigma;
+      if (!((scene.cur_px[c] - views[r].px).norm() < rules.radius_px)) continue;
+      if (!(ratio >= 1.0 / rules.scale_ratio && ratio <= rules.scale_ratio)) continue;
+      if (scene.cur.features[c].laplacian != scene.ref.features[r].laplacian) continue;
+      float squared = 0.f;
+      for (std::size_t i = 0; i < heel::kDescriptorSize; ++i)
+        squared += std::pow(scene.ref.descriptors[r][i] - scene.cur.descriptors[c][i], 2.f);
+      near.emplace_back(std::sqrt(squared), static_cast<int>(c));
+    }
+    std::sort(near.begin(), near.end());
+    if (near.empty() || near[0].first >= rules.max_distance) continue;
+    if (near.size() > 1 && near[0].first > rules.ratio * near[1].first) continue;
+    const Match match{static_cast<std::int32_t>(r), near[0].second, near[0].first};
+    const auto [taken, first] = of_frame_feature.emplace(match.cur, match);
+    if (!first && match.distance < taken->second.distance) taken->second = match;
+  }
+  std::vector<Match> matches;
+  for (const auto& [cur, match] : of_frame_feature) matches.push_back(match);
+  return matches;
+}
 
 TEST(GuidedMatcher, TakesTheNearestDescriptorWhereThePointShouldBe) {
   Scene scene;
@@ -133,11 +178,32 @@ TEST(GuidedMatcher, AgreesWithTryingEveryPairAndAllocatesNothing) {
     EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
   }
   EXPECT_GT(out.size(), 50u);
-  for (const Match& match : out) {
-    const Eigen::Vector2d predicted =
-        heel_test::mapped(scene.H, scene.ref_px[static_cast<std::size_t>(match.ref)]);
-    EXPECT_LT((predicted - scene.cur_px[static_cast<std::size_t>(match.cur)]).norm(), 8.0);
+  EXPECT_EQ(as_pairs(out), as_pairs(by_trying_every_pair(scene, views)));
+}
+
+// What is undistorted may lie far outside the view, and what is predicted may not be there at all.
+TEST(GuidedMatcher, FindsPairsHoweverFarFeaturesLie) {
+  heel_test::Random random(6);
+  Scene scene;
+  scene.H.setIdentity();
+  for (int i = 0; i < 100; ++i) {
+    const double far_px = i % 10 == 0 ? 1e7 : 300.0;
+    const Eigen::Vector2d place(random.uniform(-far_px, far_px), random.uniform(-far_px, far_px));
+    scene.add_ref(place.x(), place.y(), 3.f, descriptor(static_cast<std::size_t>(i % 60)));
+    scene.add_cur(place.x() + 3.0, place.y() - 4.0, 3.f, descriptor(static_cast<std::size_t>(i % 60), 0.2f));
   }
+  std::vector<PredictedView> views = scene.predicted();
+  const double infinite = std::numeric_limits<double>::infinity();
+  views[1].px = {infinite, 0.0};
+  views[2].px = {0.0, std::numeric_limits<double>::quiet_NaN()};
+  views[3].px = {-1e300, 1e300};
+  views[4].scale = 0.0;
+  GuidedMatcher matcher(100, GuidedMatchSettings{});
+  std::vector<Match> out;
+  matcher.look_at(scene.cur, scene.cur_px);
+  matcher.match(views, scene.ref, out);
+  EXPECT_GT(out.size(), 85u);
+  EXPECT_EQ(as_pairs(out), as_pairs(by_trying_every_pair(scene, views)));
 }
 
 }  // namespace
