@@ -1,5 +1,6 @@
 #include "surface_follower.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -8,12 +9,18 @@ namespace heel {
 namespace {
 
 constexpr std::size_t kLeastPairs = 6;  // twice what six unknowns need
-constexpr double kSettledRad = 1e-3, kSettledOverD = 1e-3;
+constexpr double kSettledRad = 3e-3, kSettledOverD = 3e-3;
 
-constexpr int kRounds = 4;
+// Pairs and pose improve by turns: no use in descending to the minimum of pairs that are to change.
+constexpr int kRounds = 4, kStepsInRound = 2;
 // Of the whitened residual, whose noise is 1 px where features are as well placed as usual. The first pose
 // may be off at the back's edges.
 constexpr double kFirstLimitPx = 5.0, kLimitPx = 3.0;
+
+// Few pairs, of one facet, hardly tell how the back is turned: unless this share of the template's features
+// fits, the whole range is tried.
+constexpr double kSureShare = 0.3;
+constexpr double kOtherYawsRad[] = {-1.0, -0.6, -0.2, 0.2, 0.6, 1.0};
 
 PlaneMotion as_start(const FrontalMotion& motion) {
   PlaneMotion start;
@@ -76,21 +83,43 @@ SurfaceFollower::Fit SurfaceFollower::improve(FrontalProblem problem, const Fron
     keep_what_fits(problem, before, round == 0 ? kFirstLimitPx : kLimitPx, frame_px);
     if (fitting_.size() < kLeastPairs) return {start, -1.0};
     problem.pairs = fitting_;
-    fit.motion = estimator_.refine(problem, as_start(before));
+    fit.motion = estimator_.refine(problem, as_start(before), kStepsInRound);
     if (round > 0 && settled(before, fit.motion)) break;
   }
   fit.support = static_cast<double>(fitting_.size()) - fit.motion.cost_px2 / (kLimitPx * kLimitPx);
   return fit;
 }
 
+/// The target turned by `angle_rad` to the image's right about the upright axis through what the pairs show.
+FrontalMotion SurfaceFollower::turned(const FrontalProblem& problem, const FrontalMotion& motion,
+                                      double angle_rad) const {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const PointPair& pair : problem.pairs)
+    middle += problem.surface.point(reference_.K_inverse * pair.ref_px.homogeneous());
+  middle /= static_cast<double>(problem.pairs.size());
+  FrontalMotion turned = motion;
+  turned.R_cur_from_ref =
+      Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitY()).toRotationMatrix() * motion.R_cur_from_ref;
+  turned.t_over_d = motion.t_over_d + (motion.R_cur_from_ref - turned.R_cur_from_ref) * middle;
+  return turned;
+}
+
 FrontalPose SurfaceFollower::follow(const FrontalProblem& problem, const FrontalPose& start,
                                     GuidedMatcher& matcher, std::span<const Eigen::Vector2d> frame_px) {
-  Fit best = improve(problem, start.motion, matcher, frame_px);
-  best_fitting_.assign(fitting_.begin(), fitting_.end());
-  const Fit other = improve(problem, start.other, matcher, frame_px);
-  if (other.support > best.support) {
-    best = other;
+  Fit best{start.motion, -1.0};
+  best_fitting_.clear();
+  const auto attempt = [&](const FrontalMotion& from) {
+    const Fit fit = improve(problem, from, matcher, frame_px);
+    if (!(fit.support > best.support)) return;
+    best = fit;
     std::swap(fitting_, best_fitting_);
+  };
+  attempt(start.motion);
+  attempt(start.other);
+  if (best.support < kSureShare * static_cast<double>(reference_.px.size())) {
+    const double yaw_rad = yaw_of_rotation(start.motion.R_cur_from_ref);
+    for (const double other_yaw_rad : kOtherYawsRad)
+      attempt(turned(problem, start.motion, other_yaw_rad - yaw_rad));
   }
   if (best.support < 0.0) {
     best_fitting_.clear();

@@ -45,6 +45,7 @@ class SurfaceFollower {
   void predict(const FrontalProblem& problem, const FrontalMotion& motion);
   void keep_what_fits(const FrontalProblem& problem, const FrontalMotion& motion, double limit_px,
                       std::span<const Eigen::Vector2d> frame_px);
+  FrontalMotion turned(const FrontalProblem& problem, const FrontalMotion& motion, double angle_rad) const;
   Fit improve(FrontalProblem problem, const FrontalMotion& start, GuidedMatcher& matcher,
               std::span<const Eigen::Vector2d> frame_px);
 
