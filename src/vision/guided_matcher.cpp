@@ -10,6 +10,7 @@ namespace heel {
 namespace {
 
 constexpr int kMostCells = 128;  // either way
+constexpr double kFarthestPx = 1e9;
 
 float squared_distance(const Descriptor& a, const Descriptor& b) {
   const Eigen::Map<const Eigen::Matrix<float, kDescriptorSize, 1>> u(a.data()), v(b.data());
@@ -26,9 +27,13 @@ GuidedMatcher::GuidedMatcher(int max_cur, const GuidedMatchSettings& settings) :
 
 void GuidedMatcher::look_at(const FeatureSet& cur, std::span<const Eigen::Vector2d> cur_px) {
   cur_ = &cur;
-  Eigen::AlignedBox2d box(Eigen::Vector2d::Zero());
-  if (!cur_px.empty()) box = Eigen::AlignedBox2d(cur_px.front());
-  for (const Eigen::Vector2d& px : cur_px) box.extend(px);
+  taken_by_.resize(cur_px.size());
+  // A lens model far outside its range may undistort to anything.
+  const auto somewhere = [](const Eigen::Vector2d& px) { return px.cwiseAbs().maxCoeff() < kFarthestPx; };
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& px : cur_px)
+    if (px.allFinite() && somewhere(px)) box.extend(px);
+  if (box.isEmpty()) box.extend(Eigen::Vector2d::Zero());
   origin_px_ = box.min();
   cell_px_ = std::max(settings_.radius_px, box.sizes().maxCoeff() / (kMostCells - 1));
   columns_ = static_cast<int>(box.sizes().x() / cell_px_) + 1;
@@ -39,10 +44,12 @@ void GuidedMatcher::look_at(const FeatureSet& cur, std::span<const Eigen::Vector
   const auto cell_of = [&](const Eigen::Vector2d& px) {
     return static_cast<std::size_t>(row_of(px.y()) * columns_ + column_of(px.x()));
   };
-  for (const Eigen::Vector2d& px : cur_px) ++begin_[cell_of(px)];
+  for (const Eigen::Vector2d& px : cur_px)
+    if (box.contains(px)) ++begin_[cell_of(px)];
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-  candidates_.resize(cur_px.size());
+  candidates_.resize(static_cast<std::size_t>(begin_.back()));
   for (std::size_t i = cur_px.size(); i-- > 0;) {
+    if (!box.contains(cur_px[i])) continue;
     const std::int32_t place = --begin_[cell_of(cur_px[i])];
     candidates_[static_cast<std::size_t>(place)] = {cur_px[i].x(), cur_px[i].y(),
                                                     static_cast<double>(cur.features[i].sigma_px),
@@ -65,7 +72,7 @@ GuidedMatcher::Cells GuidedMatcher::cells_near(const Eigen::Vector2d& px) const 
 
 void GuidedMatcher::match(std::span<const PredictedView> predicted, const FeatureSet& ref,
                           std::vector<Match>& out) {
-  taken_by_.assign(candidates_.size(), -1);
+  std::fill(taken_by_.begin(), taken_by_.end(), -1);
   out.clear();
   const double radius2_px2 = settings_.radius_px * settings_.radius_px;
 

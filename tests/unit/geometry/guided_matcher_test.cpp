@@ -194,6 +194,9 @@ TEST(GuidedMatcher, FindsPairsHoweverFarFeaturesLie) {
   }
   std::vector<PredictedView> views = scene.predicted();
   const double infinite = std::numeric_limits<double>::infinity();
+  scene.cur_px[5] = {std::numeric_limits<double>::quiet_NaN(), 0.0};
+  scene.cur_px[6] = {infinite, -infinite};
+  scene.cur_px[7] = {1e308, -1e308};
   views[1].px = {infinite, 0.0};
   views[2].px = {0.0, std::numeric_limits<double>::quiet_NaN()};
   views[3].px = {-1e300, 1e300};
