@@ -79,6 +79,7 @@ struct SupervisorConfig {
   double frame_timeout_s = 0.3;   ///< no frame this long: camera stale
   double sip_timeout_s = 0.5;     ///< no SIP this long: robot stale
   double bumper_hold_s = 2.0;     ///< rest this long after a bumper or stall has cleared
+  double sonar_timeout_s = 1.0;   ///< no echo from the front sonars this long: they are silent
 };
 
 struct GateConfig {
@@ -87,13 +88,14 @@ struct GateConfig {
   double acceleration_m_s2 = 0.6;
   double deceleration_m_s2 = 1.5;
   double separation_m = 0.8;  ///< never drives nearer to the person than this
+  double clearance_m = 0.4;   ///< nor nearer to anything the sonars hear in its way, bumper to echo
   double yaw_acceleration_rad_s2 = 2.5;
   double command_lifetime_s = 0.2;
 };
 
 struct RobotConfig {
   std::string address = "serial:/dev/heel-robot@38400";  ///< serial:PATH@BAUD, pty:PATH@BAUD, tcp:HOST:PORT
-  bool sonar = false;
+  bool sonar = true;
   bool request_config = true;
   double config_wait_s = 1.0;  ///< go on without CONFIGpac after this
   double sync_retry_s = 1.0;

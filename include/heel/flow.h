@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -98,6 +99,13 @@ struct Odometry {
   double yaw_rate_rad_s = 0.0;
 };
 
+/// What one sonar heard last. A sonar that hears nothing tells of 5 m.
+struct SonarEcho {
+  TimeNs t_ns = 0;  ///< first byte of the SIP that told; 0: none has yet
+  double range_m = 0.0;
+};
+inline constexpr std::size_t kSonars = 16;  ///< 0…7 front from left to right, 8…15 rear from right to left
+
 /// The newest standard information packet in SI units, and the state of the line.
 struct RobotState {
   LinkPhase phase = LinkPhase::Closed;
@@ -110,6 +118,7 @@ struct RobotState {
   bool stall_right = false;
   std::uint8_t bumpers_front = 0;  ///< bit i: segment i pressed
   std::uint8_t bumpers_rear = 0;
+  std::array<SonarEcho, kSonars> sonar{};
   double battery_v = 0.0;
   std::uint64_t sips = 0;
   std::uint64_t checksum_errors = 0;
@@ -143,6 +152,7 @@ enum class StopReason : std::uint8_t {
   MotorsOff,
   Bumper,
   Stall,
+  SonarSilent,
   NoTargetYet,
   StaleFrame,
   TargetLost,
@@ -156,6 +166,7 @@ enum GateLimit : std::uint8_t {
   kGateAge = 4,
   kGateNotFinite = 8,
   kGateSeparation = 16,  ///< the person is too near
+  kGateObstacle = 32,    ///< something the sonars hear is in the way
 };
 
 /// What goes to the wire, once a tick. Expires by itself.

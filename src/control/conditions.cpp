@@ -1,5 +1,7 @@
 #include "control/conditions.h"
 
+#include <algorithm>
+
 namespace heel {
 namespace {
 
@@ -10,6 +12,12 @@ bool link_is_up(LinkPhase phase) {
 
 bool older_than(TimeNs t_ns, TimeNs now_ns, double limit_s) {
   return now_ns - t_ns > ns_from_seconds(limit_s);
+}
+
+TimeNs newest_front_echo_ns(const RobotState& robot) {
+  TimeNs newest_ns = 0;
+  for (std::size_t i = 0; i < kSonars / 2; ++i) newest_ns = std::max(newest_ns, robot.sonar[i].t_ns);
+  return newest_ns;
 }
 
 /// True while `active`, and for `hold_s` after it ended.
@@ -23,8 +31,8 @@ bool held(bool active, bool& ever, TimeNs& t_last_ns, TimeNs now_ns, double hold
 
 }  // namespace
 
-Conditions ConditionMonitor::observe(const ControlInput& input, PoseNews news,
-                                     const SupervisorConfig& config) {
+Conditions ConditionMonitor::observe(const ControlInput& input, PoseNews news, const SupervisorConfig& config,
+                                     bool sonar_on) {
   const RobotState& robot = input.robot;
   const TimeNs now_ns = input.now_ns;
   observe_target(input, news, config);
@@ -42,6 +50,7 @@ Conditions ConditionMonitor::observe(const ControlInput& input, PoseNews news,
                     config.bumper_hold_s));
   set(kStall,
       held(robot.stall_left || robot.stall_right, stalled_, t_last_stall_ns_, now_ns, config.bumper_hold_s));
+  set(kSonarSilent, sonar_on && older_than(newest_front_echo_ns(robot), now_ns, config.sonar_timeout_s));
   set(kStaleFrame, !input.has_pose || older_than(input.pose.t_capture_ns, now_ns, config.frame_timeout_s));
   set(kLowCertainty,
       !following_ && input.has_pose && input.pose.found() && input.pose.certainty < config.certainty_follow);

@@ -16,13 +16,14 @@ enum Condition : std::uint16_t {
   kMotorsOff = 1 << 4,
   kBumper = 1 << 5,        ///< pressed, or released less than the hold time ago
   kStall = 1 << 6,         ///< likewise
-  kStaleFrame = 1 << 7,    ///< no frame for the timeout, or none yet
-  kLowCertainty = 1 << 8,  ///< not following, and the shirt is seen but not surely enough
-  kTargetLost = 1 << 9,    ///< not following, having followed before
-  kNoTargetYet = 1 << 10,  ///< not following, never followed
+  kSonarSilent = 1 << 7,   ///< no word from any front sonar for the timeout, though they are on
+  kStaleFrame = 1 << 8,    ///< no frame for the timeout, or none yet
+  kLowCertainty = 1 << 9,  ///< not following, and the shirt is seen but not surely enough
+  kTargetLost = 1 << 10,   ///< not following, having followed before
+  kNoTargetYet = 1 << 11,  ///< not following, never followed
 };
 using Conditions = std::uint16_t;
-inline constexpr Conditions kAllConditions = (1 << 11) - 1;
+inline constexpr Conditions kAllConditions = (1 << 12) - 1;
 
 /// What happened to the newest pose this tick.
 enum class PoseNews : std::uint8_t {
@@ -36,7 +37,8 @@ enum class PoseNews : std::uint8_t {
 /// for `target_timeout_s`.
 class ConditionMonitor {
  public:
-  Conditions observe(const ControlInput& input, PoseNews news, const SupervisorConfig& config);
+  /// `sonar_on`: whether their silence is a fault.
+  Conditions observe(const ControlInput& input, PoseNews news, const SupervisorConfig& config, bool sonar_on);
 
  private:
   void observe_target(const ControlInput& input, PoseNews news, const SupervisorConfig& config);

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "control/conditions.h"
+#include "control/echoes.h"
 #include "control/follow_law.h"
 #include "control/gate.h"
 #include "control/supervisor.h"
@@ -25,8 +26,10 @@ struct ControlStage::Impl {
   SupervisorConfig supervisor;
   GateConfig gate;
   CameraMount mount;
+  bool sonar_on = true;
 
   TargetEstimator estimator;
+  EchoMemory echoes;
   ConditionMonitor monitor;
   VelocityCommand last_command;
   std::uint64_t ticks = 0;
@@ -41,6 +44,7 @@ void ControlStage::Impl::reconfigure(const Config& config) {
   supervisor = config.supervisor;
   gate = config.gate;
   mount = mount_of(config.camera);
+  sonar_on = config.robot.sonar;
   estimator.reconfigure(config);
 }
 
@@ -49,8 +53,11 @@ void ControlStage::Impl::follow_the_robot(const RobotState& robot) {
   if (robot.reconnects != reconnects) {
     reconnects = robot.reconnects;
     estimator.reset();
+    echoes.clear();
   }
-  if (robot.has_sip) estimator.see_robot(robot.odometry);
+  if (!robot.has_sip) return;
+  estimator.see_robot(robot.odometry);
+  if (sonar_on) echoes.see(robot);
 }
 
 PoseNews ControlStage::Impl::take_news(const ControlInput& input) {
@@ -91,11 +98,11 @@ TickRecord ControlStage::tick(const ControlInput& input) {
   s.follow_the_robot(input.robot);
   const PoseNews news = s.take_news(input);
   record.target = s.estimator.at(input.now_ns);
-  const Verdict verdict = supervise(s.monitor.observe(input, news, s.supervisor));
+  const Verdict verdict = supervise(s.monitor.observe(input, news, s.supervisor, s.sonar_on));
   record.stop_reason = verdict.reason;
   record.wanted = follow(record.target, s.control, s.mount, input.now_ns, s.gate.command_lifetime_s);
-  record.command = pass_gate(record.wanted, s.last_command, verdict.style, s.range_ahead(record.target),
-                             input.now_ns, s.gate);
+  const Surroundings around{s.range_ahead(record.target), s.echoes.at(input.now_ns, input.robot.odometry)};
+  record.command = pass_gate(record.wanted, s.last_command, verdict.style, around, input.now_ns, s.gate);
   s.last_command = record.command;
   return record;
 }

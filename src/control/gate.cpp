@@ -31,10 +31,10 @@ double slewed(double from, double to, double gain_step, double loss_step) {
   return sign * std::clamp(aim, std::max(now - loss_step, 0.0), now + gain_step);
 }
 
-/// Fastest approach from which half the deceleration still stops at the separation.
-double approach_limit(double range_m, const GateConfig& limits) {
-  if (!(range_m > limits.separation_m)) return 0.0;
-  return std::sqrt(limits.deceleration_m_s2 * (range_m - limits.separation_m));
+/// Fastest approach from which half the deceleration still stops at `nearest_m`.
+double approach_limit(double range_m, double nearest_m, const GateConfig& limits) {
+  if (!(range_m > nearest_m)) return 0.0;
+  return std::sqrt(limits.deceleration_m_s2 * (range_m - nearest_m));
 }
 
 Motion moving_at(const VelocityCommand& previous, TimeNs now_ns, const GateConfig& limits) {
@@ -46,7 +46,7 @@ Motion moving_at(const VelocityCommand& previous, TimeNs now_ns, const GateConfi
 }  // namespace
 
 VelocityCommand pass_gate(const VelocityCommand& wanted, const VelocityCommand& previous, StopStyle style,
-                          double range_m, TimeNs now_ns, const GateConfig& limits) {
+                          const Surroundings& around, TimeNs now_ns, const GateConfig& limits) {
   VelocityCommand out;
   out.t_issued_ns = now_ns;
   out.t_expires_ns = now_ns + ns_from_seconds(limits.command_lifetime_s);
@@ -67,12 +67,18 @@ VelocityCommand pass_gate(const VelocityCommand& wanted, const VelocityCommand& 
   aim.yaw_rate_rad_s = bounded(aim.yaw_rate_rad_s, -limits.yaw_rate_max_rad_s, limits.yaw_rate_max_rad_s,
                                kGateSpeed, limited_by);
   aim.v_m_s =
-      bounded(aim.v_m_s, -limits.v_max_m_s, approach_limit(range_m, limits), kGateSeparation, limited_by);
+      bounded(aim.v_m_s, -limits.v_max_m_s, approach_limit(around.person_m, limits.separation_m, limits),
+              kGateSeparation, limited_by);
+  // The way the robot is to take must be free, and so must the way it is on until it has changed over.
+  const Motion now = moving_at(previous, now_ns, limits);
+  const double free_m = std::min(around.echoes.free_way_m(aim.v_m_s, aim.yaw_rate_rad_s),
+                                 around.echoes.free_way_m(now.v_m_s, now.yaw_rate_rad_s));
+  const double cautious_m_s = approach_limit(free_m, limits.clearance_m, limits);
+  aim.v_m_s = bounded(aim.v_m_s, -cautious_m_s, cautious_m_s, kGateObstacle, limited_by);
 
   const bool stale = now_ns > previous.t_expires_ns;  // after a gap the first command is zero
   const TimeNs gap_ns = stale ? 0 : std::clamp<TimeNs>(now_ns - previous.t_issued_ns, 0, kLongestSlew_ns);
   const double dt_s = seconds_from_ns(gap_ns);
-  const Motion now = moving_at(previous, now_ns, limits);
   out.v_m_s = slewed(now.v_m_s, aim.v_m_s, limits.acceleration_m_s2 * dt_s, limits.deceleration_m_s2 * dt_s);
   const double yaw_step = limits.yaw_acceleration_rad_s2 * dt_s;
   out.yaw_rate_rad_s =

@@ -2,6 +2,9 @@
 // reach of the command before it at the acceleration limits, and expires.
 #pragma once
 
+#include <limits>
+
+#include "control/echoes.h"
 #include "control/supervisor.h"
 #include "heel/config.h"
 #include "heel/flow.h"
@@ -12,8 +15,13 @@ namespace heel {
 /// command after it is zero. Longer gaps between ticks than `kLongestSlew_ns` do not allow larger steps.
 inline constexpr TimeNs kLongestSlew_ns = 100 * kNsPerMs;
 
-/// `range_m` is from the camera to the person's back, ahead of it; infinite when not known.
+/// What the robot must keep away from, now.
+struct Surroundings {
+  double person_m = std::numeric_limits<double>::infinity();  ///< camera to back, when the person is ahead
+  Echoes echoes;
+};
+
 VelocityCommand pass_gate(const VelocityCommand& wanted, const VelocityCommand& previous, StopStyle style,
-                          double range_m, TimeNs now_ns, const GateConfig& limits);
+                          const Surroundings& around, TimeNs now_ns, const GateConfig& limits);
 
 }  // namespace heel

@@ -4,7 +4,7 @@ namespace heel {
 namespace {
 
 // Why this order: what a person did on purpose, then what makes the robot's answers meaningless, then what it
-// touches, then what it cannot see. The rows about seeing go from the most to the least specific.
+// touches, then what it cannot hear or see. The rows about seeing go from the most to the least specific.
 constexpr SupervisorRow kTable[] = {
     {kShutdown, StopReason::Shutdown, StopStyle::AtOnce},
     {kLinkDown, StopReason::LinkDown, StopStyle::AtOnce},
@@ -13,6 +13,7 @@ constexpr SupervisorRow kTable[] = {
     {kMotorsOff, StopReason::MotorsOff, StopStyle::AtOnce},
     {kBumper, StopReason::Bumper, StopStyle::AtOnce},
     {kStall, StopReason::Stall, StopStyle::AtOnce},
+    {kSonarSilent, StopReason::SonarSilent, StopStyle::ComeToRest},
     {kStaleFrame, StopReason::StaleFrame, StopStyle::ComeToRest},
     {kLowCertainty, StopReason::LowCertainty, StopStyle::ComeToRest},
     {kTargetLost, StopReason::TargetLost, StopStyle::ComeToRest},

@@ -94,11 +94,13 @@ void Daemon::announce() const {
                verdict_line(inputs_.verdict));
   spdlog::info("robot: {}", c.robot.address);
   spdlog::info(
-      "limits: {:.2f} m/s, {:.2f} rad/s, {:.2f} m/s² up and {:.2f} down, no nearer than {:.2f} m; {}; a "
-      "command "
-      "lives {:.2f} s",
+      "limits: {:.2f} m/s, {:.2f} rad/s, {:.2f} m/s² up and {:.2f} down, no nearer than {:.2f} m to the "
+      "person and "
+      "{}; {}; a command lives {:.2f} s",
       c.gate.v_max_m_s, c.gate.yaw_rate_max_rad_s, c.gate.acceleration_m_s2, c.gate.deceleration_m_s2,
-      c.gate.separation_m, c.control.reverse ? "may reverse" : "no reverse", c.gate.command_lifetime_s);
+      c.gate.separation_m,
+      c.robot.sonar ? fmt::format("{:.2f} m to what the sonars hear", c.gate.clearance_m) : "without sonars",
+      c.control.reverse ? "may reverse" : "no reverse", c.gate.command_lifetime_s);
 }
 
 int Daemon::run() {

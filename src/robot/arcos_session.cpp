@@ -170,6 +170,7 @@ void ArcosSession::on_sip(const arcos::Packet& packet) {
   }
   state_.odometry = odometry_.pose();
   copy_status(sip_, state_);
+  copy_sonar(sip_, t_ns, state_);
   ++state_.sips;
   t_sip_ns_ = t_ns;
   if (!sip_seen_) {

@@ -63,6 +63,8 @@ const char* to_string(StopReason reason) {
       return "bumper pressed";
     case StopReason::Stall:
       return "wheels stalled";
+    case StopReason::SonarSilent:
+      return "sonars silent";
     case StopReason::NoTargetYet:
       return "no target seen yet";
     case StopReason::StaleFrame:

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace heel {
 namespace {
 
@@ -13,6 +15,7 @@ struct Bench {
   SupervisorConfig config;
   ConditionMonitor monitor;
   ControlInput input;
+  bool sonar_on = true;
 
   Bench() {
     input.now_ns = 10 * kNsPerS;
@@ -26,23 +29,24 @@ struct Bench {
   }
   void freshen() {
     input.robot.odometry.t_ns = input.now_ns;
+    input.robot.sonar[3].t_ns = input.now_ns;
     input.pose.t_capture_ns = input.now_ns;
   }
   Conditions frame(PoseNews news = PoseNews::Believed, double certainty = 0.4) {
     input.now_ns += kFrame_ns;
     freshen();
     input.pose.certainty = certainty;
-    return monitor.observe(input, news, config);
+    return monitor.observe(input, news, config, sonar_on);
   }
   Conditions idle(TimeNs dt_ns) {  // time passes, frames come, nobody in them
     input.now_ns += dt_ns;
     freshen();
-    return monitor.observe(input, PoseNews::Refused, config);
+    return monitor.observe(input, PoseNews::Refused, config, sonar_on);
   }
   void start_following() {
     for (int i = 0; i < config.frames_to_follow; ++i) frame();
   }
-  Conditions same_tick() { return monitor.observe(input, PoseNews::None, config); }
+  Conditions same_tick() { return monitor.observe(input, PoseNews::None, config, sonar_on); }
 };
 
 TEST(Conditions, NoneWhileFollowing) {
@@ -72,6 +76,9 @@ TEST(Conditions, EachInputRaisesItsOwnBitAlone) {
       {kBumper, [](ControlInput& in) { in.robot.bumpers_rear = 1; }},
       {kStall, [](ControlInput& in) { in.robot.stall_left = true; }},
       {kStall, [](ControlInput& in) { in.robot.stall_right = true; }},
+      {kSonarSilent, [](ControlInput& in) { in.robot.sonar[3].t_ns -= 1001 * kNsPerMs; }},
+      {kSonarSilent,
+       [](ControlInput& in) { std::swap(in.robot.sonar[3], in.robot.sonar[11]); }},  // rear only
       {kStaleFrame, [](ControlInput& in) { in.has_pose = false; }},
       {kStaleFrame, [](ControlInput& in) { in.pose.t_capture_ns -= 301 * kNsPerMs; }},
   };
@@ -90,11 +97,20 @@ TEST(Conditions, DisabledIsALiveLine) {
   EXPECT_EQ(bench.same_tick(), 0);
 }
 
+TEST(Conditions, SonarsThatAreOffMayBeSilent) {
+  Bench bench;
+  bench.sonar_on = false;
+  bench.start_following();
+  bench.input.robot.sonar = {};
+  EXPECT_EQ(bench.same_tick(), 0);
+}
+
 TEST(Conditions, TimeoutsAreInclusive) {
   Bench bench;
   bench.start_following();
   bench.input.robot.odometry.t_ns = bench.input.now_ns - ns_from_seconds(bench.config.sip_timeout_s);
   bench.input.pose.t_capture_ns = bench.input.now_ns - ns_from_seconds(bench.config.frame_timeout_s);
+  bench.input.robot.sonar[3].t_ns = bench.input.now_ns - ns_from_seconds(bench.config.sonar_timeout_s);
   EXPECT_EQ(bench.same_tick(), 0);
 }
 

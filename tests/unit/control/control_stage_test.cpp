@@ -17,6 +17,7 @@ struct Following {
   FloorPose person{3.0, 0.0, 0.0};
   double person_v_m_s = 0.5, person_yaw_rate_rad_s = 0.0;
   bool camera = true, visible = true;
+  double ahead_m = 0.0;  // what the front sonar left of the middle hears, when more than 0
   ControlInput input;
   TickRecord record;
   double v_m_s = 0.0, yaw_rate_rad_s = 0.0;
@@ -32,6 +33,8 @@ struct Following {
   void tick() {
     if (input.now_ns % (100 * kNsPerMs) == 0) {
       input.robot.odometry = truth::odometry(input.now_ns, robot, v_m_s, yaw_rate_rad_s);
+      input.robot.sonar.fill({input.now_ns, 5.0});
+      if (ahead_m > 0.0) input.robot.sonar[3].range_m = ahead_m;
     }
     if (camera && input.now_ns % (40 * kNsPerMs) == 0) {
       const std::uint64_t sequence = input.pose.frame_sequence + 1;
@@ -129,6 +132,36 @@ TEST(ControlStage, ReasonsAboutTheRobotStopAtOnceAndResumeFromZero) {
     last_v = run.v_m_s;
   }
   EXPECT_GT(last_v, 0.2);
+}
+
+TEST(ControlStage, SomethingInTheWayIsNotDrivenInto) {
+  Following run;
+  run.run(10.0);
+  ASSERT_GT(run.v_m_s, 0.4);
+  const FloorPose begin = run.robot;
+  for (const TimeNs end_ns = run.input.now_ns + 10 * kNsPerS; run.input.now_ns < end_ns; run.tick())
+    run.ahead_m = std::max(1.5 - (run.robot.x_m - begin.x_m), 0.15);
+  EXPECT_EQ(run.v_m_s, 0.0);
+  EXPECT_EQ(run.record.stop_reason, StopReason::None);
+  EXPECT_TRUE(run.record.command.limited_by & kGateObstacle);
+  // The sonar sits 68 mm behind the bumper and looks 10° to the side.
+  EXPECT_NEAR(run.ahead_m * std::cos(0.1745) - 0.068, run.config.gate.clearance_m, 0.07);
+}
+
+TEST(ControlStage, SilentSonarsAreAReasonToRestUnlessTheyAreOff) {
+  for (const bool sonar : {true, false}) {
+    Following run;
+    run.config.robot.sonar = sonar;
+    run.stage.reconfigure(run.config);
+    run.run(10.0);
+    ASSERT_GT(run.v_m_s, 0.4);
+    for (int i = 0; i < 100; ++i) {
+      run.tick();
+      run.input.robot.sonar.fill({7 * kNsPerS, 0.2});  // older than anything, and near
+    }
+    EXPECT_EQ(run.record.stop_reason, sonar ? StopReason::SonarSilent : StopReason::None);
+    EXPECT_EQ(run.v_m_s == 0.0, sonar);
+  }
 }
 
 TEST(ControlStage, ShutdownIsZero) {

@@ -19,8 +19,8 @@ VelocityCommand command(double v_m_s, double yaw_rate_rad_s, TimeNs t_issued_ns 
 }
 
 VelocityCommand pass(const VelocityCommand& wanted, const VelocityCommand& previous,
-                     StopStyle style = StopStyle::Go, double range_m = kInf) {
-  return pass_gate(wanted, previous, style, range_m, kNow_ns, GateConfig{});
+                     StopStyle style = StopStyle::Go, const Surroundings& around = {}) {
+  return pass_gate(wanted, previous, style, around, kNow_ns, GateConfig{});
 }
 
 TEST(Gate, LetsAModestCommandThroughUntouched) {
@@ -62,7 +62,7 @@ TEST(Gate, ComesToRestWithinTheDeceleration) {
   while (last.v_m_s != 0.0 || last.yaw_rate_rad_s != 0.0) {
     now_ns += kTick_ns;
     const auto next =
-        pass_gate(command(0.7, -1.0, now_ns), last, StopStyle::ComeToRest, kInf, now_ns, GateConfig{});
+        pass_gate(command(0.7, -1.0, now_ns), last, StopStyle::ComeToRest, {}, now_ns, GateConfig{});
     ASSERT_LE(last.v_m_s - next.v_m_s, 1.5 * 0.02 + 1e-12);
     last = next;
   }
@@ -96,16 +96,48 @@ TEST(Gate, StopsShortOfTheSeparation) {
   TimeNs now_ns = kNow_ns;
   for (int i = 0; i < 2000; ++i) {
     now_ns += kTick_ns;
-    last = pass_gate(command(0.7, 0, now_ns), last, StopStyle::Go, range_m, now_ns, limits);
+    last = pass_gate(command(0.7, 0, now_ns), last, StopStyle::Go, {range_m, {}}, now_ns, limits);
     range_m -= last.v_m_s * 0.02;
   }
   EXPECT_GE(range_m, limits.separation_m - 1e-3);
   EXPECT_LT(range_m, limits.separation_m + 0.1);
   EXPECT_TRUE(last.limited_by & kGateSeparation);
   // A range that is not a number is no permission.
-  EXPECT_EQ(pass(command(0.5, 0), command(0.0, 0, kNow_ns - kTick_ns), StopStyle::Go, kNaN).v_m_s, 0.0);
+  EXPECT_EQ(pass(command(0.5, 0), command(0.0, 0, kNow_ns - kTick_ns), StopStyle::Go, {kNaN, {}}).v_m_s, 0.0);
   // Backing away is still allowed.
-  EXPECT_LT(pass(command(-0.5, 0), command(0, 0, kNow_ns - kTick_ns), StopStyle::Go, 0.3).v_m_s, 0.0);
+  EXPECT_LT(pass(command(-0.5, 0), command(0, 0, kNow_ns - kTick_ns), StopStyle::Go, {0.3, {}}).v_m_s, 0.0);
+}
+
+TEST(Gate, StopsShortOfWhatTheSonarsHear) {
+  const GateConfig limits;
+  double thing_m = 3.0;  // ahead of the bumper
+  VelocityCommand last = command(0, 0, kNow_ns);
+  TimeNs now_ns = kNow_ns;
+  const auto step = [&](double v_m_s) {
+    now_ns += kTick_ns;
+    Surroundings around;
+    around.echoes.add({0.313 + thing_m, 0.1});
+    last = pass_gate(command(v_m_s, 0, now_ns), last, StopStyle::Go, around, now_ns, limits);
+    thing_m -= last.v_m_s * 0.02;
+  };
+  for (int i = 0; i < 2000; ++i) step(0.7);
+  EXPECT_GE(thing_m, limits.clearance_m - 1e-3);
+  EXPECT_LT(thing_m, limits.clearance_m + 0.1);
+  EXPECT_TRUE(last.limited_by & kGateObstacle);
+  for (int i = 0; i < 100; ++i) step(-0.5);  // backing away is still allowed
+  EXPECT_GT(thing_m, limits.clearance_m + 0.3);
+}
+
+TEST(Gate, BrakesForTheWayItIsOnAsWellAsForTheOneItTurnsTo) {
+  Surroundings left, right;
+  left.echoes.add({0.7, 0.45});    // on an arc to the left, not straight ahead
+  right.echoes.add({0.7, -0.45});  // and mirrored
+  const auto turning = command(0.6, 0.9, kNow_ns - kTick_ns);
+  EXPECT_LT(pass(command(0.6, 0), turning, StopStyle::Go, left).v_m_s, 0.6);
+  EXPECT_EQ(pass(command(0.6, 0), turning, StopStyle::Go, right).v_m_s, 0.6);
+  const auto straight = command(0.6, 0, kNow_ns - kTick_ns);
+  EXPECT_LT(pass(command(0.6, 0.9), straight, StopStyle::Go, left).v_m_s, 0.6);
+  EXPECT_EQ(pass(command(0.6, 0.9), straight, StopStyle::Go, right).v_m_s, 0.6);
 }
 
 double any_double() {
@@ -123,12 +155,19 @@ VelocityCommand any_command() {
   return {any_time(), any_time(), any_double(), any_double(), *rc::gen::arbitrary<std::uint8_t>()};
 }
 
+Surroundings any_surroundings() {
+  Surroundings around{any_double(), {}};
+  for (std::size_t i = *rc::gen::inRange<std::size_t>(0, kSonars + 1); i > 0; --i)
+    around.echoes.add({any_double(), any_double()});
+  return around;
+}
+
 RC_GTEST_PROP(GateProperty, NothingEverExceedsALimitAndEverythingExpires, ()) {
   const GateConfig limits;
   const VelocityCommand wanted = any_command();
   const VelocityCommand previous = any_command();
   const auto style = *rc::gen::element(StopStyle::Go, StopStyle::ComeToRest, StopStyle::AtOnce);
-  const auto out = pass_gate(wanted, previous, style, any_double(), kNow_ns, limits);
+  const auto out = pass_gate(wanted, previous, style, any_surroundings(), kNow_ns, limits);
 
   RC_ASSERT(std::isfinite(out.v_m_s) && std::isfinite(out.yaw_rate_rad_s));
   RC_ASSERT(std::abs(out.v_m_s) <= limits.v_max_m_s);
@@ -149,7 +188,7 @@ RC_GTEST_PROP(GateProperty, NoStepIsLargerThanTheAccelerationsAllow, ()) {
     VelocityCommand wanted = any_command();
     wanted.t_expires_ns = now_ns + 1;
     const auto out = pass_gate(wanted, last, *rc::gen::element(StopStyle::Go, StopStyle::ComeToRest),
-                               any_double(), now_ns, limits);
+                               any_surroundings(), now_ns, limits);
     const double gain = std::abs(out.v_m_s) - std::abs(last.v_m_s);
     RC_ASSERT(gain <= limits.acceleration_m_s2 * dt_s + 1e-12);
     RC_ASSERT(-gain <= limits.deceleration_m_s2 * dt_s + 1e-12);

@@ -36,6 +36,7 @@ StopReason expected_reason(unsigned c) {
   if (c & kMotorsOff) return StopReason::MotorsOff;
   if (c & kBumper) return StopReason::Bumper;
   if (c & kStall) return StopReason::Stall;
+  if (c & kSonarSilent) return StopReason::SonarSilent;
   if (c & kStaleFrame) return StopReason::StaleFrame;
   if (c & kLowCertainty) return StopReason::LowCertainty;
   if (c & kTargetLost) return StopReason::TargetLost;
@@ -47,10 +48,11 @@ TEST(Supervisor, EveryCombinationGivesTheFirstReasonAndItsStyle) {
   for (unsigned conditions = 0; conditions <= kAllConditions; ++conditions) {
     const Verdict verdict = supervise(static_cast<Conditions>(conditions));
     ASSERT_EQ(verdict.reason, expected_reason(conditions)) << conditions;
-    const bool about_seeing_only =
-        (conditions & ~unsigned{kStaleFrame | kLowCertainty | kTargetLost | kNoTargetYet}) == 0;
+    const bool about_senses_only =
+        (conditions & ~unsigned{kSonarSilent | kStaleFrame | kLowCertainty | kTargetLost | kNoTargetYet}) ==
+        0;
     const StopStyle style = conditions == 0     ? StopStyle::Go
-                            : about_seeing_only ? StopStyle::ComeToRest
+                            : about_senses_only ? StopStyle::ComeToRest
                                                 : StopStyle::AtOnce;
     ASSERT_EQ(verdict.style, style) << conditions;
   }

@@ -25,7 +25,7 @@ TEST(SessionConnect, WholeScriptInOrder) {
       {CommandId::Open, true, 1},    {CommandId::Stop, false, 0},   {CommandId::Config, true, 1},
       {CommandId::SetV, true, 750},  {CommandId::SetA, true, 600},  {CommandId::SetA, true, -1500},
       {CommandId::SetRv, true, 100}, {CommandId::SetRa, true, 180}, {CommandId::SetRa, true, -180},
-      {CommandId::Sonar, true, 0},   {CommandId::Vel, true, 0},     {CommandId::RVel, true, 0},
+      {CommandId::Sonar, true, 1},   {CommandId::Vel, true, 0},     {CommandId::RVel, true, 0},
       {CommandId::Enable, true, 1},
   };
   ASSERT_GE(bench.robot.log.size(), std::size(script));
@@ -184,12 +184,20 @@ TEST(SessionConfig, ControllersOwnLimitsAreNotExceeded) {
 TEST(SessionConfig, NotAskedWhenNotWanted) {
   RobotConfig config = bench_config();
   config.request_config = false;
-  config.sonar = true;
   SessionBench bench(config);
   ASSERT_TRUE(bench.run_until(LinkPhase::Running));
   EXPECT_TRUE(bench.robot.received(CommandId::Config).empty());
   EXPECT_EQ(bench.count(Kind::ConfigMissing), 0);
-  EXPECT_EQ(bench.robot.received(CommandId::Sonar).at(0).value, 1);
+}
+
+TEST(SessionConfig, SonarsAreOnOrOffAsConfigured) {
+  for (const bool on : {true, false}) {
+    RobotConfig config = bench_config();
+    config.sonar = on;
+    SessionBench bench(config);
+    ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+    EXPECT_EQ(bench.robot.received(CommandId::Sonar).at(0).value, on ? 1 : 0);
+  }
 }
 
 TEST(SessionEnable, AskedAgainUntilTheFlagConfirms) {

@@ -50,6 +50,35 @@ TEST(Footprint, RaysMeetItWhereGeometrySays) {
   EXPECT_NEAR(disc.nearest_m({3, 4}).norm(), 0.5, 1e-12);
 }
 
+TEST(Footprint, AConeHearsItsNearestPartInside) {
+  Footprint disc;
+  disc.radius_m = 0.5;
+  EXPECT_NEAR(disc.in_cone_m({-2, 0}, 0.0, 0.26), 1.5, 1e-12);
+  EXPECT_NEAR(disc.in_cone_m({-2, 0}, 0.2, 0.26), 1.5, 1e-12);  // the nearest point lies in the cone still
+  EXPECT_NEAR(disc.in_cone_m({-2, 0}, 0.4, 0.26), disc.ray_m({-2, 0}, {std::cos(0.14), std::sin(0.14)}),
+              1e-12);
+  EXPECT_EQ(disc.in_cone_m({-2, 0}, 0.6, 0.26), kInf);
+  EXPECT_EQ(disc.in_cone_m({-2, 0}, M_PI, 0.26), kInf);
+  EXPECT_EQ(disc.in_cone_m({0.1, 0}, 2.0, 0.26), 0.0);  // from inside
+  // Against many rays, over a box and headings all round.
+  Footprint box;
+  box.centre_m = {1.2, 0.4};
+  box.heading_rad = 0.7;
+  box.length_m = 1.0;
+  box.width_m = 0.4;
+  for (double heading = -3.0; heading < 3.0; heading += 0.1) {
+    double nearest = kInf;
+    for (double off = -0.26; off <= 0.26; off += 1e-4)
+      nearest = std::min(nearest, box.ray_m({0, 0}, {std::cos(heading + off), std::sin(heading + off)}));
+    const double heard = box.in_cone_m({0, 0}, heading, 0.26);
+    if (nearest == kInf) {
+      EXPECT_TRUE(heard == kInf || heard > 0.9) << heading;  // an edge that no ray met
+    } else {
+      EXPECT_NEAR(heard, nearest, 1e-3) << heading;
+    }
+  }
+}
+
 TEST(Obstacle, ADoorwayIsTwoJambsAndALintel) {
   ObstacleSettings door;
   door.kind = ObstacleKind::Doorway;

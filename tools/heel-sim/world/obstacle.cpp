@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace heel::sim {
 namespace {
@@ -79,6 +80,18 @@ Eigen::Vector2d Footprint::nearest_m(const Eigen::Vector2d& point_m) const {
   const Eigen::Vector2d half(0.5 * length_m, 0.5 * width_m);
   const Eigen::Vector2d inside = turned(off, -heading_rad).cwiseMax(-half).cwiseMin(half);
   return centre_m + turned(inside, heading_rad);
+}
+
+double Footprint::in_cone_m(const Eigen::Vector2d& from_m, double axis_rad, double half_angle_rad) const {
+  // It is convex: its nearest part in the cone is its nearest of all or lies on an edge of the cone.
+  const Eigen::Vector2d to_nearest_m = nearest_m(from_m) - from_m;
+  const double off_rad =
+      std::remainder(std::atan2(to_nearest_m.y(), to_nearest_m.x()) - axis_rad, 2.0 * std::numbers::pi);
+  if (std::abs(off_rad) <= half_angle_rad) return to_nearest_m.norm();
+  const auto along_edge = [&](double edge_rad) {
+    return ray_m(from_m, {std::cos(edge_rad), std::sin(edge_rad)});
+  };
+  return std::min(along_edge(axis_rad - half_angle_rad), along_edge(axis_rad + half_angle_rad));
 }
 
 }  // namespace heel::sim

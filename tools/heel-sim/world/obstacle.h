@@ -50,6 +50,8 @@ struct Footprint {
   double ray_m(const Eigen::Vector2d& from_m, const Eigen::Vector2d& direction) const;
   /// Nearest point of it, outline or inside, to `point_m`.
   Eigen::Vector2d nearest_m(const Eigen::Vector2d& point_m) const;
+  /// Distance to its nearest part within a cone about `axis_rad`; infinity when there is none. 0 from inside.
+  double in_cone_m(const Eigen::Vector2d& from_m, double axis_rad, double half_angle_rad) const;
   /// No part of it is farther from its centre.
   double reach_m() const;
 };

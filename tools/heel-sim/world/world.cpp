@@ -172,10 +172,15 @@ std::vector<Footprint> World::people_footprints(double t_s) const {
 
 double World::range_m(double x_m, double y_m, double heading_rad, double t_s) const {
   const Eigen::Vector2d from(x_m, y_m);
-  const Eigen::Vector2d direction(std::cos(heading_rad), std::sin(heading_rad));
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Footprint& thing : room_.footprints()) nearest = std::min(nearest, thing.ray_m(from, direction));
-  for (const Footprint& who : people_footprints(t_s)) nearest = std::min(nearest, who.ray_m(from, direction));
+  const auto hear = [&](const std::vector<Footprint>& things) {
+    for (const Footprint& thing : things) {
+      if ((thing.centre_m - from).norm() - thing.reach_m() > kSonarReachM) continue;
+      nearest = std::min(nearest, thing.in_cone_m(from, heading_rad, kSonarHalfBeamRad));
+    }
+  };
+  hear(room_.footprints());
+  hear(people_footprints(t_s));
   return nearest;
 }
 
