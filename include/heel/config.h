@@ -10,7 +10,7 @@ namespace heel {
 struct CameraConfig {
   std::string source = "v4l2:/dev/heel-camera";  ///< v4l2:PATH, libcamera:ID, file:PATH, sim:NAME
   std::string info = "camera.yaml";              ///< camera_info YAML
-  std::string format = "auto";                   ///< auto, YUYV, GREY, NV12, MJPG
+  std::string format = "auto";                   ///< auto, YUYV, GREY, NV12, RGB3, BGR3, MJPG
   int width_px = 640;
   int height_px = 480;
   double rate_hz = 30.0;

@@ -21,7 +21,6 @@ namespace heel {
 namespace {
 
 constexpr unsigned kBuffers = 4;
-constexpr std::array kPreference{PixelFormat::Grey, PixelFormat::Nv12, PixelFormat::Yuyv, PixelFormat::Mjpg};
 
 libcamera::PixelFormat library_format(PixelFormat format) {
   switch (format) {
@@ -31,6 +30,11 @@ libcamera::PixelFormat library_format(PixelFormat format) {
       return libcamera::formats::NV12;
     case PixelFormat::Yuyv:
       return libcamera::formats::YUYV;
+    // libcamera names them as DRM does, from the highest byte of a little-endian word down.
+    case PixelFormat::Rgb3:
+      return libcamera::formats::BGR888;
+    case PixelFormat::Bgr3:
+      return libcamera::formats::RGB888;
     case PixelFormat::Mjpg:
       break;
   }
@@ -158,7 +162,7 @@ OpenResult LibcameraSource::configure() {
   PixelFormat only = PixelFormat::Grey;
   const bool named = parse_pixel_format(config_.format, only);
   bool agreed = false;
-  for (const PixelFormat candidate : kPreference) {
+  for (const PixelFormat candidate : pixel_formats()) {
     if (agreed || (named && candidate != only)) continue;
     stream.pixelFormat = library_format(candidate);
     stream.size = size;
@@ -291,24 +295,15 @@ FrameResult LibcameraSource::deliver(TimeNs arrived_ns, FrameView& frame) {
     ++counters_.corrupt;
     return fail(FrameResult::Error, "a frame that is too short");
   }
-  frame.grey = s.grey.data();
-  frame.stride_bytes = width_px;
-  switch (s.format) {
-    case PixelFormat::Grey:
-    case PixelFormat::Nv12:
-      frame.grey = mapping->data();
-      frame.stride_bytes = stride;
-      break;
-    case PixelFormat::Yuyv:
-      grey_from_yuyv(mapping->data(), stride, width_px, height_px, s.grey.data());
-      break;
-    case PixelFormat::Mjpg:
-      if (!s.jpeg.decode(mapping->data(), used, width_px, height_px, s.grey.data())) {
-        ++counters_.corrupt;
-        return fail(FrameResult::Error, s.jpeg.problem());
-      }
-      break;
+  Luma luma{s.grey.data(), width_px};
+  if (s.format != PixelFormat::Mjpg) {
+    luma = luma_of(s.format, mapping->data(), stride, width_px, height_px, s.grey.data());
+  } else if (!s.jpeg.decode(mapping->data(), used, width_px, height_px, s.grey.data())) {
+    ++counters_.corrupt;
+    return fail(FrameResult::Error, s.jpeg.problem());
   }
+  frame.grey = luma.first;
+  frame.stride_bytes = luma.stride_bytes;
   return FrameResult::Frame;
 }
 

@@ -21,6 +21,10 @@ std::uint32_t fourcc_of(PixelFormat format) {
       return V4L2_PIX_FMT_NV12;
     case PixelFormat::Yuyv:
       return V4L2_PIX_FMT_YUYV;
+    case PixelFormat::Rgb3:
+      return V4L2_PIX_FMT_RGB24;
+    case PixelFormat::Bgr3:
+      return V4L2_PIX_FMT_BGR24;
     case PixelFormat::Mjpg:
       return V4L2_PIX_FMT_MJPEG;
   }
@@ -143,8 +147,7 @@ void agree_on_format(V4l2Device& device, const CameraConfig& config, V4l2Agreeme
   bool any = false;
   PixelFormat fastest = PixelFormat::Grey;
   double fastest_hz = -1.0;
-  for (const PixelFormat candidate :
-       {PixelFormat::Grey, PixelFormat::Nv12, PixelFormat::Yuyv, PixelFormat::Mjpg}) {
+  for (const PixelFormat candidate : pixel_formats()) {
     if (!is_offered(offered, candidate)) continue;
     any = true;
     if (!try_format(device, config, candidate, agreement)) continue;
@@ -160,8 +163,8 @@ void agree_on_format(V4l2Device& device, const CameraConfig& config, V4l2Agreeme
   if (!any) {
     std::string names;
     for (const std::uint32_t fourcc : offered) names += (names.empty() ? "" : ", ") + fourcc_text(fourcc);
-    agreement.problem =
-        "offers " + (names.empty() ? "no format" : names) + "; expected one of GREY, NV12, YUYV, MJPG";
+    agreement.problem = "offers " + (names.empty() ? "no format" : names) +
+                        "; expected one of GREY, NV12, YUYV, RGB3, BGR3, MJPG";
     return;
   }
   if (fastest_hz >= 0.0) agreement.agreed = try_format(device, config, fastest, agreement);

@@ -171,23 +171,15 @@ FrameResult V4l2Source::deliver(const v4l2_buffer& buffer, FrameView& frame) {
   if (buffer.bytesused > memory.bytes || buffer.bytesused == 0 || buffer.bytesused < needed) {
     return refuse("a frame that is too short");
   }
-  frame.grey = grey_.data();
-  frame.stride_bytes = width_px;
-  switch (agreement_.format) {
-    case PixelFormat::Grey:
-    case PixelFormat::Nv12:
-      frame.grey = memory.data;
-      frame.stride_bytes = agreement_.stride_bytes;
-      break;
-    case PixelFormat::Yuyv:
-      grey_from_yuyv(memory.data, agreement_.stride_bytes, width_px, height_px, grey_.data());
-      break;
-    case PixelFormat::Mjpg:
-      if (!jpeg_.decode(memory.data, buffer.bytesused, width_px, height_px, grey_.data())) {
-        return refuse(jpeg_.problem());
-      }
-      break;
+  Luma luma{grey_.data(), width_px};
+  if (agreement_.format != PixelFormat::Mjpg) {
+    luma =
+        luma_of(agreement_.format, memory.data, agreement_.stride_bytes, width_px, height_px, grey_.data());
+  } else if (!jpeg_.decode(memory.data, buffer.bytesused, width_px, height_px, grey_.data())) {
+    return refuse(jpeg_.problem());
   }
+  frame.grey = luma.first;
+  frame.stride_bytes = luma.stride_bytes;
   return FrameResult::Frame;
 }
 

@@ -59,7 +59,7 @@ const ConfigKey kKeys[] = {
     address(HEEL_KEY(camera, source), "v4l2|libcamera|file|sim",
             "Where frames come from: v4l2:DEVICE, libcamera:ID, file:VIDEO-OR-FOLDER or sim:NAME."),
     path(HEEL_KEY(camera, info), "The camera's calibration: camera_info YAML as ROS and `heel calibrate` write it."),
-    choice(HEEL_KEY(camera, format), "auto|YUYV|GREY|NV12|MJPG", No, "Pixel format asked of the driver; auto takes the cheapest it offers."),
+    choice(HEEL_KEY(camera, format), "auto|YUYV|GREY|NV12|RGB3|BGR3|MJPG", No, "Pixel format asked of the driver; auto takes the cheapest it offers."),
     number(HEEL_KEY(camera, width_px), "px", {64, 4096}, No, "Frame width asked of the driver."),
     number(HEEL_KEY(camera, height_px), "px", {48, 4096}, No, "Frame height asked of the driver."),
     number(HEEL_KEY(camera, rate_hz), "Hz", {1, 240}, No, "Frame rate asked of the driver."),

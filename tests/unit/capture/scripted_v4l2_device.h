@@ -156,9 +156,12 @@ class ScriptedV4l2Device final : public V4l2Device {
     pix.width = camera_.width;
     pix.height = camera_.height;
     pix.field = camera_.field;
-    const std::uint32_t pixel_bytes = pix.pixelformat == V4L2_PIX_FMT_YUYV ? 2 : 1;
+    const std::uint32_t pixel_bytes = pix.pixelformat == V4L2_PIX_FMT_YUYV    ? 2
+                                      : pix.pixelformat == V4L2_PIX_FMT_RGB24 ? 3
+                                      : pix.pixelformat == V4L2_PIX_FMT_BGR24 ? 3
+                                                                              : 1;
     pix.bytesperline = pix.pixelformat == V4L2_PIX_FMT_MJPEG ? 0 : pix.width * pixel_bytes + camera_.padding;
-    pix.sizeimage = 2 * (pix.width * 2 + camera_.padding) * pix.height + 4096;
+    pix.sizeimage = 2 * (pix.width * 3 + camera_.padding) * pix.height + 4096;
     image_bytes_ = pix.sizeimage;
     camera_.format = pix.pixelformat;
     camera_.rate_hz = 5.0;  // setting the format resets the rate

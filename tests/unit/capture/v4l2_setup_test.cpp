@@ -88,7 +88,7 @@ TEST_F(V4l2SetupTest, MissingCapabilitiesAreRefusedByName) {
 
 TEST_F(V4l2SetupTest, FormatsNobodyHereReadsAreListed) {
   camera_.formats = {V4L2_PIX_FMT_H264, V4L2_PIX_FMT_SBGGR8};
-  expect_refused("offers H264, BA81", "expected one of GREY, NV12, YUYV, MJPG");
+  expect_refused("offers H264, BA81", "expected one of GREY, NV12, YUYV, RGB3, BGR3, MJPG");
   camera_.formats = {V4L2_PIX_FMT_YUYV};
   camera_.field = V4L2_FIELD_INTERLACED;
   expect_refused("interlaced");

@@ -47,13 +47,15 @@ class V4l2SourceTest : public testing::Test {
     }
   }
 
-  // A frame in the camera's format (YUYV: two bytes a pixel), rows padded as it pads them.
+  // A grey frame in the camera's format (two bytes a pixel: YUYV, three: RGB), rows padded as it pads them.
   ScriptedFrame made(std::uint32_t sequence, std::uint32_t pixel_bytes) const {
     const std::uint32_t stride = kWidth * pixel_bytes + camera_.padding;
     ScriptedFrame frame{.bytes = std::vector<std::uint8_t>(stride * kHeight, 0xee), .sequence = sequence};
     for (std::uint32_t y = 0; y < kHeight; ++y) {
-      for (std::uint32_t x = 0; x < kWidth; ++x)
-        frame.bytes[y * stride + x * pixel_bytes] = luma(x, y, sequence);
+      for (std::uint32_t x = 0; x < kWidth; ++x) {
+        const auto pixel = frame.bytes.begin() + y * stride + x * pixel_bytes;
+        std::fill_n(pixel, pixel_bytes == 3 ? 3 : 1, luma(x, y, sequence));
+      }
     }
     return frame;
   }
@@ -67,8 +69,11 @@ class V4l2SourceTest : public testing::Test {
 };
 
 TEST_F(V4l2SourceTest, FramesOfEachUncompressedFormatAndStride) {
-  for (const auto& [format, pixel_bytes] :
-       {std::pair{V4L2_PIX_FMT_YUYV, 2u}, {V4L2_PIX_FMT_GREY, 1u}, {V4L2_PIX_FMT_NV12, 1u}}) {
+  for (const auto& [format, pixel_bytes] : {std::pair{V4L2_PIX_FMT_YUYV, 2u},
+                                            {V4L2_PIX_FMT_GREY, 1u},
+                                            {V4L2_PIX_FMT_NV12, 1u},
+                                            {V4L2_PIX_FMT_RGB24, 3u},
+                                            {V4L2_PIX_FMT_BGR24, 3u}}) {
     for (const std::uint32_t padding : {0u, 5u}) {
       camera_.formats = {static_cast<std::uint32_t>(format)};
       camera_.padding = padding;
