@@ -85,7 +85,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--scenario", options.scenario, "the world: a scenario file (TOML)");
   app.add_option("--camera", options.camera,
                  "sim:NAME: frames for readers of that address; v4l2:/dev/videoN: into a v4l2loopback "
-                 "device; or none")
+                 "device; file:PICTURE.pgm: each in its turn is that file; or none")
       ->capture_default_str();
   app.add_option("--frames", options.frames, "keep a frame every five seconds in this folder");
   app.add_option("--still", options.still,
