@@ -50,6 +50,7 @@ class FrameSource {
   /// Opens, also again after close(). Does not throw; problem() holds one line unless Opened.
   virtual OpenResult open() = 0;
   /// Waits for the next frame, at most `timeout_ns`. The view is valid until the next call of any member.
+  /// Throws heel::Error when this program can never open the source again.
   virtual FrameResult wait_frame(TimeNs timeout_ns, FrameView& frame) = 0;
   virtual void close() = 0;
 

@@ -20,7 +20,7 @@ class LibcameraSource final : public FrameSource {
   FrameResult wait_frame(TimeNs timeout_ns, FrameView& frame) override;
   void close() override;
 
-  /// No frame for this long: the camera has stalled, and only opening it again may help.
+  /// No frame for this long: the camera has stalled, and only a new process may help.
   static constexpr TimeNs kStallNs = 2 * kNsPerS;
 
  private:
@@ -28,6 +28,7 @@ class LibcameraSource final : public FrameSource {
   OpenResult find_camera();
   OpenResult configure();
   OpenResult start();
+  [[noreturn]] void give_up(const char* what);
   /// The frame of the request held.
   FrameResult deliver(TimeNs arrived_ns, FrameView& frame);
 
