@@ -48,10 +48,10 @@ class Bench:
         wait.until(what, condition, timeout_s, step_s)
         self.say(f"    ok: {what} ({time.monotonic() - begin_s:.1f} s)")
 
-    def wait_until_following(self, robot):
+    def wait_until_following(self, robot, speed_m_s=SPEED_M_S):
         begin_s = time.monotonic()
         self.wait(f"{robot.name} moves", lambda: robot.moved_since(begin_s), RECOVERY_S)
-        self.wait(f"{robot.name} is at speed", lambda: robot.speed_m_s() > 0.5 * SPEED_M_S, RECOVERY_S)
+        self.wait(f"{robot.name} is at speed", lambda: robot.speed_m_s() > 0.5 * speed_m_s, RECOVERY_S)
 
     def in_guest(self, command):
         """Runs it and returns the guest's CLOCK_MONOTONIC just before, seconds."""

@@ -13,14 +13,16 @@ RESTING_RAD_S = 0.002
 class Robot:
     """heel-sim in real time. Times in and out of here are seconds of the host's CLOCK_MONOTONIC."""
 
-    def __init__(self, heel_sim, folder, name, faults=(), boot_baud=9600):
+    def __init__(self, heel_sim, folder, name, faults=(), boot_baud=9600, world=()):
+        """`world`: options that give it one, with a person and a camera."""
         self.name = name
         self.pty = os.path.join(folder, f"{name}.pty")
         self._truth = os.path.join(folder, f"{name}.csv")
+        self.heel_sim = heel_sim
         self._log_path = os.path.join(folder, f"{name}.log")
         self._wire = os.path.join(folder, f"{name}.wire")
         command = [heel_sim, "--robot", f"pty:{self.pty}", "--truth", self._truth, "--truth-rate", "100", "--wire", self._wire,
-                   "--boot-baud", str(boot_baud)]
+                   "--boot-baud", str(boot_baud), *world]
         for fault in faults:
             command += ["--fault", fault]
         with open(self._log_path, "wb") as log:
@@ -89,6 +91,12 @@ class Robot:
 
     def motors_are_on(self):
         return self.rows()[-1][4] > 0.5
+
+    def truth(self):
+        """All of the truth so far, as the file's text."""
+        with open(self._truth) as file:
+            text = file.read()
+        return text[:text.rfind("\n") + 1]
 
     def log(self):
         with open(self._log_path, errors="replace") as file:

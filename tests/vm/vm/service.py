@@ -11,18 +11,19 @@ FRAME_TIMEOUT_S = 1.5
 CONFIGURATION = """\
 [camera]
 source = "{camera}"
-info = "camera.yaml"
+info = "{info}"
 format = "{format}"
 rate_hz = 10
 width_px = {width_px}
 height_px = {height_px}
 {more_camera}[target]
-shirt = "shirt.heel"
+shirt = "{shirt}"
 [vision]
 octaves = {octaves}
 max_features = {max_features}
 [control]
 setpoint_t_z_m = {setpoint_t_z_m}
+bearing_max_rad = {bearing_max_rad}
 [supervisor]
 frame_timeout_s = {frame_timeout_s}
 target_timeout_s = {frame_timeout_s}
@@ -34,7 +35,7 @@ directory = "/var/lib/heel"
 DEFAULTS = {
     "width_px": 320, "height_px": 180, "format": "auto", "more_camera": "", "octaves": 1, "max_features": 150,
     "setpoint_t_z_m": -0.6,  # the picture stands still, at the template's distance: the robot always wants nearer
-    "frame_timeout_s": FRAME_TIMEOUT_S, "more": "",
+    "bearing_max_rad": 0.35, "info": "camera.yaml", "shirt": "shirt.heel", "frame_timeout_s": FRAME_TIMEOUT_S, "more": "",
 }
 
 
@@ -75,20 +76,25 @@ class Service:
     def journal(self, lines=40):
         return self._guest.status_of(f"journalctl -u heeld -o cat -n {lines} --no-pager")[1]
 
+    def journal_since(self, begin_s):
+        """From begin_s (guest's CLOCK_MONOTONIC) on, or up to a second before."""
+        now_s = float(self._guest.run("cut -d' ' -f1 /proc/uptime"))
+        return self._guest.status_of(f"journalctl -u heeld -o cat --no-pager --since=-{int(now_s - begin_s) + 1}s")[1]
+
     def events(self, pattern, begin_s):
         """Lines of the recording's events from begin_s (guest's CLOCK_MONOTONIC) on that match."""
-        text = self._fetch("events.log")
+        text = self.recorded("events.log")
         lines = (line.split(" ", 1) for line in text.splitlines() if re.match(r"\d+\.\d+ ", line))
         return [what for t_s, what in lines if float(t_s) >= begin_s and re.search(pattern, what)]
 
     def losses(self, begin_s, end_s):
-        return recording.losses(self._fetch("ticks.csv"), self._fetch("poses.csv"), begin_s, end_s)
+        return recording.losses(self.recorded("ticks.csv"), self.recorded("poses.csv"), begin_s, end_s)
 
     def recorded_until(self):
         """CLOCK_MONOTONIC of the guest's newest recorded tick, seconds."""
         return float(self._guest.run("tail -n 1 /var/lib/heel/ticks.csv").split(",", 1)[0] or 0)
 
-    def _fetch(self, name):
+    def recorded(self, name):
         """Complete lines of a file of the recording."""
         self._guest.run(f"cp /var/lib/heel/{name} /mnt/share/{name}")
         with open(os.path.join(self._machine.share, name)) as file:
