@@ -12,7 +12,10 @@ find_package(JPEG REQUIRED)
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 pkg_check_modules(SERIALPORT REQUIRED IMPORTED_TARGET libserialport)
 pkg_check_modules(SYSTEMD REQUIRED IMPORTED_TARGET libsystemd)
-pkg_check_modules(LIBCAMERA IMPORTED_TARGET libcamera)
+option(HEEL_WITH_LIBCAMERA "Cameras through libcamera, where it is installed" ON)
+if(HEEL_WITH_LIBCAMERA)
+  pkg_check_modules(LIBCAMERA IMPORTED_TARGET libcamera)
+endif()
 
 # Debian's OpenCVConfig.cmake comes only with all of OpenCV (VTK and GDAL included); the modules used here
 # are found by name instead, so that a robot computer need not carry the rest.

@@ -4,7 +4,6 @@
 
 #include "capture/frame_source.h"
 #include "heel/error.h"
-#include "sanitized.h"
 
 namespace heel {
 namespace {
@@ -56,9 +55,6 @@ TEST(FrameSourceFactory, OpeningWhatIsNotThereIsOneLineThatNamesIt) {
 }
 
 TEST(FrameSourceFactory, ALibcameraCameraThatIsNotThereIsNamed) {
-  if (test::kThreadSanitizer) {
-    GTEST_SKIP() << "libcamera's own threads are not built for the thread sanitizer";
-  }
   CameraConfig config;
   config.source = "libcamera:no such camera";
   try {
