@@ -23,7 +23,7 @@ TEST(PictureSink, TheFileIsTheNewestFrame) {
   const std::string path = folder.file("now.pgm");
   const auto sink = open_frame_sink("file:" + path, 4, 2, 30.0);
   EXPECT_FALSE(std::filesystem::exists(path)) << "nothing to see before the first frame";
-  for (const std::uint8_t level : {10, 200}) {
+  for (const std::uint8_t level : {std::uint8_t{10}, std::uint8_t{200}}) {
     sink->put(of_four_by_two(), std::vector<std::uint8_t>(8, level));
     const cv::Mat read = cv::imread(path, cv::IMREAD_UNCHANGED);
     ASSERT_EQ(read.type(), CV_8UC1);
