@@ -65,8 +65,11 @@ std::vector<Footprint> Contact::near() const {
   const Eigen::Vector2d at(pose.x_m, pose.y_m);
   std::vector<Footprint> things;
   const auto add = [&](const std::vector<Footprint>& all) {
-    for (const Footprint& thing : all)
-      if ((thing.nearest_m(at) - at).norm() < kReachM) things.push_back(thing);
+    for (const Footprint& thing : all) {
+      const bool far =
+          (thing.centre_m - at).norm() > kReachM + thing.reach_m();  // most are, and that is soon seen
+      if (!far && (thing.nearest_m(at) - at).norm() < kReachM) things.push_back(thing);
+    }
   };
   add(world_.room().footprints());
   add(world_.people_footprints(t_s_));
