@@ -252,5 +252,28 @@ TEST(SessionState, SipFieldsInSi) {
   EXPECT_DOUBLE_EQ(state.battery_v, 26.3);
 }
 
+TEST(SessionState, EachSonarKeepsWhatItHeardLastAndWhen) {
+  RunningBench bench;
+  const RobotState& state = bench.session.state();
+  EXPECT_EQ(state.sonar[3].t_ns, 0) << "has not been heard";
+  bench.robot.sip.sonar_count = 3;
+  bench.robot.sip.sonars[0] = {3, 1234};
+  bench.robot.sip.sonars[1] = {15, 5000};
+  bench.robot.sip.sonars[2] = {16, 700};  // no robot has a seventeenth
+  bench.run(0.2);
+  EXPECT_DOUBLE_EQ(state.sonar[3].range_m, 1.234);
+  EXPECT_DOUBLE_EQ(state.sonar[15].range_m, 5.0);
+  EXPECT_EQ(state.sonar[3].t_ns, state.odometry.t_ns);
+  const TimeNs heard_ns = state.sonar[3].t_ns;
+  bench.robot.sip.sonar_count = 1;
+  bench.robot.sip.sonars[0] = {15, 600};
+  bench.run(0.2);
+  EXPECT_EQ(state.sonar[3].t_ns, heard_ns);
+  EXPECT_DOUBLE_EQ(state.sonar[3].range_m, 1.234);
+  EXPECT_DOUBLE_EQ(state.sonar[15].range_m, 0.6);
+  EXPECT_GT(state.sonar[15].t_ns, heard_ns);
+  EXPECT_EQ(state.sonar[0].t_ns, 0);
+}
+
 }  // namespace
 }  // namespace heel
