@@ -20,7 +20,6 @@ namespace heel {
 
 namespace {
 
-constexpr std::uint32_t kWordBytes = 8;
 constexpr std::uint32_t kMaxSidePx = 16384;
 
 std::uint32_t round_up(std::uint32_t value, std::uint32_t step) {

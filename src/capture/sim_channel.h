@@ -26,6 +26,7 @@ namespace heel {
 inline constexpr std::uint32_t kSimChannelMagic = 0x4c454548;  // "HEEL", little-endian
 inline constexpr std::uint32_t kSimChannelVersion = 1;
 inline constexpr std::uint32_t kSimSlots = 4;
+inline constexpr std::uint32_t kWordBytes = 8;  ///< pixels travel in words, each stored and loaded at once
 
 struct SimChannelHeader {
   std::atomic<std::uint32_t> magic;  ///< written last: the segment is ready

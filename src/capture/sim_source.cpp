@@ -17,7 +17,6 @@ namespace heel {
 
 namespace {
 
-constexpr std::uint32_t kWordBytes = 8;
 constexpr const char* kEnded = "the simulator that served this channel has ended";
 
 /// One slot copied out under its sequence lock. False: the writer changed it meanwhile.

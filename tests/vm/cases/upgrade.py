@@ -4,8 +4,8 @@ import subprocess
 
 from cases.appearing import standing
 
-CHANGED = "# a line of the user's own"
-NEW_DEFAULT = "# a line of the newer package's"
+CHANGED = "# a line that somebody wrote here"
+NEW_DEFAULT = "# a line that came with a newer package"
 
 
 def run(bench):
