@@ -22,8 +22,6 @@ namespace heel {
 namespace {
 
 constexpr unsigned kBuffers = 4;
-constexpr TimeNs kSayGone_ns =
-    kNsPerS;  // from a camera's first failure until libcamera says that it has gone
 
 libcamera::PixelFormat library_format(PixelFormat format) {
   switch (format) {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "estimate/odometry_history.h"
+
 namespace heel {
 namespace {
 
@@ -84,17 +86,12 @@ void EchoMemory::see(const RobotState& robot) {
 }
 
 Echoes EchoMemory::at(TimeNs now_ns, const Odometry& newest) const {
-  // Half the turn, then straight on: along the chord of the arc since the last packet.
-  const double since_s = std::max(0.0, seconds_from_ns(now_ns - newest.t_ns));
-  const double chord_rad = newest.heading_rad + 0.5 * newest.yaw_rate_rad_s * since_s;
-  const double x_m = newest.x_m + newest.v_m_s * since_s * std::cos(chord_rad);
-  const double y_m = newest.y_m + newest.v_m_s * since_s * std::sin(chord_rad);
-  const double heading_rad = newest.heading_rad + newest.yaw_rate_rad_s * since_s;
-  const double c = std::cos(heading_rad), s = std::sin(heading_rad);
+  const FloorPose robot = carried_on(newest, std::max(0.0, seconds_from_ns(now_ns - newest.t_ns)));
+  const double c = std::cos(robot.heading_rad), s = std::sin(robot.heading_rad);
   Echoes echoes;
   for (const Place& place : places_) {
     if (place.t_ns == 0 || now_ns - place.t_ns > kKept_ns) continue;
-    const double dx_m = place.x_m - x_m, dy_m = place.y_m - y_m;
+    const double dx_m = place.x_m - robot.x_m, dy_m = place.y_m - robot.y_m;
     echoes.add({c * dx_m + s * dy_m, c * dy_m - s * dx_m});
   }
   return echoes;

@@ -3,9 +3,7 @@
 #include <cmath>
 
 namespace heel {
-namespace {
 
-/// The unicycle's arc with constant speed and yaw rate, by its chord.
 FloorPose carried_on(const Odometry& from, double dt_s) {
   const double turn_rad = from.yaw_rate_rad_s * dt_s;
   const double half = 0.5 * turn_rad;
@@ -14,6 +12,8 @@ FloorPose carried_on(const Odometry& from, double dt_s) {
   return {from.x_m + chord_m * std::cos(from.heading_rad + half),
           from.y_m + chord_m * std::sin(from.heading_rad + half), from.heading_rad + turn_rad};
 }
+
+namespace {
 
 FloorPose between(const Odometry& a, const Odometry& b, TimeNs t_ns) {
   const double s = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);

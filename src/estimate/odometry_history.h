@@ -16,6 +16,9 @@ struct FloorPose {
   double heading_rad = 0.0;
 };
 
+/// Where a robot is `dt_s` later that keeps its speed and yaw rate: the unicycle's arc, by its chord.
+FloorPose carried_on(const Odometry& from, double dt_s);
+
 /// A fixed ring of odometry, newest last. Does not allocate.
 class OdometryHistory {
  public:
