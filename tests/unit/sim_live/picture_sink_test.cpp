@@ -25,6 +25,7 @@ TEST(PictureSink, TheFileIsTheNewestFrame) {
   EXPECT_FALSE(std::filesystem::exists(path)) << "nothing to see before the first frame";
   for (const std::uint8_t level : {std::uint8_t{10}, std::uint8_t{200}}) {
     sink->put(of_four_by_two(), std::vector<std::uint8_t>(8, level));
+    EXPECT_EQ(test::read_text(path).substr(0, 2), "P5") << "a binary PGM, which anybody reads";
     const cv::Mat read = cv::imread(path, cv::IMREAD_UNCHANGED);
     ASSERT_EQ(read.type(), CV_8UC1);
     ASSERT_EQ(read.size(), cv::Size(4, 2));
