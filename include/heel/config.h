@@ -114,7 +114,8 @@ struct TelemetryConfig {
 
 struct RuntimeConfig {
   std::string log_level = "info";
-  bool realtime = true;  ///< ask for SCHED_FIFO and mlockall; go on without, saying so
+  std::string ready_after = "all";  ///< all (robot and first frame), robot, start: when systemd is told READY
+  bool realtime = true;             ///< ask for SCHED_FIFO and mlockall; go on without, saying so
   int priority_control = 60;
   int priority_capture = 50;
   int priority_vision = 40;

@@ -215,12 +215,14 @@ struct Event {
   std::array<char, 128> text{};  ///< ends with a zero
 };
 
-/// Counters of the frame path.
+/// Counters of the frame path since the start; capture pushes them whenever they have changed.
 struct CaptureCounters {
+  TimeNs t_ns = 0;  ///< when they stood so
   std::uint64_t captured = 0;
   std::uint64_t dropped_by_driver = 0;  ///< gaps in the driver's sequence, buffers with the error flag
   std::uint64_t dropped_in_ring = 0;    ///< overtaken by a fresher frame
-  std::uint64_t reopened = 0;
+  std::uint64_t reopened = 0;           ///< openings of the camera after the first
+  bool operator==(const CaptureCounters&) const = default;
 };
 
 template <typename... T>

@@ -8,10 +8,11 @@
 
 namespace heel {
 
-CaptureLoop::CaptureLoop(FrameSource& source, FrameRing& ring, RecordQueue<Event>& events,
-                         const CaptureLoopSettings& settings)
+CaptureLoop::CaptureLoop(FrameSource& source, FrameRing& ring, RecordQueue<CaptureCounters>& counts,
+                         RecordQueue<Event>& events, const CaptureLoopSettings& settings)
     : source_(source),
       ring_(ring),
+      counts_(counts),
       events_(events),
       settings_(settings),
       pause_ns_(settings.reopen_first_ns) {}
@@ -26,6 +27,7 @@ void CaptureLoop::run() {
     } else {
       try_open();
     }
+    push_counts();
   }
   source_.close();
   open_ = false;
@@ -114,6 +116,15 @@ CaptureCounters CaptureLoop::counters() const {
           .dropped_by_driver = dropped_by_driver_.load(std::memory_order_relaxed),
           .dropped_in_ring = ring_.dropped(),
           .reopened = reopened_.load(std::memory_order_relaxed)};
+}
+
+void CaptureLoop::push_counts() {
+  CaptureCounters now = counters();
+  now.t_ns = pushed_.t_ns;
+  if (now == pushed_) return;
+  now.t_ns = monotonic_now_ns();
+  pushed_ = now;
+  counts_.push(now);
 }
 
 void CaptureLoop::tell(EventKind kind, std::int64_t a, std::int64_t b, const char* text) {

@@ -2,7 +2,7 @@
 // pauses), counts, beats its heart. In steady state it does not allocate, lock or format (beyond what a
 // source's own library does; see file_source.h).
 //
-//   CaptureLoop loop(*source, ring, feeds.capture_events);
+//   CaptureLoop loop(*source, ring, feeds.captures, feeds.capture_events);
 //   std::jthread thread([&] { enter_thread(plan, realtime); loop.run(); });
 //   …  loop.stop(); thread.join();
 #pragma once
@@ -29,8 +29,8 @@ struct CaptureLoopSettings {
 class CaptureLoop {
  public:
   /// Everything is borrowed and must outlive run(). `source` may be open already.
-  CaptureLoop(FrameSource& source, FrameRing& ring, RecordQueue<Event>& events,
-              const CaptureLoopSettings& settings = {});
+  CaptureLoop(FrameSource& source, FrameRing& ring, RecordQueue<CaptureCounters>& counts,
+              RecordQueue<Event>& events, const CaptureLoopSettings& settings = {});
 
   /// Tells the loop that `source` is open already (as open_frame_source leaves it).
   void assume_open() { open_ = true; }
@@ -52,10 +52,12 @@ class CaptureLoop {
   void try_open();
   void pause();
   void take_frame();
+  void push_counts();
   void tell(EventKind kind, std::int64_t a, std::int64_t b, const char* text);
 
   FrameSource& source_;
   FrameRing& ring_;
+  RecordQueue<CaptureCounters>& counts_;
   RecordQueue<Event>& events_;
   CaptureLoopSettings settings_;
 
@@ -65,6 +67,7 @@ class CaptureLoop {
   std::string told_problem_;   // of an opening: once for each reason in an outage
   bool told_refused_ = false;  // once for each opening
   TimeNs pause_ns_;
+  CaptureCounters pushed_;
 
   std::atomic<std::uint32_t> stop_{0};  // also the futex of pauses
   std::atomic<bool> ended_{false};

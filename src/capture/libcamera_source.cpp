@@ -21,7 +21,7 @@ namespace heel {
 
 namespace {
 
-constexpr unsigned kBuffers = 4;
+constexpr unsigned kWantedBuffers = 4;
 
 libcamera::PixelFormat library_format(PixelFormat format) {
   switch (format) {
@@ -73,7 +73,7 @@ struct LibcameraSource::Session {
   std::vector<Mapping> mappings;
   PixelFormat format = PixelFormat::Grey;
 
-  RecordQueue<libcamera::Request*> completed{2 * kBuffers};
+  RecordQueue<libcamera::Request*> completed{2 * kWantedBuffers};
   std::atomic<std::uint32_t> signal{0};
   std::atomic<bool> disconnected{false};
 
@@ -167,7 +167,7 @@ OpenResult LibcameraSource::configure() {
     if (agreed || (named && candidate != only)) continue;
     stream.pixelFormat = library_format(candidate);
     stream.size = size;
-    stream.bufferCount = kBuffers;
+    stream.bufferCount = kWantedBuffers;
     agreed = s.configuration->validate() != libcamera::CameraConfiguration::Invalid &&
              stream.pixelFormat == library_format(candidate) && stream.size == size;
     s.format = candidate;

@@ -44,6 +44,8 @@ class Daemon {
   void look_after(TimeNs now_ns);
   void tell_of_the_line();
   bool robot_has_answered() const;
+  bool ready_by_now() const;
+  void tell_counts() const;
   bool at_rest_for_good(TimeNs now_ns);
   std::string status_line() const;
 
@@ -64,7 +66,8 @@ class Daemon {
   std::thread control_thread_, vision_thread_, capture_thread_, telemetry_thread_;
 
   TickRecord status_;
-  bool ready_ = false;
+  bool ready_ = false;     // and systemd has been told
+  bool complete_ = false;  // robot and camera have both been here
   std::uint64_t seen_open_failures_ = 0;
   std::string told_open_error_;  // empty: none since the robot last answered
   TimeNs t_ended_ns_ = 0;        // when a file camera's last frame was given; 0: not yet
@@ -79,7 +82,7 @@ Daemon::Daemon(LoadedConfig loaded, Signals& signals)
               static_cast<std::uint32_t>(inputs_.camera.height_px)),
       source_(make_frame_source(loaded_.config.camera)),
       tracker_(inputs_.shirt, inputs_.camera, loaded_.config.vision),
-      capture_(*source_, frames_, feeds_.capture_events,
+      capture_(*source_, frames_, feeds_.captures, feeds_.capture_events,
                CaptureLoopSettings{.begin_again = loaded_.config.camera.at_end == "loop"}),
       vision_(frames_, tracker_, poses_, feeds_.poses),
       control_(loaded_.config, poses_, feeds_),
@@ -151,6 +154,7 @@ void Daemon::stop() {
   vision_thread_.join();
   telemetry_.stop();
   telemetry_thread_.join();
+  tell_counts();
   spdlog::info("stopped; the robot is closed");
 }
 
@@ -184,10 +188,14 @@ void Daemon::reload() {
 void Daemon::look_after(TimeNs now_ns) {
   control_.take_status(status_);
   tell_of_the_line();
-  if (!ready_ && robot_has_answered() && frames_.captured() > 0) {
+  if (!complete_ && robot_has_answered() && frames_.captured() > 0) {
+    complete_ = true;
+    spdlog::info("the robot has answered and the first frame is here");
+  }
+  if (!ready_ && ready_by_now()) {
     ready_ = true;
     notifier_.ready();
-    spdlog::info("ready: the robot has answered and the first frame is here");
+    spdlog::info("ready");
   }
   notifier_.status(status_line());
   if (now_ns - control_.heartbeat_ns() < kControlMustBeat_ns) notifier_.alive(now_ns);
@@ -211,6 +219,23 @@ bool Daemon::robot_has_answered() const {
   return status_.robot.has_sip && (phase == LinkPhase::Running || phase == LinkPhase::Disabled);
 }
 
+bool Daemon::ready_by_now() const {
+  const std::string& after = loaded_.config.runtime.ready_after;
+  return complete_ || after == "start" || (after == "robot" && robot_has_answered());
+}
+
+/// What came over both lines and what was lost on them, once, at the end.
+void Daemon::tell_counts() const {
+  const CaptureCounters frames = capture_.counters();
+  spdlog::info(
+      "camera: {} frames, {} dropped by the driver, {} overtaken by fresher ones; opened again {} times",
+      frames.captured, frames.dropped_by_driver, frames.dropped_in_ring, frames.reopened);
+  const RobotState robot = telemetry_.snapshot().tick.robot;
+  spdlog::info(
+      "robot: {} packets, {} with a wrong checksum or length, {} bytes discarded; connected again {} times",
+      robot.sips, robot.checksum_errors, robot.bytes_discarded, robot.reconnects);
+}
+
 /// A file camera has ended, and the wheels have been brought to rest.
 bool Daemon::at_rest_for_good(TimeNs now_ns) {
   if (t_ended_ns_ == 0) return false;
@@ -220,7 +245,7 @@ bool Daemon::at_rest_for_good(TimeNs now_ns) {
 }
 
 std::string Daemon::status_line() const {
-  if (!ready_) {
+  if (!complete_) {
     std::string line = "waiting for";
     if (!robot_has_answered()) line += " the robot (" + std::string(to_string(status_.robot.phase)) + ")";
     if (frames_.captured() == 0) line += " the camera";

@@ -144,6 +144,7 @@ const ConfigKey kKeys[] = {
     path(HEEL_KEY(telemetry, directory), "Folder for recordings; empty records nothing."),
 
     choice(HEEL_KEY(runtime, log_level), "trace|debug|info|warn|error", Yes, "Least important message written to the log."),
+    choice(HEEL_KEY(runtime, ready_after), "all|robot|start", No, "What has to be there before systemd is told READY: robot and first frame, the robot alone, or nothing."),
     flag(HEEL_KEY(runtime, realtime), No, "Whether to ask for real-time priorities and locked memory; refused, heeld says so and goes on."),
     number(HEEL_KEY(runtime, priority_control), "", {1, 98}, No, "SCHED_FIFO priority of the control thread."),
     number(HEEL_KEY(runtime, priority_capture), "", {1, 98}, No, "SCHED_FIFO priority of the capture thread."),

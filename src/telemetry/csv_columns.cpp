@@ -106,6 +106,18 @@ std::vector<CsvColumn<PoseEstimate>> make_pose_columns() {
   return columns;
 }
 
+std::vector<CsvColumn<CaptureCounters>> make_capture_columns() {
+  using C = CaptureCounters;
+  using L = CsvLine;
+  return {
+      {"t_s", [](L& l, const C& c, int) { l.seconds(c.t_ns); }},
+      {"captured", [](L& l, const C& c, int) { l.integer(c.captured); }},
+      {"dropped_by_driver", [](L& l, const C& c, int) { l.integer(c.dropped_by_driver); }},
+      {"dropped_in_ring", [](L& l, const C& c, int) { l.integer(c.dropped_in_ring); }},
+      {"reopened", [](L& l, const C& c, int) { l.integer(c.reopened); }},
+  };
+}
+
 }  // namespace
 
 std::span<const CsvColumn<TickRecord>> tick_columns() {
@@ -115,6 +127,11 @@ std::span<const CsvColumn<TickRecord>> tick_columns() {
 
 std::span<const CsvColumn<PoseEstimate>> pose_columns() {
   static const std::vector<CsvColumn<PoseEstimate>> columns = make_pose_columns();
+  return columns;
+}
+
+std::span<const CsvColumn<CaptureCounters>> capture_columns() {
+  static const std::vector<CsvColumn<CaptureCounters>> columns = make_capture_columns();
   return columns;
 }
 

@@ -1,5 +1,5 @@
-// The columns of ticks.csv and poses.csv: one table each makes the header, the rows and (held to it by a
-// test) src/telemetry/README.md.
+// The columns of ticks.csv, poses.csv and capture.csv: one table each makes the header, the rows and (held to
+// it by a test) src/telemetry/README.md.
 #pragma once
 
 #include <span>
@@ -20,6 +20,7 @@ struct CsvColumn {
 
 std::span<const CsvColumn<TickRecord>> tick_columns();
 std::span<const CsvColumn<PoseEstimate>> pose_columns();
+std::span<const CsvColumn<CaptureCounters>> capture_columns();
 
 /// The names, separated by commas, with a line end.
 template <typename Record>

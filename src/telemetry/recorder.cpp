@@ -25,7 +25,8 @@ struct RecordingName {
   }
 };
 
-constexpr std::array<RecordingName, 3> kNames{{{"ticks", ".csv"}, {"poses", ".csv"}, {"events", ".log"}}};
+constexpr std::array<RecordingName, 4> kNames{
+    {{"ticks", ".csv"}, {"poses", ".csv"}, {"capture", ".csv"}, {"events", ".log"}}};
 
 bool any_exists(const fs::path& folder, int n) {
   for (const RecordingName& name : kNames) {
@@ -65,9 +66,11 @@ Recorder::Recorder(const std::string& directory) {
   }
   ticks_ = std::make_unique<RecordFile>(kNames[0].path(directory));
   poses_ = std::make_unique<RecordFile>(kNames[1].path(directory));
-  events_ = std::make_unique<RecordFile>(kNames[2].path(directory));
+  capture_ = std::make_unique<RecordFile>(kNames[2].path(directory));
+  events_ = std::make_unique<RecordFile>(kNames[3].path(directory));
   ticks_->append(csv_header(tick_columns()));
   poses_->append(csv_header(pose_columns()));
+  capture_->append(csv_header(capture_columns()));
   remark(monotonic_now_ns(), "recording begins at " + wall_clock());
 }
 
@@ -77,6 +80,10 @@ void Recorder::record(const TickRecord& tick) {
 
 void Recorder::record(const PoseEstimate& pose) {
   poses_->append(csv_row(line_, pose_columns(), pose));
+}
+
+void Recorder::record(const CaptureCounters& capture) {
+  capture_->append(csv_row(line_, capture_columns(), capture));
 }
 
 void Recorder::record(const Event& event) {
@@ -95,6 +102,7 @@ void Recorder::remark(TimeNs t_ns, std::string_view text) {
 void Recorder::flush() {
   ticks_->flush();
   poses_->flush();
+  capture_->flush();
   events_->flush();
 }
 

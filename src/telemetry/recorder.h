@@ -1,4 +1,5 @@
-// A recording: ticks.csv, poses.csv and events.log in one folder. Columns: src/telemetry/README.md.
+// A recording: ticks.csv, poses.csv, capture.csv and events.log in one folder. Columns:
+// src/telemetry/README.md.
 //
 //   Recorder recorder("/var/lib/heel/run");
 //   recorder.record(tick);  recorder.record(pose);  recorder.record(event);
@@ -23,6 +24,7 @@ class Recorder {
 
   void record(const TickRecord& tick);
   void record(const PoseEstimate& pose);
+  void record(const CaptureCounters& capture);
   void record(const Event& event);
   /// A line of its own in events.log.
   void remark(TimeNs t_ns, std::string_view text);
@@ -32,6 +34,7 @@ class Recorder {
   CsvLine line_;
   std::unique_ptr<RecordFile> ticks_;
   std::unique_ptr<RecordFile> poses_;
+  std::unique_ptr<RecordFile> capture_;
   std::unique_ptr<RecordFile> events_;
 };
 

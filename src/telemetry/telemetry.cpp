@@ -50,6 +50,10 @@ void Telemetry::drain(TimeNs now_ns) {
     newest_.pose = pose;
     if (recorder_) recorder_->record(pose);
   }
+  for (CaptureCounters capture; feeds_.captures.pop(capture);) {
+    newest_.capture = capture;
+    if (recorder_) recorder_->record(capture);
+  }
   for (RecordQueue<Event>* events : {&feeds_.capture_events, &feeds_.vision_events, &feeds_.control_events}) {
     for (Event event; events->pop(event);) take(event);
   }
@@ -96,8 +100,9 @@ void Telemetry::take(const Event& event) {
 }
 
 void Telemetry::tell_losses(TimeNs now_ns) {
-  newest_.records_lost = feeds_.ticks.dropped() + feeds_.poses.dropped() + feeds_.capture_events.dropped() +
-                         feeds_.vision_events.dropped() + feeds_.control_events.dropped();
+  newest_.records_lost = feeds_.ticks.dropped() + feeds_.poses.dropped() + feeds_.captures.dropped() +
+                         feeds_.capture_events.dropped() + feeds_.vision_events.dropped() +
+                         feeds_.control_events.dropped();
   if (newest_.records_lost == lost_told_ || now_ns - losses_told_ns_ < kRepeatNs) return;
   spdlog::warn("telemetry fell behind: {} records lost so far", newest_.records_lost);
   lost_told_ = newest_.records_lost;

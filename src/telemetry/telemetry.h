@@ -29,6 +29,7 @@ struct TelemetrySnapshot {
   std::uint64_t records_lost = 0;  ///< dropped by full queues
   TickRecord tick;
   PoseEstimate pose;
+  CaptureCounters capture;
 };
 
 class Telemetry {

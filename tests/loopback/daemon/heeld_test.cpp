@@ -74,6 +74,17 @@ TEST_F(Heeld, IsNotReadyWithoutARobotAndSaysWhy) {
   EXPECT_EQ(daemon_->wait(5.0), 0);
 }
 
+TEST_F(Heeld, IsReadyBeforeTheRobotIsThereWhereTheConfigurationSaysSo) {
+  const std::string config = scene_.write_config();
+  std::string text = content_of(config);
+  const std::string table = "[runtime]\n";
+  text.insert(text.find(table) + table.size(), "ready_after = \"start\"\n");
+  std::ofstream(config) << text;
+  start_heeld(config);
+  EXPECT_TRUE(notify_.receives("READY=1", 10.0)) << daemon_->output();
+  EXPECT_TRUE(notify_.receives("STATUS=waiting for the robot", 10.0)) << "ready, and still waiting";
+}
+
 TEST_F(Heeld, SaysWhyTheLineDoesNotOpenOnceForEachReason) {
   const auto lines = [this](const std::string& what) {
     const std::string text = daemon_->output();
@@ -185,6 +196,9 @@ TEST_F(HeeldWithAShortFilm, ComesToRestAtItsEndAndLeavesARecording) {
   EXPECT_THAT(robot_->output(), Not(HasSubstr("watchdog")));
   EXPECT_GT(content_of(scene_.path("run/ticks.csv")).size(), 10000u);
   EXPECT_GT(content_of(scene_.path("run/poses.csv")).size(), 10000u);
+  EXPECT_TRUE(daemon_->says("camera: 250 frames, 0 dropped by the driver", 1.0)) << logs();
+  EXPECT_TRUE(daemon_->says(" packets, 0 with a wrong checksum", 1.0)) << logs();
+  EXPECT_THAT(content_of(scene_.path("run/capture.csv")), HasSubstr(",250,0,"));
 }
 
 TEST_F(Heeld, StopButtonHoldsTheRobotAndIsNamed) {

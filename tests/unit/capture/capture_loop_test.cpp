@@ -79,10 +79,11 @@ class CaptureLoopTest : public testing::Test {
   }
 
   FrameRing ring_{kWidth, kHeight};
+  RecordQueue<CaptureCounters> counts_{64};
   RecordQueue<Event> events_{64};
   ScriptedSource source_;
   CaptureLoop loop_{
-      source_, ring_, events_, {.reopen_first_ns = kNsPerMs, .reopen_longest_ns = 8 * kNsPerMs}};
+      source_, ring_, counts_, events_, {.reopen_first_ns = kNsPerMs, .reopen_longest_ns = 8 * kNsPerMs}};
 };
 
 using enum FrameResult;
@@ -132,7 +133,7 @@ TEST_F(CaptureLoopTest, ASourceLostBeforeItsFirstFrameIsOpenedWithGrowingPauses)
 
 TEST_F(CaptureLoopTest, AnEmptyStreamThatBeginsAgainIsOpenedWithGrowingPauses) {
   source_.results = {EndOfStream, EndOfStream, Frame};
-  CaptureLoop endless(source_, ring_, events_,
+  CaptureLoop endless(source_, ring_, counts_, events_,
                       {.reopen_first_ns = kNsPerMs, .reopen_longest_ns = 8 * kNsPerMs, .begin_again = true});
   source_.on_idle = [&] { endless.stop(); };
   endless.run();
@@ -169,6 +170,27 @@ TEST_F(CaptureLoopTest, UnusableFramesAreCountedNotDeadly) {
   EXPECT_EQ(loop_.counters().dropped_by_driver, 2u);
 }
 
+TEST_F(CaptureLoopTest, CountsAreToldWheneverTheyHaveChangedAndOnlyThen) {
+  source_.openings = {OpenResult::Opened, OpenResult::Opened};
+  source_.results = {Frame, Timeout, Timeout, Frame, Error, Lost, Frame};
+  const TimeNs before_ns = monotonic_now_ns();
+  loop_.run();
+  struct Told {
+    std::uint64_t captured, dropped_by_driver, dropped_in_ring, reopened;
+    bool operator==(const Told&) const = default;
+  };
+  std::vector<Told> told;
+  TimeNs t_last_ns = before_ns;
+  for (CaptureCounters c; counts_.pop(c);) {
+    told.push_back({c.captured, c.dropped_by_driver, c.dropped_in_ring, c.reopened});
+    EXPECT_GE(c.t_ns, t_last_ns);
+    t_last_ns = c.t_ns;
+  }
+  EXPECT_LE(t_last_ns, monotonic_now_ns());
+  EXPECT_THAT(told, testing::ElementsAre(Told{1, 0, 0, 0}, Told{2, 0, 1, 0}, Told{2, 1, 1, 0},
+                                         Told{2, 1, 1, 1}, Told{3, 1, 2, 1}));
+}
+
 TEST_F(CaptureLoopTest, FramesOfAnotherSizeAreRefusedAndToldOnce) {
   source_.width_px = kWidth - 1;
   source_.results = {Frame, Frame, Frame};
@@ -196,7 +218,7 @@ TEST_F(CaptureLoopTest, ASourceOpenedBeforehandIsNotOpenedAgain) {
 
 TEST_F(CaptureLoopTest, StopEndsALongPauseAndTheHeartBeatsMeanwhile) {
   source_.openings = {OpenResult::Absent};
-  CaptureLoop slow(source_, ring_, events_,
+  CaptureLoop slow(source_, ring_, counts_, events_,
                    {.wait_ns = kNsPerMs, .reopen_first_ns = 60 * kNsPerS, .reopen_longest_ns = 60 * kNsPerS});
   const TimeNs start_ns = monotonic_now_ns();
   std::jthread thread([&] { slow.run(); });
@@ -216,8 +238,9 @@ TEST(CaptureLoop, DoesNotAllocateInSteadyState) {
   SimSource source(name);
   ASSERT_EQ(source.open(), OpenResult::Opened);
   FrameRing ring(kWidth, kHeight);
+  RecordQueue<CaptureCounters> counts(8);
   RecordQueue<Event> events(8);
-  CaptureLoop loop(source, ring, events);
+  CaptureLoop loop(source, ring, counts, events);
   loop.assume_open();
   const std::uint64_t before_vector = test::allocations_of_this_thread();
   const std::vector<int> allocated(100);

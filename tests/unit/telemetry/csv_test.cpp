@@ -170,6 +170,17 @@ TEST(CsvColumns, APoseLandsUnderItsNames) {
   }
 }
 
+TEST(CsvColumns, CountsOfTheFramePathLandUnderTheirNames) {
+  const CaptureCounters counts{
+      .t_ns = 1'250'000'000, .captured = 7, .dropped_by_driver = 5, .dropped_in_ring = 3, .reopened = 2};
+  const auto row = row_of(capture_columns(), counts);
+  EXPECT_EQ(row.at("t_s"), "1.250000000");
+  EXPECT_EQ(row.at("captured"), "7");
+  EXPECT_EQ(row.at("dropped_by_driver"), "5");
+  EXPECT_EQ(row.at("dropped_in_ring"), "3");
+  EXPECT_EQ(row.at("reopened"), "2");
+}
+
 // Arrays are documented by their first and last column.
 bool in_the_middle_of_an_array(const std::string& name, const std::set<std::string>& names) {
   const std::size_t bar = name.rfind('_');
@@ -182,7 +193,8 @@ bool in_the_middle_of_an_array(const std::string& name, const std::set<std::stri
 TEST(CsvColumns, EveryColumnIsInTheReadmeAndDistinct) {
   const std::string readme = test::read_text(HEEL_TELEMETRY_README);
   ASSERT_FALSE(readme.empty());
-  for (const std::string& header : {csv_header(tick_columns()), csv_header(pose_columns())}) {
+  for (const std::string& header :
+       {csv_header(tick_columns()), csv_header(pose_columns()), csv_header(capture_columns())}) {
     const std::vector<std::string> names = split(header);
     const std::set<std::string> distinct(names.begin(), names.end());
     EXPECT_EQ(distinct.size(), names.size());

@@ -99,18 +99,25 @@ TEST_F(TelemetryTest, EverythingPushedIsInTheRecordingAfterStop) {
       while (!feeds_.poses.push(pose)) std::this_thread::yield();
     }
   });
+  std::jthread capture([&] {
+    for (CaptureCounters counts{.captured = 1}; counts.captured <= kRecords; ++counts.captured) {
+      while (!feeds_.captures.push(counts)) std::this_thread::yield();
+    }
+  });
   for (TelemetrySnapshot seen; seen.ticks == 0;) seen = telemetry.snapshot();  // asked from a third thread
   control.join();
   vision.join();
+  capture.join();
   telemetry.stop();
   reader.join();
-  for (const char* name : {"ticks.csv", "poses.csv"}) {
+  for (const char* name : {"ticks.csv", "poses.csv", "capture.csv"}) {
     const std::string text = test::read_text(folder.file(name));
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), kRecords + 1) << name;
   }
   EXPECT_THAT(test::read_text(folder.file("events.log")), HasSubstr("at rest: no target seen yet"));
   EXPECT_EQ(telemetry.snapshot().tick.tick, std::uint64_t{kRecords});
   EXPECT_EQ(telemetry.snapshot().pose.frame_sequence, std::uint64_t{kRecords});
+  EXPECT_EQ(telemetry.snapshot().capture.captured, std::uint64_t{kRecords});
 }
 
 TEST(EventText, SaysWhatHappenedWithItsNumbers) {

@@ -58,8 +58,8 @@ class Bench:
         return float(self.guest.run(f"cut -d' ' -f1 /proc/uptime; {command}").split("\n")[0])
 
     def fault(self, device, name, robot, cause, cure, rest_within_s=None):
-        """A fault that must bring the moving robot to rest, and whose end must let it move again. cause and cure are commands
-        for the guest or functions. Times are taken before them and by the simulator's truth, so they are upper bounds.
+        """A fault that must bring the moving robot to rest, and whose end must let it move again; returns the table's row.
+        cause and cure are commands for the guest or functions. Times are taken before them and by the simulator's truth, so they are upper bounds.
         Without rest_within_s it is the robot's watchdog that must stop it."""
         self.say(f"  {device}: {name}")
         self.wait_until_following(robot)
@@ -77,10 +77,10 @@ class Bench:
         cured_s = time.monotonic()
         self._do(cure)
         moved_s = wait.until(f"{robot.name} moves again", lambda: robot.moved_since(cured_s), RECOVERY_S)
-        self._record(device, name, begin_s, rested_s - caused_s, moved_s - cured_s)
+        return self._record(device, name, begin_s, rested_s - caused_s, moved_s - cured_s)
 
     def blip(self, device, name, robot, cause, cure=None, rest_at_most_s=None, lasts_s=4.0):
-        """A fault that needs nothing but heeld to be over; the robot may stop for it or go on."""
+        """A fault that needs nothing but heeld to be over; the robot may stop for it or go on. Returns the table's row."""
         self.say(f"  {device}: {name}")
         self.wait_until_following(robot)
         caused_s, begin_s = time.monotonic(), self._do(cause)
@@ -93,10 +93,10 @@ class Bench:
             moved_s = wait.until(f"{robot.name} moves again", lambda: robot.moved_since(rested_s), RECOVERY_S)
         self.check(rest_at_most_s is None or rested_s is None or rested_s - caused_s <= rest_at_most_s,
                    "goes on" if rested_s is None else f"at rest after {rested_s - caused_s:.2f} s and moves again")
-        self._record(device, name, begin_s, rested_s and rested_s - caused_s, moved_s and moved_s - rested_s)
+        return self._record(device, name, begin_s, rested_s and rested_s - caused_s, moved_s and moved_s - rested_s)
 
     def timed_fault(self, device, name, robot, begin_s, lasts_s, rest_at_most_s=None):
-        """A fault that the simulated robot was started with: begin_s seconds after its start, for lasts_s."""
+        """A fault that the simulated robot was started with: begin_s seconds after its start, for lasts_s. Returns the row."""
         self.say(f"  {device}: {name}")
         self.wait_until_following(robot)
         caused_s = robot.at(begin_s)
@@ -110,7 +110,7 @@ class Bench:
         if rest_at_most_s is not None:
             self.check(rested_s is not None and rested_s - caused_s <= rest_at_most_s,
                        f"at rest after {(rested_s or moved_s) - caused_s:.2f} s (at most {rest_at_most_s:.2f} s)")
-        self._record(device, name, guest_s, rested_s and rested_s - caused_s, rested_s and moved_s - max(cured_s, rested_s))
+        return self._record(device, name, guest_s, rested_s and rested_s - caused_s, rested_s and moved_s - max(cured_s, rested_s))
 
     def _do(self, what):
         if isinstance(what, str):
@@ -128,4 +128,6 @@ class Bench:
         self.rows.append(row)
         recovery = "went on" if recovery_s is None else f"moves again after {recovery_s:.2f} s"
         self.say(f"    ok: {recovery}; {row['without_picture_s']} s without a picture, {row['without_robot_s']} s without "
-                 f"the robot, {row['bytes_discarded']} bytes discarded")
+                 f"the robot; {row['frames_captured']} frames, {row['frames_dropped_by_driver']} more lost by the driver, camera "
+                 f"opened again {row['camera_reopened']} times, {row['bytes_discarded']} bytes discarded")
+        return row

@@ -1,4 +1,4 @@
-"""What heeld recorded of a stretch of time: how long it went without a picture, without the robot, and bytes lost."""
+"""What heeld recorded of a stretch of time: how long it went without a picture, without the robot; frames and bytes lost."""
 import csv
 import io
 
@@ -14,18 +14,30 @@ def _longest_gap_s(times_s, begin_s, end_s):
     return max(later - earlier for earlier, later in zip(points, points[1:]))
 
 
-def losses(ticks_csv, poses_csv, begin_s, end_s):
+def _grown(rows, column):
+    return int(float(rows[-1][column]) - float(rows[0][column])) if rows else 0
+
+
+def _since(text, begin_s, end_s):
+    """As _rows, for a file that has a line only where something has changed: with the newest line before begin_s, or zeros."""
+    rows = list(csv.DictReader(io.StringIO(text)))
+    before = [row for row in rows if float(row["t_s"]) < begin_s][-1:]
+    return (before or [dict.fromkeys(rows[0], 0)] if rows else []) + _rows(text, begin_s, end_s)
+
+
+def losses(ticks_csv, poses_csv, capture_csv, begin_s, end_s):
     ticks = _rows(ticks_csv, begin_s, end_s)
+    captures = _since(capture_csv, begin_s, end_s)
     pictures = [float(row["t_s"]) for row in _rows(poses_csv, begin_s, end_s)]
     packets = [float(row["odom_t_s"]) for row in ticks if row["odom_t_s"] != "nan"]
-
-    def grown(column):
-        return int(float(ticks[-1][column]) - float(ticks[0][column])) if ticks else 0
 
     return {
         "without_picture_s": round(_longest_gap_s(pictures, begin_s, end_s), 2),
         "without_robot_s": round(_longest_gap_s(packets, begin_s, end_s), 2),
-        "bytes_discarded": grown("bytes_discarded"),
-        "checksum_errors": grown("checksum_errors"),
-        "reconnects": grown("reconnects"),
+        "frames_captured": _grown(captures, "captured"),
+        "frames_dropped_by_driver": _grown(captures, "dropped_by_driver"),
+        "camera_reopened": _grown(captures, "reopened"),
+        "bytes_discarded": _grown(ticks, "bytes_discarded"),
+        "checksum_errors": _grown(ticks, "checksum_errors"),
+        "reconnects": _grown(ticks, "reconnects"),
     }

@@ -88,7 +88,7 @@ class Service:
         return [what for t_s, what in lines if float(t_s) >= begin_s and re.search(pattern, what)]
 
     def losses(self, begin_s, end_s):
-        return recording.losses(self.recorded("ticks.csv"), self.recorded("poses.csv"), begin_s, end_s)
+        return recording.losses(*(self.recorded(f"{name}.csv") for name in ("ticks", "poses", "capture")), begin_s, end_s)
 
     def recorded_until(self):
         """CLOCK_MONOTONIC of the guest's newest recorded tick, seconds."""
