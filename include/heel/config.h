@@ -45,7 +45,7 @@ struct VisionConfig {
   bool tracking = true;               ///< look first where the last frame says the target must be
   double tracking_rate_rad_s = 1.5;   ///< how fast the target may cross the view
   double back_curvature_1_m = 1.5;    ///< κ: the back's sides lie κ X² behind its middle; 0: a plane
-  double back_shape_sigma_m = 0.005;  ///< how far folds and build take the back from that curve
+  double back_shape_sigma_m = 0.002;  ///< how far folds and breath have moved the back since it was taught
 };
 
 struct EstimateConfig {

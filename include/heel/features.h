@@ -27,11 +27,14 @@ struct Feature {
 using Descriptor = std::array<float, kDescriptorSize>;  ///< unit length
 
 struct FeatureSettings {
-  int octaves = 2;           ///< 1…4; filters of side 9…27, 15…51, 27…99, 51…195
-  int max_features = 1000;   ///< at most this many are described
-  float threshold = 1e-4f;   ///< smallest response kept; a blob of contrast c (0…1) has about 0.1 c²
-  bool oriented = false;     ///< rotate descriptors to the dominant orientation
-  bool spread = true;        ///< share max_features among the cells of a grid; false: the strongest only
+  int octaves = 2;          ///< 1…4; filters of side 9…27, 15…51, 27…99, 51…195
+  int max_features = 1000;  ///< at most this many are described
+  float threshold = 1e-4f;  ///< smallest response kept; a blob of contrast c (0…1) has about 0.1 c²
+  bool oriented = false;    ///< rotate descriptors to the dominant orientation
+  bool spread = true;       ///< share max_features among the cells of a grid; false: the strongest only
+  /// Look in the picture drawn twice as large: features of half the size, in four times the time. For regions
+  /// of at most half the image's width and height; larger ones are looked at as they are.
+  bool closely = false;
   float sigma_min_px = 0.f;  ///< features outside [sigma_min, sigma_max] are not looked for
   float sigma_max_px = 1e9f;
 };

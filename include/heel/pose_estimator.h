@@ -15,6 +15,7 @@ namespace heel {
 struct ExpectedView {
   Region region;  ///< pixels of the frame; may reach beyond it
   double sigma_min_px = 0.0, sigma_max_px = 0.0;
+  bool closely = false;  ///< it is small there: FeatureSettings::closely
 };
 
 /// Pure but for its preallocated memory: the same frame (and expectation) gives the same estimate.
@@ -35,6 +36,10 @@ class PoseEstimator {
   /// Where the shirt can be at `t_ns`, when it was found as in `last` (found, same camera, not later than
   /// `t_ns`) and moves no faster than `vision.tracking_rate_rad_s` through the view.
   ExpectedView expected_view(const PoseEstimate& last, TimeNs t_ns) const;
+
+  /// True: `pose` of a whole frame, found or not, rests on pairs so few and so small that looking once more,
+  /// where they say the shirt is, may find it, or find it better.
+  bool deserves_a_closer_look(const PoseEstimate& pose) const;
 
   /// From now on `times`, which must outlive this, hears of the steps; null: nobody does.
   void measure(StageTimes* times);

@@ -19,6 +19,7 @@ class PoseTracker {
   void measure(StageTimes* times) { estimator_.measure(times); }
 
  private:
+  PoseEstimate search(const FrameView& frame);
   bool expects_it_in(const FrameView& frame) const;
 
   PoseEstimator estimator_;

@@ -2,11 +2,14 @@
 // as an ellipse does from its end, z = b (1 − √(1 − X²/a²)) ≈ κ X² with κ = b / (2 a²), for X from the
 // middle. In units of the distance d of the middle, along the ray (x, y, 1) of the reference view:
 //   X_ref / d = (x, y, 1) (1 + κ d (x − x_c)²)
-// κ d = 0 is the paper's plane. No back is that curve: the body has blades and a spine, cloth has folds, and
-// it breathes. The departure is taken for smooth, a sum of five shapes of the place (u, v) in the region,
-// −1…1:
+// κ d = 0 is the paper's plane. No back stays that curve: cloth has folds, and slides, and the body breathes
+// and sways. What has changed between the moment of teaching and now lifts the point off the surface, along
+// the target's normal. The change is taken for smooth, a sum of five shapes of the place (u, v) in the
+// region, −1…1:
 //   δz = σ_shape (a₁ u + a₂ v + a₃ (u² − ⅓) + a₄ u v + a₅ (v² − ⅓)),  a ~ N(0, I)
 // Smooth departures do not average out over many points, so they are what an honest deviation rests on.
+// (Along the reference's ray instead, as a shape that is the same at both moments, they would not be seen
+// from where the template was taken, and the deviation there would be that of pixels alone.)
 #pragma once
 
 #include <Eigen/Core>
@@ -29,7 +32,8 @@ struct BackSurface {
   /// X_ref / d under the normalised reference point (x, y, 1).
   Eigen::Vector3d point(const Eigen::Vector3d& ray) const { return depth_over_d(ray.x()) * ray; }
 
-  /// How strongly each of the five shapes moves the point along its ray, in units of d.
+  /// How far each of the five shapes lifts the point off the surface, along the normal (0,0,1), in units of
+  /// d.
   Vector5d departures(const Eigen::Vector3d& ray) const {
     const double u = (ray.x() - axis_x) / half_size.x(), v = (ray.y() - axis_y) / half_size.y();
     Vector5d shapes;

@@ -1,4 +1,5 @@
-// The extractor behind heel/features.h: integral image → fast-Hessian → selection → orientation → descriptor.
+// The extractor behind heel/features.h: (enlarged view →) integral image → fast-Hessian → selection →
+// orientation → descriptor.
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
@@ -8,6 +9,7 @@
 #include "heel/error.h"
 #include "heel/features.h"
 #include "vision/descriptor.h"
+#include "vision/enlarged_view.h"
 #include "vision/fast_hessian.h"
 #include "vision/integral_image.h"
 #include "vision/keypoint_selection.h"
@@ -18,6 +20,8 @@ namespace {
 
 // Keypoints kept before spreading, for each one wanted: enough that weak corners of the image are still in.
 constexpr int kCandidatesPerFeature = 4;
+// Of the frame round a region that is looked at closely: descriptors reach beyond it.
+constexpr int kSurroundingsPx = 16;
 
 Region clipped(const Region& region, int width_px, int height_px) {
   if (region.width_px == 0 && region.height_px == 0) return {0, 0, width_px, height_px};
@@ -25,6 +29,12 @@ Region clipped(const Region& region, int width_px, int height_px) {
   const int x1 = std::clamp(region.x_px + region.width_px, x0, width_px);
   const int y1 = std::clamp(region.y_px + region.height_px, y0, height_px);
   return {x0, y0, x1 - x0, y1 - y0};
+}
+
+Region with_surroundings(const Region& region, int width_px, int height_px) {
+  return clipped({region.x_px - kSurroundingsPx, region.y_px - kSurroundingsPx,
+                  region.width_px + 2 * kSurroundingsPx, region.height_px + 2 * kSurroundingsPx},
+                 width_px, height_px);
 }
 
 void check(const FeatureSettings& settings) {
@@ -43,17 +53,21 @@ struct FeatureExtractor::Impl {
         max_width_px(width_px),
         max_height_px(height_px),
         max_features(given.max_features),
+        enlarged(width_px, height_px),
         integral(width_px, height_px),
         hessian(width_px),
         selection(static_cast<std::size_t>(given.max_features) * kCandidatesPerFeature) {
     downwards.reserve(static_cast<std::size_t>(given.max_features));
   }
 
+  void extract(const FrameView& view, const Region& region, const FeatureSettings& wanted, FeatureSet& out);
+  void extract_closely(const FrameView& frame, const Region& region, const Region& part, FeatureSet& out);
   void describe_all(FeatureSet& out);
 
   FeatureSettings settings;
   int max_width_px, max_height_px;
   int max_features;  // memory is there for so many
+  EnlargedView enlarged;
   IntegralImage integral;
   FastHessian hessian;
   KeypointSelection selection;
@@ -119,21 +133,47 @@ void FeatureExtractor::extract(const FrameView& frame, const Region& region, Fea
                 std::to_string(s.max_height_px) + " prepared for");
   const Region searched = clipped(region, width_px, height_px);
   if (frame.grey == nullptr || searched.width_px == 0 || searched.height_px == 0) return;
+  const Region part = with_surroundings(searched, width_px, height_px);
+  if (s.settings.closely && s.enlarged.has_room_for(part))
+    return s.extract_closely(frame, searched, part, out);
+  s.extract(frame, searched, s.settings, out);
+}
 
-  s.integral.compute(frame);
-  mark(s.times, VisionStage::Integral);
-  s.selection.start(s.settings.threshold);
-  s.hessian.detect(s.integral, searched, s.settings, s.selection);
-  mark(s.times, VisionStage::Hessian);
-  const auto wanted = static_cast<std::size_t>(s.settings.max_features);
-  if (s.settings.spread) {
-    s.selection.strongest_spread(wanted, searched, out.features);
+void FeatureExtractor::Impl::extract(const FrameView& view, const Region& region,
+                                     const FeatureSettings& wanted, FeatureSet& out) {
+  integral.compute(view);
+  mark(times, VisionStage::Integral);
+  selection.start(wanted.threshold);
+  hessian.detect(integral, region, wanted, selection);
+  mark(times, VisionStage::Hessian);
+  const auto count = static_cast<std::size_t>(wanted.max_features);
+  if (wanted.spread) {
+    selection.strongest_spread(count, region, out.features);
   } else {
-    s.selection.strongest(wanted, out.features);
+    selection.strongest(count, out.features);
   }
-  mark(s.times, VisionStage::Selection);
-  s.describe_all(out);
-  mark(s.times, VisionStage::Description);
+  mark(times, VisionStage::Selection);
+  describe_all(out);
+  mark(times, VisionStage::Description);
+}
+
+/// `part`: the region with its surroundings, which is what is drawn larger.
+void FeatureExtractor::Impl::extract_closely(const FrameView& frame, const Region& region, const Region& part,
+                                             FeatureSet& out) {
+  constexpr int k = EnlargedView::kFactor;
+  FeatureSettings wanted = settings;
+  wanted.sigma_min_px *= k;
+  wanted.sigma_max_px *= k;
+  const FrameView view = enlarged.draw(frame, part);
+  extract(view,
+          {k * (region.x_px - part.x_px), k * (region.y_px - part.y_px), k * region.width_px,
+           k * region.height_px},
+          wanted, out);
+  for (Feature& feature : out.features) {
+    feature.x_px = enlarged.x_in_frame(feature.x_px);
+    feature.y_px = enlarged.y_in_frame(feature.y_px);
+    feature.sigma_px /= k;
+  }
 }
 
 }  // namespace heel

@@ -7,6 +7,7 @@
 
 #include "levenberg_marquardt.h"
 #include "projection.h"
+#include "rivals.h"
 
 namespace heel {
 namespace {
@@ -109,14 +110,13 @@ struct PoseDescent {
   /// the squares of that.
   Matrix6d covariance(const Pose& pose, double variance_px2) const {
     linearise(pose);
+    const Eigen::Vector3d normal = pose.R.col(2);  // along it the surface departs
     Eigen::Matrix<double, 6, 5> by_shape = Eigen::Matrix<double, 6, 5>::Zero();
     Eigen::Index row = 0;
     for (const WhitenedPair& pair : pairs) {
-      const Eigen::Vector3d ray =
-          pose.R * (pair.point_ref / pair.point_ref.z());  // along it the surface departs
       for (int axis = 0; axis < 2; ++axis, ++row) {
         const auto J = linearised.J.row(row);
-        by_shape += J.transpose() * (J.tail<3>().dot(ray) * pair.departures.transpose());
+        by_shape += J.transpose() * (J.tail<3>().dot(normal) * pair.departures.transpose());
       }
     }
     Matrix6d precision = normal_matrix() / variance_px2;
@@ -136,10 +136,6 @@ Eigen::Vector3d yaw_gradient(const Eigen::Matrix3d& R) {
   const double horizontal2 = std::max(c.x() * c.x() + c.z() * c.z(), 1e-12);
   const Eigen::Vector3d dx(0.0, c.z(), -c.y()), dz(c.y(), -c.x(), 0.0);
   return (c.z() * dx - c.x() * dz) / horizontal2;
-}
-
-double wrapped(double angle_rad) {
-  return std::remainder(angle_rad, 2.0 * M_PI);
 }
 
 Eigen::Matrix3d half_turn_about(const Eigen::Vector3d& axis) {
@@ -212,17 +208,12 @@ FrontalPose FrontalPoseEstimator::estimate(const FrontalProblem& problem, const 
   // Two hypotheses of equal prior: their odds are exp(−Δχ²/2).
   const double chi2_excess =
       (other.cost_px2 - chosen.cost_px2) / std::max(chosen.noise_px * chosen.noise_px, 1e-12);
-  const double odds = std::exp(-0.5 * std::max(0.0, chi2_excess));
-  pose.ambiguity = odds / (1.0 + odds);
+  const Rival mirrored{other, std::exp(-0.5 * std::max(0.0, chi2_excess))};
 
   const Eigen::Vector3d gradient = yaw_gradient(chosen.R_cur_from_ref);
-  const double apart_rad = wrapped(yaw_of_rotation(other.R_cur_from_ref) - pose.yaw_rad);
-  pose.yaw_sigma_rad = std::sqrt(gradient.dot(pose.covariance.topLeftCorner<3, 3>() * gradient) +
-                                 pose.ambiguity * apart_rad * apart_rad);
-  for (int i = 0; i < 3; ++i) {
-    const double apart = other.t_over_d(i) - chosen.t_over_d(i);
-    pose.t_over_d_sigma(i) = std::sqrt(pose.covariance(3 + i, 3 + i) + pose.ambiguity * apart * apart);
-  }
+  pose.yaw_sigma_rad = std::sqrt(gradient.dot(pose.covariance.topLeftCorner<3, 3>() * gradient));
+  pose.t_over_d_sigma = pose.covariance.diagonal().tail<3>().cwiseSqrt();
+  own_up_to({&mirrored, 1}, pose);
   return pose;
 }
 

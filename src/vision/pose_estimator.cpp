@@ -10,22 +10,16 @@
 #include <string>
 #include <vector>
 
-#include "back_surface.h"
+#include "back_pose.h"
 #include "guided_matcher.h"
 #include "heel/error.h"
 #include "heel/homography.h"
 #include "heel/matching.h"
 #include "heel/motion.h"
-#include "motion_refine.h"
 #include "shape_plausibility.h"
-#include "surface_follower.h"
 
 namespace heel {
 namespace {
-
-// So many times better the plane must explain what is seen to be it: a picture, or a board to try heel with.
-constexpr double kFlatter = 1.25;
-constexpr double kLeastNoisePx = 0.3;  // no fit is better for less
 
 // A plane turned by 75° loses half its linear size (√cos 75°): features and outline shrink by that much
 // beside what the distance does.
@@ -34,12 +28,17 @@ constexpr double kScaleMargin = 1.2;  // the template's distance is measured by 
 // Inliers' features change size as the homography says; those of a fit by chance change anyhow.
 constexpr double kMaxScaleDisagreement = 1.5;
 constexpr int kGuidedRounds = 2;
+constexpr double kSettledPx = 1.0;  // of the guide's radius of 8: the next round would pair the same
 // Round the expected view: what a homography found from few pairs is off at the outline, by share of its
 // size; and how far features' scales lie from what it predicts, with what the target may come nearer in a
 // second.
 constexpr double kViewMargin = 0.1;
 constexpr double kViewScaleMargin = 1.3;
 constexpr double kApproach_1_s = 1.0;
+// A shirt smaller than this share of its template shows few of the template's features as large as the
+// smallest filter: then it is looked at closely. So many pairs, a guess as yet, are worth a second look.
+constexpr double kSmall = 0.8;
+constexpr std::uint32_t kPairsOfAGuess = 5;
 
 /// Smallest and largest magnification of the template for which the target is looked for.
 struct ScaleRange {
@@ -111,25 +110,17 @@ std::vector<Eigen::Vector2d> undistorted(const CameraModel& camera, const Featur
   return px;
 }
 
-/// The back over the template's region. Without a distance κ has no scale: then it is a plane, and its
-/// deviations are those of pixels alone.
-BackSurface back_surface(const Outline& outline_px, const Eigen::Matrix3d& K_ref_inverse, double distance_m,
-                         const VisionConfig& config) {
-  const Eigen::Vector3d first = K_ref_inverse * outline_px[0].homogeneous();
-  const Eigen::Vector3d last = K_ref_inverse * outline_px[2].homogeneous();
-  BackSurface surface;
-  surface.axis_x = 0.5 * (first.x() + last.x());
-  surface.axis_y = 0.5 * (first.y() + last.y());
-  surface.half_size = 0.5 * (last - first).head<2>();
-  if (!(distance_m > 0.0)) return surface;
-  surface.bend = config.back_curvature_1_m * distance_m;
-  surface.shape_sigma = config.back_shape_sigma_m / distance_m;
-  return surface;
+/// Undistorted corners of the region, clockwise from the top left.
+Outline outline_of(const ShirtTemplate& shirt) {
+  const double left = shirt.roi.x_px, right = shirt.roi.x_px + shirt.roi.width_px - 1;
+  const double top = shirt.roi.y_px, bottom = shirt.roi.y_px + shirt.roi.height_px - 1;
+  return {shirt.camera.undistort_px({left, top}), shirt.camera.undistort_px({right, top}),
+          shirt.camera.undistort_px({right, bottom}), shirt.camera.undistort_px({left, bottom})};
 }
 
-/// How well a pose explains what is seen: by many pairs and little error.
-double explained(std::size_t pairs, const FrontalPose& pose) {
-  return static_cast<double>(pairs) / std::max(kLeastNoisePx, pose.motion.noise_px);
+Eigen::Vector2d centre_of(const ShirtTemplate& shirt) {
+  return shirt.camera.undistort_px(
+      {shirt.roi.x_px + 0.5 * (shirt.roi.width_px - 1), shirt.roi.y_px + 0.5 * (shirt.roi.height_px - 1)});
 }
 
 }  // namespace
@@ -140,11 +131,13 @@ struct PoseEstimator::Impl {
   void pair_up(const std::vector<Match>& from);
   PoseEstimate estimate(const FrameView& frame, const ExpectedView& search);
   ExpectedView expected_view(const Eigen::Matrix3d& H_cur_from_ref, double dt_s) const;
+  bool deserves_a_closer_look(const PoseEstimate& pose) const;
   PoseReason find_pairs(const FrameView& frame, const ExpectedView& search, PoseEstimate& pose);
   PoseReason find_homography(PoseEstimate& pose);
   PoseReason check_shape();
   PoseReason match_again(PoseEstimate& pose);
   PoseReason find_motion(PoseEstimate& pose);
+  double moved_px(const Eigen::Matrix3d& guide) const;
   void predict_from_homography();
 
   bool scales_agree();
@@ -158,7 +151,6 @@ struct PoseEstimator::Impl {
   Outline outline_px;                         // undistorted corners of the region
   Eigen::Vector2d centre_px;                  // undistorted centre of the region
   Eigen::Matrix3d K_ref, K_ref_inverse, K_cur, K_cur_inverse;
-  BackSurface surface;
   ScaleRange range;
   ShapeLimits shape_limits;
   ExpectedView anywhere;  // every size at which the robot may follow
@@ -168,8 +160,7 @@ struct PoseEstimator::Impl {
   Matcher matcher;
   GuidedMatcher guided_matcher;
   HomographyEstimator homography_estimator;
-  FrontalPoseEstimator frontal_estimator;
-  SurfaceFollower surface_follower;
+  BackPoseEstimator back_pose_estimator;
   FeatureSet frame_features;
   std::vector<Eigen::Vector2d> frame_px;  // undistorted, one for each feature
   std::vector<Match> matches;
@@ -190,6 +181,8 @@ PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current
       config(given),
       reference(checked_template_features(shirt, current_camera, given)),
       reference_px(undistorted(shirt.camera, reference)),
+      outline_px(outline_of(shirt)),
+      centre_px(centre_of(shirt)),
       K_ref(shirt.camera.K()),
       K_ref_inverse(K_ref.inverse()),
       K_cur(camera.K()),
@@ -200,15 +193,9 @@ PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current
               MatchSettings{static_cast<float>(config.match_ratio), true}),
       guided_matcher(config.max_features, GuidedMatchSettings{}),
       homography_estimator(static_cast<int>(reference.features.size()), ransac_settings(config)),
-      frontal_estimator(reference.features.size()),
-      surface_follower({reference, reference_px, K_ref_inverse}, frontal_estimator) {
+      back_pose_estimator({reference, reference_px, K_ref_inverse}, K_ref, K_cur, outline_px, centre_px,
+                          shirt.distance_m, config) {
   const std::size_t count = reference.features.size();
-  const double left = shirt.roi.x_px, right = shirt.roi.x_px + shirt.roi.width_px - 1;
-  const double top = shirt.roi.y_px, bottom = shirt.roi.y_px + shirt.roi.height_px - 1;
-  outline_px = {shirt.camera.undistort_px({left, top}), shirt.camera.undistort_px({right, top}),
-                shirt.camera.undistort_px({right, bottom}), shirt.camera.undistort_px({left, bottom})};
-  centre_px = shirt.camera.undistort_px({0.5 * (left + right), 0.5 * (top + bottom)});
-  surface = back_surface(outline_px, K_ref_inverse, shirt.distance_m, config);
   shape_limits.scale_min = range.min * kTiltShrink;
   shape_limits.scale_max = range.max * kScaleMargin;
 
@@ -250,7 +237,14 @@ ExpectedView PoseEstimator::Impl::expected_view(const Eigen::Matrix3d& H_cur_fro
   const double scale_margin = kViewScaleMargin * (1.0 + kApproach_1_s * dt_s);
   view.sigma_min_px = std::max(anywhere.sigma_min_px, smallest / scale_margin);
   view.sigma_max_px = std::min(anywhere.sigma_max_px, largest * scale_margin);
+  view.closely = local_scale(H_cur_from_ref, centre_px) < kSmall;
   return view;
+}
+
+bool PoseEstimator::Impl::deserves_a_closer_look(const PoseEstimate& pose) const {
+  if (pose.inliers < kPairsOfAGuess) return false;
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> H(pose.H_cur_from_ref.data());
+  return plausible_shape(H, outline_px, shape_limits) && local_scale(H, centre_px) < kSmall;
 }
 
 /// Steps 1–4: features of the frame, their nearest neighbours in the template, lens distortion removed.
@@ -259,6 +253,7 @@ PoseReason PoseEstimator::Impl::find_pairs(const FrameView& frame, const Expecte
   FeatureSettings settings = extractor.settings();
   settings.sigma_min_px = static_cast<float>(search.sigma_min_px);
   settings.sigma_max_px = static_cast<float>(search.sigma_max_px);
+  settings.closely = search.closely;
   extractor.set_settings(settings);
   extractor.extract(frame, search.region, frame_features);
   frame_px.clear();
@@ -316,6 +311,16 @@ bool PoseEstimator::Impl::scales_agree() {
   return *middle <= std::log(kMaxScaleDisagreement);
 }
 
+/// How far the homography puts the outline's corners from where `guide` did, at most.
+double PoseEstimator::Impl::moved_px(const Eigen::Matrix3d& guide) const {
+  double most_px = 0.0;
+  for (const Eigen::Vector2d& corner : outline_px)
+    most_px = std::max(most_px, ((homography.H_cur_from_ref * corner.homogeneous()).hnormalized() -
+                                 (guide * corner.homogeneous()).hnormalized())
+                                    .norm());
+  return most_px;
+}
+
 void PoseEstimator::Impl::predict_from_homography() {
   const Eigen::Matrix3d& H = homography.H_cur_from_ref;
   for (std::size_t i = 0; i < predicted.size(); ++i)
@@ -323,9 +328,9 @@ void PoseEstimator::Impl::predict_from_homography() {
 }
 
 /// Steps 3–6 once more, guided by a homography that has passed every check: more pairs, above all towards the
-/// edges, so a steadier fit. The first round's error at the edges may be larger than the guide's radius; the
-/// second starts from a better one. Only now, when the pairs there are have been found, is the certainty held
-/// to its floor.
+/// edges, so a steadier fit. The first round's error at the edges may be larger than the guide's radius; then
+/// a second starts from a better one. Only now, when the pairs there are have been found, is the certainty
+/// held to its floor.
 PoseReason PoseEstimator::Impl::match_again(PoseEstimate& pose) {
   guided_matcher.look_at(frame_features, frame_px);
   for (int round = 0; round < kGuidedRounds; ++round) {
@@ -333,8 +338,10 @@ PoseReason PoseEstimator::Impl::match_again(PoseEstimate& pose) {
     guided_matcher.match(predicted, reference, matches);
     pair_up(matches);
     mark(times, VisionStage::GuidedMatching);
+    const Eigen::Matrix3d guide = homography.H_cur_from_ref;
     const PoseReason reason = find_homography(pose);
     if (reason != PoseReason::Found) return reason;
+    if (moved_px(guide) < kSettledPx) break;
   }
   return pose.certainty < config.min_certainty ? PoseReason::TooFewInliers : PoseReason::Found;
 }
@@ -353,16 +360,8 @@ PoseReason PoseEstimator::Impl::find_motion(PoseEstimate& pose) {
   if (choice.best < 0) return PoseReason::NoValidMotion;
 
   const PlaneMotion& start = motions.motions[static_cast<std::size_t>(choice.best)];
-  FrontalProblem problem{inliers, K_ref, K_cur, homography.H_cur_from_ref, centre_px, surface};
-  problem.surface.bend = 0.0;
-  FrontalPose result = frontal_estimator.estimate(problem, start);
-  if (surface.bend > 0.0) {
-    problem.surface = surface;
-    const FrontalPose curved = surface_follower.follow(problem, frontal_estimator.estimate(problem, start),
-                                                       guided_matcher, frame_px);
-    if (explained(inliers.size(), result) < kFlatter * explained(surface_follower.pairs(), curved))
-      result = curved;
-  }
+  const FrontalPose result =
+      back_pose_estimator.estimate({inliers, homography.H_cur_from_ref, start}, guided_matcher, frame_px);
   const Eigen::Matrix3d& R = result.motion.R_cur_from_ref;
   const Eigen::Vector3d& t = result.motion.t_over_d;
   const Eigen::Vector3d centre_over_d = R * (K_ref_inverse * centre_px.homogeneous()) + t;
@@ -398,6 +397,10 @@ ExpectedView PoseEstimator::expected_view(const PoseEstimate& last, TimeNs t_ns)
   const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> H_cur_from_ref(
       last.H_cur_from_ref.data());
   return impl_->expected_view(H_cur_from_ref, seconds_from_ns(t_ns - last.t_capture_ns));
+}
+
+bool PoseEstimator::deserves_a_closer_look(const PoseEstimate& pose) const {
+  return impl_->deserves_a_closer_look(pose);
 }
 
 void PoseEstimator::measure(StageTimes* times) {

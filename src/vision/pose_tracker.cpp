@@ -17,13 +17,21 @@ bool PoseTracker::expects_it_in(const FrameView& frame) const {
   return config_.tracking && last_.found() && age_ns >= 0 && age_ns <= kForgotten_ns;
 }
 
+PoseEstimate PoseTracker::search(const FrameView& frame) {
+  const PoseEstimate pose = estimator_.estimate(frame);
+  if (!estimator_.deserves_a_closer_look(pose)) return pose;
+  const PoseEstimate closer =
+      estimator_.estimate(frame, estimator_.expected_view(pose, frame.header.t_capture_ns));
+  return closer.found() ? closer : pose;
+}
+
 PoseEstimate PoseTracker::estimate(const FrameView& frame) {
   PoseEstimate pose;
   if (expects_it_in(frame)) {
     pose = estimator_.estimate(frame, estimator_.expected_view(last_, frame.header.t_capture_ns));
     pose.tracked = pose.found();
   }
-  if (!pose.found()) pose = estimator_.estimate(frame);
+  if (!pose.found()) pose = search(frame);
   if (pose.found()) last_ = pose;
   return pose;
 }

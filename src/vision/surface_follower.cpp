@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace heel {
@@ -20,7 +21,14 @@ constexpr double kFirstLimitPx = 5.0, kLimitPx = 3.0;
 // Few pairs, of one facet, hardly tell how the back is turned: unless this share of the template's features
 // fits, the whole range is tried.
 constexpr double kSureShare = 0.3;
-constexpr double kOtherYawsRad[] = {-1.0, -0.6, -0.2, 0.2, 0.6, 1.0};
+constexpr std::array kOtherYawsRad{-1.0, -0.6, -0.2, 0.2, 0.6, 1.0};
+constexpr std::size_t kMostFits = 2 + kOtherYawsRad.size();
+
+// Fits whose yaws differ by less are the same. One that has a pair's support less is e times less likely: by
+// noise alone it were a fifth of a pair, but folds, and which features happen to be found again, decide over
+// one or two.
+constexpr double kSameYawRad = 0.1;
+constexpr double kDoubtfulSupport = 1.0;
 
 PlaneMotion as_start(const FrontalMotion& motion) {
   PlaneMotion start;
@@ -42,6 +50,8 @@ SurfaceFollower::SurfaceFollower(const ReferenceFeatures& reference, FrontalPose
   matches_.reserve(reference.px.size());
   fitting_.reserve(reference.px.size());
   best_fitting_.reserve(reference.px.size());
+  fits_.reserve(kMostFits);
+  rivals_.reserve(kMostFits);
 }
 
 /// Where the surface puts the features, those on the side turned away excepted.
@@ -104,30 +114,52 @@ FrontalMotion SurfaceFollower::turned(const FrontalProblem& problem, const Front
   return turned;
 }
 
+void SurfaceFollower::attempt(const FrontalProblem& problem, const FrontalMotion& start,
+                              GuidedMatcher& matcher, std::span<const Eigen::Vector2d> frame_px) {
+  fits_.push_back(improve(problem, start, matcher, frame_px));
+  if (!(fits_.back().support > best_.support)) return;
+  best_ = fits_.back();
+  std::swap(fitting_, best_fitting_);
+}
+
+/// Of fits with the same yaw the best counts.
+void SurfaceFollower::own_up_to_other_fits(FrontalPose& pose) {
+  std::sort(fits_.begin(), fits_.end(), [](const Fit& a, const Fit& b) { return a.support > b.support; });
+  rivals_.clear();
+  for (const Fit& fit : fits_) {
+    if (fit.support <= 0.0) break;
+    const auto same = [&](const FrontalMotion& other) {
+      return yaw_between(fit.motion, other) < kSameYawRad;
+    };
+    if (same(pose.motion) ||
+        std::any_of(rivals_.begin(), rivals_.end(), [&](const Rival& rival) { return same(rival.motion); }))
+      continue;
+    rivals_.push_back({fit.motion, std::exp((fit.support - best_.support) / kDoubtfulSupport)});
+  }
+  own_up_to(rivals_, pose);
+}
+
 FrontalPose SurfaceFollower::follow(const FrontalProblem& problem, const FrontalPose& start,
                                     GuidedMatcher& matcher, std::span<const Eigen::Vector2d> frame_px) {
-  Fit best{start.motion, -1.0};
+  best_ = {start.motion, -1.0};
   best_fitting_.clear();
-  const auto attempt = [&](const FrontalMotion& from) {
-    const Fit fit = improve(problem, from, matcher, frame_px);
-    if (!(fit.support > best.support)) return;
-    best = fit;
-    std::swap(fitting_, best_fitting_);
-  };
-  attempt(start.motion);
-  attempt(start.other);
-  if (best.support < kSureShare * static_cast<double>(reference_.px.size())) {
+  fits_.clear();
+  attempt(problem, start.motion, matcher, frame_px);
+  if (!settled(start.motion, start.other)) attempt(problem, start.other, matcher, frame_px);
+  if (best_.support < kSureShare * static_cast<double>(reference_.px.size())) {
     const double yaw_rad = yaw_of_rotation(start.motion.R_cur_from_ref);
     for (const double other_yaw_rad : kOtherYawsRad)
-      attempt(turned(problem, start.motion, other_yaw_rad - yaw_rad));
+      attempt(problem, turned(problem, start.motion, other_yaw_rad - yaw_rad), matcher, frame_px);
   }
-  if (best.support < 0.0) {
+  if (best_.support < 0.0) {
     best_fitting_.clear();
     return start;
   }
   FrontalProblem of_surface = problem;
   of_surface.pairs = best_fitting_;
-  return estimator_.estimate(of_surface, as_start(best.motion));
+  FrontalPose pose = estimator_.estimate(of_surface, as_start(best_.motion));
+  own_up_to_other_fits(pose);
+  return pose;
 }
 
 }  // namespace heel

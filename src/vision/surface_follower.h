@@ -12,6 +12,7 @@
 #include "back_surface.h"
 #include "guided_matcher.h"
 #include "motion_refine.h"
+#include "rivals.h"
 
 namespace heel {
 
@@ -29,7 +30,8 @@ class SurfaceFollower {
 
   /// `problem`: as the homography's pairs posed it, `start` its solution; its pairs are replaced by those
   /// that fit the surface. `matcher` looks at the frame's features, `frame_px` are their undistorted pixels.
-  /// Where too few fit, `start` is the answer, of no pairs.
+  /// Where too few fit, `start` is the answer, of no pairs. Its deviations know of the other fits that were
+  /// tried.
   FrontalPose follow(const FrontalProblem& problem, const FrontalPose& start, GuidedMatcher& matcher,
                      std::span<const Eigen::Vector2d> frame_px);
 
@@ -46,6 +48,9 @@ class SurfaceFollower {
   void keep_what_fits(const FrontalProblem& problem, const FrontalMotion& motion, double limit_px,
                       std::span<const Eigen::Vector2d> frame_px);
   FrontalMotion turned(const FrontalProblem& problem, const FrontalMotion& motion, double angle_rad) const;
+  void attempt(const FrontalProblem& problem, const FrontalMotion& start, GuidedMatcher& matcher,
+               std::span<const Eigen::Vector2d> frame_px);
+  void own_up_to_other_fits(FrontalPose& pose);
   Fit improve(FrontalProblem problem, const FrontalMotion& start, GuidedMatcher& matcher,
               std::span<const Eigen::Vector2d> frame_px);
 
@@ -54,6 +59,9 @@ class SurfaceFollower {
   std::vector<PredictedView> predicted_;
   std::vector<Match> matches_;
   std::vector<PointPair> fitting_, best_fitting_;
+  Fit best_;
+  std::vector<Fit> fits_;  // all that were tried
+  std::vector<Rival> rivals_;
 };
 
 }  // namespace heel

@@ -51,7 +51,8 @@ std::vector<PointPair> pairs_on(const BackSurface& surface, Random& random, cons
     const Eigen::Matrix3d KR = K * view.R;
     // The far side of a turned back is not seen.
     if (heel::image_derivative(surface, K_inverse, KR, K * view.t_over_d, ray).determinant() <= 0.0) continue;
-    const Eigen::Vector3d point = surface.point(ray) + departures.dot(surface.departures(ray)) * ray;
+    const Eigen::Vector3d point =
+        surface.point(ray) + departures.dot(surface.departures(ray)) * Eigen::Vector3d::UnitZ();
     pairs.push_back({ref + random.normal2(noise_px),
                      (KR * point + K * view.t_over_d).hnormalized() + random.normal2(noise_px)});
   }
@@ -158,17 +159,17 @@ TEST(CurvedBack, IsSeenAsTurnedAsItIs) {
   EXPECT_LT(std::abs(wrong_curvature_deg), 0.35 * std::abs(plane_deg));
 }
 
-// No back is exactly the curve. The departures are drawn as they are taken to be; the deviations that are
-// stated know of them.
+// No back stays the curve. The departures are drawn as they are taken to be; the deviations that are stated
+// know of them, from anywhere and from where the template was taken.
 TEST(CurvedBack, StatedSigmaIsHonestWithFolds) {
-  constexpr int kTrials = 800;
+  constexpr int kTrials = 1600;
   const BackSurface surface = back(1.5, 0.005);
   double yaw = 0.0, noise_only = 0.0;
   int within_1 = 0, within_2 = 0, within_3 = 0;
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
   for (std::uint64_t seed = 1; seed <= kTrials; ++seed) {
     Random random(seed);
-    const View view = random_view(random, plain_camera(), 0.9);
+    const View view = seed % 2 == 0 ? random_view(random, plain_camera(), 0.9) : view_at(0.0, 1.0);
     const heel::Vector5d departures = drawn_departures(random);
     const std::vector<PointPair> pairs = pairs_on(surface, random, view, 60, 0.5, departures);
     FrontalPoseEstimator estimator(pairs.size());

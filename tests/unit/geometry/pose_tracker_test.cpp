@@ -72,6 +72,32 @@ TEST(PoseTracker, FollowsTheBackAcrossTheViewAsWellAsASearchOfEverything) {
   EXPECT_LT(tracked_error_px, 1.2 * whole_error_px);
 }
 
+// From three times as far as it was taught, where few of the template's features reach the smallest filter.
+TEST(PoseTracker, LooksCloselyAtAShirtFarAway) {
+  ShirtTemplate taught = shirt();
+  taught.distance_m = 1.5;
+  PoseTracker tracker(taught, robot_camera(), lock_step_config());
+  PoseEstimator from_afar(taught, robot_camera(), lock_step_config());
+  for (int number = 0; number < 5; ++number) {
+    const double yaw_rad = 0.15 * (number - 2);
+    const Eigen::Matrix3d R = heel_test::rotation(yaw_rad, 0.02, 0.0);
+    const Eigen::Matrix3d truth = homography(R, t_over_d_for(R, 0.1, 3.0));
+    const cv::Mat image = seen(taught, yaw_rad, 0.1, 3.0);
+    const heel::FrameView frame = frame_at(image, 20 * number);
+    const PoseEstimate far = from_afar.estimate(frame), searched = tracker.estimate(frame);
+    ASSERT_TRUE(searched.found()) << number;
+    EXPECT_FALSE(searched.tracked);
+    EXPECT_GT(searched.certainty, 2.0 * far.certainty) << number;
+    EXPECT_LT(heel_test::corner_error_px(homography_of(searched), truth), 1.0) << number;
+    heel::FrameView next = frame;
+    next.header.t_capture_ns += kFramePeriod_ns;
+    const PoseEstimate tracked = tracker.estimate(next);
+    ASSERT_TRUE(tracked.tracked) << number;
+    EXPECT_GT(tracked.certainty, 2.0 * far.certainty) << number;
+    EXPECT_NEAR(tracked.yaw_rad, yaw_rad, 0.05) << number;
+  }
+}
+
 TEST(PoseTracker, AJumpIsFoundInTheSameFrame) {
   const ShirtTemplate taught = shirt();
   PoseTracker tracker(taught, robot_camera(), lock_step_config());
@@ -129,7 +155,7 @@ TEST(PoseTracker, WithoutTrackingItIsTheEstimator) {
   PoseTracker tracker(taught, robot_camera(), config);
   PoseEstimator estimator(taught, robot_camera(), config);
   for (int number = 0; number < 3; ++number) {
-    const cv::Mat view = seen(taught, 0.1 * number, 0.0, 1.2);
+    const cv::Mat view = seen(taught, 0.1 * number, 0.0, 1.0);  // near enough not to be looked at twice
     const PoseEstimate tracked = tracker.estimate(frame_at(view, number));
     const PoseEstimate whole = estimator.estimate(frame_at(view, number));
     EXPECT_FALSE(tracked.tracked);

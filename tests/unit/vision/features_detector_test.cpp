@@ -3,20 +3,13 @@
 
 #include <string>
 
+#include "extracted.h"
 #include "heel/error.h"
 #include "heel/features.h"
 #include "test_image.h"
 
 namespace heel::test {
 namespace {
-
-FeatureSet extract(const TestImage& image, const FeatureSettings& settings, const Region& region = {}) {
-  FeatureExtractor extractor(image.width_px, image.height_px, settings);
-  FeatureSet features;
-  extractor.reserve(features);
-  extractor.extract(image.view(), region, features);
-  return features;
-}
 
 // Box filters answer most to a Gaussian blob somewhat wider than the sigma they are named after.
 constexpr double kFoundSigma = 0.745;

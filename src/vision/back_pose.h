@@ -1,0 +1,51 @@
+// Steps 7 and 8's last part: from a motion of the plane to the pose of the back that was seen, be it curved,
+// as backs are, or flat, as a picture or a board held up.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "back_surface.h"
+#include "guided_matcher.h"
+#include "heel/config.h"
+#include "heel/homography.h"
+#include "heel/motion.h"
+#include "motion_refine.h"
+#include "shape_plausibility.h"
+#include "surface_follower.h"
+
+namespace heel {
+
+/// What both poses start from: the homography's inliers, and a motion of the plane that explains them.
+struct PlaneSighting {
+  std::span<const PointPair> inliers;  ///< undistorted pixels
+  Eigen::Matrix3d H_cur_from_ref;
+  PlaneMotion motion;
+};
+
+class BackPoseEstimator {
+ public:
+  /// `outline_px`: the region's undistorted corners, `centre_px` its middle. Without a distance (0) the
+  /// back's curvature has no scale: then it is a plane, and its deviations are those of pixels alone. What
+  /// `reference` refers to is to outlive this. Memory is taken once.
+  BackPoseEstimator(const ReferenceFeatures& reference, const Eigen::Matrix3d& K_ref,
+                    const Eigen::Matrix3d& K_cur, const Outline& outline_px, const Eigen::Vector2d& centre_px,
+                    double distance_m, const VisionConfig& config);
+
+  BackPoseEstimator(const BackPoseEstimator&) = delete;
+  BackPoseEstimator& operator=(const BackPoseEstimator&) = delete;
+
+  /// `matcher` looks at the frame's features, `frame_px` are their undistorted pixels.
+  FrontalPose estimate(const PlaneSighting& seen, GuidedMatcher& matcher,
+                       std::span<const Eigen::Vector2d> frame_px);
+
+ private:
+  Eigen::Matrix3d K_ref_, K_cur_;
+  Eigen::Vector2d centre_px_;
+  BackSurface flat_, curved_;
+  FrontalPoseEstimator frontal_estimator_;
+  SurfaceFollower surface_follower_;
+};
+
+}  // namespace heel
