@@ -89,7 +89,8 @@ const ConfigKey kKeys[] = {
     flag(HEEL_KEY(vision, tracking), No, "Look first where the last frame says the person must be, and everywhere only when they are not there."),
     number(HEEL_KEY(vision, tracking_rate_rad_s), "rad/s", {0.1, 20}, No, "How fast the person may cross the view, the robot's own turning included; faster looks farther round the last place."),
     number(HEEL_KEY(vision, back_curvature_1_m), "1/m", {0, 5}, No, "How far the back's sides lie behind its middle: this times the square of the way to the side. An ellipse 0.4 m wide and 0.24 m deep has 1.5 in the middle; 0 takes the back for a plane, as the paper does and as fits a flat target."),
-    number(HEEL_KEY(vision, back_shape_sigma_m), "m", {0, 0.05}, No, "How far folds, breath and gait have moved the back since it was taught (one standard deviation of each of five smooth shapes); the stated deviations of the pose grow with it."),
+    number(HEEL_KEY(vision, back_curvature_sigma_1_m), "1/m", {0, 2}, No, "How much people's backs differ from that (one standard deviation); the stated deviations of the pose grow with it."),
+    number(HEEL_KEY(vision, back_shape_sigma_m), "m", {0, 0.05}, No, "How far folds, breath and gait have moved the back since it was taught (one standard deviation of each of five smooth shapes); the stated deviations of the pose grow with it, too."),
 
     number(HEEL_KEY(estimate, acceleration_m_s2), "m/s²", {0.05, 20}, Yes, "How hard the person changes speed (one standard deviation); larger follows faster and smooths less."),
     number(HEEL_KEY(estimate, yaw_acceleration_rad_s2), "rad/s²", {0.05, 50}, Yes, "How hard the person changes direction (one standard deviation)."),

@@ -44,7 +44,9 @@ BackPoseEstimator::BackPoseEstimator(const ReferenceFeatures& reference, const E
       curved_(flat_),
       frontal_estimator_(reference.features.features.size()),
       surface_follower_(reference, frontal_estimator_) {
-  if (distance_m > 0.0) curved_.bend = config.back_curvature_1_m * distance_m;
+  if (!(distance_m > 0.0)) return;
+  curved_.bend = config.back_curvature_1_m * distance_m;
+  curved_.bend_sigma = config.back_curvature_sigma_1_m * distance_m;
 }
 
 FrontalPose BackPoseEstimator::estimate(const PlaneSighting& seen, GuidedMatcher& matcher,

@@ -7,9 +7,10 @@
 // the target's normal. The change is taken for smooth, a sum of five shapes of the place (u, v) in the
 // region, −1…1:
 //   δz = σ_shape (a₁ u + a₂ v + a₃ (u² − ⅓) + a₄ u v + a₅ (v² − ⅓)),  a ~ N(0, I)
-// Smooth departures do not average out over many points, so they are what an honest deviation rests on.
-// (Along the reference's ray instead, as a shape that is the same at both moments, they would not be seen
-// from where the template was taken, and the deviation there would be that of pixels alone.)
+// Smooth departures do not average out over many points, so they are what an honest deviation rests on; and
+// so is the curvature, which is not known of anybody: κ ~ N(κ₀, σ_κ). It is the same at both moments, so that
+// it moves a point along the reference's ray: from where the template was taken, it is not seen and turns
+// nothing.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,6 +27,7 @@ struct BackSurface {
   double axis_y = 0.0;  ///< of its middle from top to bottom
   Eigen::Vector2d half_size = Eigen::Vector2d::Ones();  ///< of the region, normalised
   double shape_sigma = 0.0;                             ///< σ_shape / d
+  double bend_sigma = 0.0;                              ///< σ_κ d: builds differ
 
   double depth_over_d(double x) const { return 1.0 + bend * (x - axis_x) * (x - axis_x); }
 
@@ -39,6 +41,12 @@ struct BackSurface {
     Vector5d shapes;
     shapes << u, v, u * u - 1.0 / 3.0, u * v, v * v - 1.0 / 3.0;
     return shape_sigma * shapes;
+  }
+
+  /// How far another build's curve lies behind this one: along the ray, since the reference view shows it at
+  /// the same pixel; in units of d, one standard deviation.
+  double departure_of_bend(const Eigen::Vector3d& ray) const {
+    return bend_sigma * (ray.x() - axis_x) * (ray.x() - axis_x);
   }
 
   /// d point / d (x, y).

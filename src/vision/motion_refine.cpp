@@ -16,6 +16,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr int kStepsToMinimum = 30;
 constexpr double kLeastVariance = 1e-4;  // px²; no feature is placed better than to 0.01 px
+constexpr double kSameMinimum = 1e-3;    // √2 times the angle between them
 constexpr double kFarthest = 10.0;       // d, before anything is seen
 constexpr double kBehindCost = 1e12;     // px², of a point that would lie behind the camera
 
@@ -110,20 +111,23 @@ struct PoseDescent {
   /// the squares of that.
   Matrix6d covariance(const Pose& pose, double variance_px2) const {
     linearise(pose);
-    const Eigen::Vector3d normal = pose.R.col(2);  // along it the surface departs
-    Eigen::Matrix<double, 6, 5> by_shape = Eigen::Matrix<double, 6, 5>::Zero();
+    const Eigen::Vector3d normal = pose.R.col(2);
+    Matrix6d by_departure = Matrix6d::Zero();
     Eigen::Index row = 0;
     for (const WhitenedPair& pair : pairs) {
+      const Eigen::Vector3d ray = pose.R * (pair.point_ref / pair.point_ref.z());
       for (int axis = 0; axis < 2; ++axis, ++row) {
         const auto J = linearised.J.row(row);
-        by_shape += J.transpose() * (J.tail<3>().dot(normal) * pair.departures.transpose());
+        Vector6d moved_px;
+        moved_px << J.tail<3>().dot(normal) * pair.departures, J.tail<3>().dot(ray) * pair.departure_of_bend;
+        by_departure += J.transpose() * moved_px.transpose();
       }
     }
     Matrix6d precision = normal_matrix() / variance_px2;
     precision.diagonal().head<3>().array() += 1.0 / (M_PI * M_PI);
     precision.diagonal().tail<3>().array() += 1.0 / (kFarthest * kFarthest);
     const Matrix6d of_noise = precision.ldlt().solve(Matrix6d::Identity());
-    const Eigen::Matrix<double, 6, 5> moved = of_noise * by_shape / variance_px2;
+    const Matrix6d moved = of_noise * by_departure / variance_px2;
     return of_noise + moved * moved.transpose();
   }
 
@@ -170,7 +174,7 @@ void FrontalPoseEstimator::load(const FrontalProblem& problem) {
     const Eigen::Vector3d ray = K_ref_inverse * pair.ref_px.homogeneous();
     pairs_.push_back({problem.surface.point(ray), (K_cur_inverse * pair.cur_px.homogeneous()).head<2>(),
                       whitening(problem.H_cur_from_ref, pair.ref_px) * problem.K_cur.topLeftCorner<2, 2>(),
-                      problem.surface.departures(ray)});
+                      problem.surface.departures(ray), problem.surface.departure_of_bend(ray)});
   }
 }
 
@@ -208,7 +212,8 @@ FrontalPose FrontalPoseEstimator::estimate(const FrontalProblem& problem, const 
   // Two hypotheses of equal prior: their odds are exp(−Δχ²/2).
   const double chi2_excess =
       (other.cost_px2 - chosen.cost_px2) / std::max(chosen.noise_px * chosen.noise_px, 1e-12);
-  const Rival mirrored{other, std::exp(-0.5 * std::max(0.0, chi2_excess))};
+  const bool same = (chosen.R_cur_from_ref - other.R_cur_from_ref).norm() < kSameMinimum;
+  const Rival mirrored{other, same ? 0.0 : std::exp(-0.5 * std::max(0.0, chi2_excess))};
 
   const Eigen::Vector3d gradient = yaw_gradient(chosen.R_cur_from_ref);
   pose.yaw_sigma_rad = std::sqrt(gradient.dot(pose.covariance.topLeftCorner<3, 3>() * gradient));

@@ -72,7 +72,8 @@ class FrontalPoseEstimator {
     Eigen::Vector3d point_ref;  ///< X_ref / d
     Eigen::Vector2d direction;  ///< (x/z, y/z) of the pixel in the current view
     Eigen::Matrix2d whitening;  ///< from directions to pixels whose noise is 1 px in every direction
-    Vector5d departures;        ///< BackSurface::departures
+    Vector5d departures;        ///< BackSurface::departures, along the normal
+    double departure_of_bend;   ///< BackSurface's, along the ray
   };
 
   /// The derivatives of all residuals, two a pair: a column for each of (ω, δt). And the residuals.

@@ -1,95 +1,17 @@
-// The pose of a curved back: exact, honest and rarely mirrored where a plane's is not, and found again from
-// one facet.
+// The pose of a curved back: exact, honest and rarely mirrored where a plane's is not.
+#include "curved_back.h"
+
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
-
-#include "allocation_count.h"
-#include "scene.h"
-#include "vision/back_surface.h"
-#include "vision/motion_refine.h"
-#include "vision/surface_follower.h"
 
 namespace {
 
-using heel::BackSurface;
-using heel::FrontalMotion;
-using heel::FrontalPose;
-using heel::FrontalPoseEstimator;
-using heel::FrontalProblem;
-using heel::PlaneMotion;
-using heel::PointPair;
+using namespace heel_test::curved;
 using heel_test::plain_camera;
 using heel_test::Random;
 using heel_test::random_view;
 using heel_test::View;
-
-const Eigen::Matrix3d K = plain_camera().K();
-const Eigen::Matrix3d K_inverse = K.inverse();
-const Eigen::Vector2d kCentrePx(320.0, 240.0);  // of the region in which heel_test::inlier_pairs lie
-
-/// A back at 1.5 m with the given curvature κ, which departs from its curve by `shape_sigma_m`.
-BackSurface back(double curvature_1_m, double shape_sigma_m = 0.0) {
-  constexpr double kDistanceM = 1.5;
-  BackSurface surface;
-  surface.bend = curvature_1_m * kDistanceM;
-  surface.axis_x = (K_inverse * kCentrePx.homogeneous()).x();
-  surface.axis_y = (K_inverse * kCentrePx.homogeneous()).y();
-  surface.half_size = {100.0 / 600.0, 150.0 / 605.0};
-  surface.shape_sigma = shape_sigma_m / kDistanceM;
-  return surface;
-}
-
-/// Points of the region of `surface` seen in both views; `departures` times its five shapes added to it.
-std::vector<PointPair> pairs_on(const BackSurface& surface, Random& random, const View& view, int count,
-                                double noise_px, const heel::Vector5d& departures = heel::Vector5d::Zero()) {
-  std::vector<PointPair> pairs;
-  while (static_cast<int>(pairs.size()) < count) {
-    const Eigen::Vector2d ref(random.uniform(220.0, 420.0), random.uniform(90.0, 390.0));
-    const Eigen::Vector3d ray = K_inverse * ref.homogeneous();
-    const Eigen::Matrix3d KR = K * view.R;
-    // The far side of a turned back is not seen.
-    if (heel::image_derivative(surface, K_inverse, KR, K * view.t_over_d, ray).determinant() <= 0.0) continue;
-    const Eigen::Vector3d point =
-        surface.point(ray) + departures.dot(surface.departures(ray)) * Eigen::Vector3d::UnitZ();
-    pairs.push_back({ref + random.normal2(noise_px),
-                     (KR * point + K * view.t_over_d).hnormalized() + random.normal2(noise_px)});
-  }
-  return pairs;
-}
-
-heel::Vector5d drawn_departures(Random& random) {
-  heel::Vector5d a;
-  for (int i = 0; i < 5; ++i) a(i) = random.normal(1.0);
-  return a;
-}
-
-FrontalProblem problem_of(const std::vector<PointPair>& pairs, const View& view, const BackSurface& surface) {
-  return {pairs, K, K, view.H, kCentrePx, surface};
-}
-
-PlaneMotion motion_of(const View& view) {
-  PlaneMotion motion;
-  motion.R_cur_from_ref = view.R;
-  motion.t_over_d = view.t_over_d;
-  return motion;
-}
-
-PlaneMotion mirrored(const View& view) {
-  FrontalMotion motion;
-  motion.R_cur_from_ref = view.R;
-  motion.t_over_d = view.t_over_d;
-  return heel::mirrored_motion(problem_of({}, view, {}), motion);
-}
-
-View view_at(double yaw_rad, double depth) {
-  View view;
-  view.R = heel_test::rotation(yaw_rad, 0.0, 0.0);
-  view.t_over_d = Eigen::Vector3d(0, 0, depth) - view.R.col(2);
-  view.H = heel_test::homography_of(K, K, view.R, view.t_over_d);
-  return view;
-}
 
 TEST(BackSurface, DerivativeIsThatOfTheImage) {
   Random random(1);
@@ -242,147 +164,6 @@ TEST(CurvedBack, TooLittleToGoByMakesLargeDeviationsNotNonsense) {
   const FrontalPose pose = estimator.estimate(problem_of(pairs, view, back(1.5)), motion_of(view));
   EXPECT_TRUE(all_finite(pose));
   EXPECT_GT(pose.yaw_sigma_rad, 5.0 * usual_rad);
-}
-
-/// A back with a feature of its own looks at each of many places, and a frame that shows it among clutter.
-struct FeaturedBack {
-  static constexpr int kFeatures = 200, kClutter = 400;
-  heel::FeatureSet reference, frame;
-  std::vector<Eigen::Vector2d> reference_px, frame_px;
-  std::vector<PointPair> facet;  // what a homography takes: the middle third
-
-  static heel::Descriptor random_descriptor(Random& random) {
-    Eigen::Matrix<float, 64, 1> values;
-    for (int i = 0; i < 64; ++i) values(i) = static_cast<float>(random.normal(1.0));
-    values.normalize();
-    heel::Descriptor descriptor{};
-    std::copy(values.begin(), values.end(), descriptor.begin());
-    return descriptor;
-  }
-  static void add(heel::FeatureSet& set, std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& px,
-                  double sigma_px, const heel::Descriptor& descriptor) {
-    heel::Feature feature;
-    feature.x_px = static_cast<float>(px.x());
-    feature.y_px = static_cast<float>(px.y());
-    feature.sigma_px = static_cast<float>(sigma_px);
-    feature.laplacian = 1;
-    set.features.push_back(feature);
-    set.descriptors.push_back(descriptor);
-    points.push_back(px);
-  }
-
-  FeaturedBack(Random& random, const View& view, const BackSurface& surface) {
-    for (const PointPair& pair : pairs_on(surface, random, view, kFeatures, 0.4)) {
-      const heel::Descriptor descriptor = random_descriptor(random);
-      const Eigen::Vector3d ray = K_inverse * pair.ref_px.homogeneous();
-      const double area =
-          heel::image_derivative(surface, K_inverse, K * view.R, K * view.t_over_d, ray).determinant();
-      add(reference, reference_px, pair.ref_px, 3.0, descriptor);
-      add(frame, frame_px, pair.cur_px, 3.0 * std::sqrt(std::max(area, 0.01)), descriptor);
-      if (std::abs(pair.ref_px.x() - kCentrePx.x()) < 33.0) facet.push_back(pair);
-    }
-    for (int i = 0; i < kClutter; ++i)
-      add(frame, frame_px, {random.uniform(0.0, 640.0), random.uniform(0.0, 480.0)}, 4.0,
-          random_descriptor(random));
-  }
-};
-
-TEST(SurfaceFollower, FindsTheWholeBackFromOneFacetAndEitherMinimum) {
-  const BackSurface surface = back(1.5);
-  double of_facet_deg = 0.0, of_back_deg = 0.0;
-  constexpr int kTrials = 60;
-  for (std::uint64_t seed = 1; seed <= kTrials; ++seed) {
-    Random random(seed);
-    const View view = view_at(random.uniform(-0.8, 0.8), random.uniform(0.8, 1.8));
-    FeaturedBack shown(random, view, surface);
-    FrontalPoseEstimator estimator(shown.reference_px.size());
-    heel::GuidedMatcher matcher(FeaturedBack::kFeatures + FeaturedBack::kClutter, {});
-    matcher.look_at(shown.frame, shown.frame_px);
-    heel::SurfaceFollower follower({shown.reference, shown.reference_px, K_inverse}, estimator);
-    const FrontalProblem problem = problem_of(shown.facet, view, surface);
-    const FrontalPose start = estimator.estimate(problem, motion_of(view));
-    FrontalPose swapped = start;
-    std::swap(swapped.motion, swapped.other);
-    const double truth = heel::yaw_of_rotation(view.R);
-    of_facet_deg += std::abs(start.yaw_rad - truth) * 180.0 / M_PI / kTrials;
-    for (const FrontalPose& from : {start, swapped}) {
-      const FrontalPose pose = follower.follow(problem, from, matcher, shown.frame_px);
-      EXPECT_NEAR(pose.yaw_rad, truth, 0.03) << "seed " << seed;
-      of_back_deg += std::abs(pose.yaw_rad - truth) * 180.0 / M_PI / (2 * kTrials);
-    }
-  }
-  std::cout << "mean |yaw error| of the facet " << of_facet_deg << " deg, of the back " << of_back_deg
-            << " deg\n";
-  EXPECT_LT(of_back_deg, 0.5 * of_facet_deg);
-}
-
-// Few features are seen again, and a strip of the back alone: the start is as wrong as noise makes it, both
-// its minima with it. What fits of the rest of the back still tells.
-TEST(SurfaceFollower, TriesTheWholeRangeOfYawWhereLittleFits) {
-  const BackSurface surface = back(1.5);
-  int wrong_start = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    Random random(seed);
-    const View view = view_at(random.uniform(-0.8, 0.8), 1.3);
-    FeaturedBack shown(random, view, surface);
-    // Three of four frame features look like nothing known.
-    for (std::size_t i = 0; i < FeaturedBack::kFeatures; ++i)
-      if (i % 4 != 0) shown.frame.descriptors[i] = FeaturedBack::random_descriptor(random);
-    FrontalPoseEstimator estimator(shown.reference_px.size());
-    heel::GuidedMatcher matcher(FeaturedBack::kFeatures + FeaturedBack::kClutter, {});
-    matcher.look_at(shown.frame, shown.frame_px);
-    heel::SurfaceFollower follower({shown.reference, shown.reference_px, K_inverse}, estimator);
-
-    // Both minima turned away from the truth about the strip in the middle.
-    FrontalPose start = estimator.estimate(problem_of(shown.facet, view, surface), motion_of(view));
-    const Eigen::Vector3d middle(0.0, 0.0, 1.0);
-    for (heel::FrontalMotion* motion : {&start.motion, &start.other}) {
-      const Eigen::Matrix3d R =
-          Eigen::AngleAxisd(view.R.col(2).x() > 0.0 ? -1.2 : 1.2, Eigen::Vector3d::UnitY())
-              .toRotationMatrix() *
-          view.R;
-      motion->t_over_d = view.t_over_d + (view.R - R) * middle;
-      motion->R_cur_from_ref = R;
-    }
-    const double truth = heel::yaw_of_rotation(view.R);
-    wrong_start += std::abs(heel::yaw_of_rotation(start.motion.R_cur_from_ref) - truth) > 1.0;
-    const FrontalPose pose =
-        follower.follow(problem_of(shown.facet, view, surface), start, matcher, shown.frame_px);
-    EXPECT_NEAR(pose.yaw_rad, truth, 0.06) << "seed " << seed;
-    EXPECT_GT(follower.pairs(), 35U) << "seed " << seed;
-  }
-  EXPECT_EQ(wrong_start, 40);
-}
-
-TEST(SurfaceFollower, KeepsItsStartWhereNothingFits) {
-  Random random(8);
-  const View view = view_at(0.2, 1.5);
-  const FeaturedBack shown(random, view, back(1.5));
-  FrontalPoseEstimator estimator(shown.reference_px.size());
-  heel::GuidedMatcher matcher(10, {});
-  const heel::FeatureSet nothing;
-  matcher.look_at(nothing, {});
-  heel::SurfaceFollower follower({shown.reference, shown.reference_px, K_inverse}, estimator);
-  const FrontalProblem problem = problem_of(shown.facet, view, back(1.5));
-  const FrontalPose start = estimator.estimate(problem, motion_of(view));
-  EXPECT_EQ(follower.follow(problem, start, matcher, {}).yaw_rad, start.yaw_rad);
-}
-
-TEST(SurfaceFollower, AllocatesNothing) {
-  if (!heel::test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
-  Random random(9);
-  const View view = view_at(0.5, 1.3);
-  const FeaturedBack shown(random, view, back(1.5));
-  FrontalPoseEstimator estimator(shown.reference_px.size());
-  heel::GuidedMatcher matcher(FeaturedBack::kFeatures + FeaturedBack::kClutter, {});
-  matcher.look_at(shown.frame, shown.frame_px);
-  heel::SurfaceFollower follower({shown.reference, shown.reference_px, K_inverse}, estimator);
-  const FrontalProblem problem = problem_of(shown.facet, view, back(1.5, 0.005));
-  const std::uint64_t before = heel::test::allocations_of_this_thread();
-  const FrontalPose start = estimator.estimate(problem, motion_of(view));
-  const FrontalPose pose = follower.follow(problem, start, matcher, shown.frame_px);
-  EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
-  EXPECT_NEAR(pose.yaw_rad, 0.5, 0.03);
 }
 
 }  // namespace

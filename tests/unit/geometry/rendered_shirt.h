@@ -108,6 +108,7 @@ inline heel::VisionConfig lock_step_config() {
   heel::VisionConfig config;
   config.ransac_budget_ms = 0.0;
   config.back_curvature_1_m = 0.0;  // what is rendered here is a plane, exactly
+  config.back_curvature_sigma_1_m = 0.0;
   config.back_shape_sigma_m = 0.0;
   return config;
 }

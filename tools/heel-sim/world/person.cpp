@@ -49,7 +49,7 @@ void set_leg(PersonPose& pose, const Isometry3d& hips, bool left, double phase, 
 }  // namespace
 
 Person::Person(const PersonSettings& settings, std::uint64_t seed, std::uint64_t shirt_seed, Detail detail)
-    : settings_(settings) {
+    : settings_(settings), torso_(settings.depth) {
   if (detail == Detail::TruthOnly) return;  // poses and the middle of the back need no surface
   const Tones tones = draw_tones(derived_seed(seed, 0x50));
   const Canvas shirt = draw_shirt(settings.shirt, shirt_seed);

@@ -17,6 +17,7 @@ namespace heel::sim {
 struct PersonSettings {
   ShirtDesign shirt = ShirtDesign::Bold;
   Hair hair = Hair::Short;
+  double depth = 1.0;  ///< from chest to back, beside the usual body: a flat back 0.75, a round one 1.3
   double sway_yaw_rad = 0.09;  ///< the back turns this far either way with each stride (paper: within 10°)
   double sway_side_m = 0.02;
   double sway_roll_rad = 0.025;

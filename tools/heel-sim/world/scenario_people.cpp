@@ -79,6 +79,7 @@ void read_body(TomlSection& person, PersonSettings& p) {
   p.sway_roll_rad = kRadPerDeg * person.number("sway_roll_deg", p.sway_roll_rad / kRadPerDeg, {0, 20, "deg"});
   p.bob_m = person.number("bob_m", p.bob_m, {0, 0.1, "m"});
   p.lean_rad = kRadPerDeg * person.number("lean_deg", p.lean_rad / kRadPerDeg, {-20, 30, "deg"});
+  p.depth = person.number("depth", p.depth, {0.6, 1.6, ""});
   p.cloth_ripple_m = person.number("cloth_ripple_m", p.cloth_ripple_m, {0, 0.02, "m"});
   p.cloth_slide_m = person.number("cloth_slide_m", p.cloth_slide_m, {0, 0.05, "m"});
   p.breath_m = person.number("breath_m", p.breath_m, {0, 0.02, "m"});

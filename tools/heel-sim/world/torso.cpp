@@ -46,23 +46,24 @@ Profile profile_at(double z_m) {
 }
 
 /// Point of the surface; `around` 0…1 from the middle of the chest over the person's left, the middle of the
-/// back (0.5), and the right.
-Eigen::Vector3d surface_point(double around, double z_m) {
+/// back (0.5), and the right; of a body so many times as deep as the usual one.
+Eigen::Vector3d surface_point(double around, double z_m, double depth) {
   const Profile profile = profile_at(z_m);
   const double angle = 2.0 * std::numbers::pi * around;
   const auto power = [](double value) {
     return std::copysign(std::pow(std::abs(value), 2.0 / kExponent), value);
   };
-  return {profile.half_depth_m * power(std::cos(angle)), profile.half_width_m * power(std::sin(angle)), z_m};
+  return {depth * profile.half_depth_m * power(std::cos(angle)),
+          profile.half_width_m * power(std::sin(angle)), z_m};
 }
 
 /// Segment edges at equal steps along the outline, so that the print is not stretched at the sides.
-std::vector<double> equal_steps_around() {
+std::vector<double> equal_steps_around(double depth) {
   constexpr int kFine = 4096;
   std::vector<double> length{0.0};
   for (int i = 1; i <= kFine; ++i)
-    length.push_back(length.back() + (surface_point(static_cast<double>(i) / kFine, kBackCentreZM) -
-                                      surface_point(static_cast<double>(i - 1) / kFine, kBackCentreZM))
+    length.push_back(length.back() + (surface_point(static_cast<double>(i) / kFine, kBackCentreZM, depth) -
+                                      surface_point(static_cast<double>(i - 1) / kFine, kBackCentreZM, depth))
                                          .norm());
   std::vector<double> around;
   std::size_t at = 0;
@@ -121,15 +122,15 @@ Place place_at(double column, double row) {
 
 }  // namespace
 
-Torso::Torso() {
-  const std::vector<double> around = equal_steps_around();
+Torso::Torso(double depth) : depth_(depth) {
+  const std::vector<double> around = equal_steps_around(depth);
   mesh_ = tube(kRings, kSegments, [&](int k, int j) {
     MeshVertex vertex;
     const double z = kTopM + (kBottomM - kTopM) * k / (kRings - 1);
     const double a = around[static_cast<std::size_t>(j)];
-    vertex.position_m = surface_point(a, z).cast<float>();
-    const Eigen::Vector3d along = surface_point(a + 1e-3, z) - surface_point(a - 1e-3, z);
-    const Eigen::Vector3d up = surface_point(a, z + 1e-3) - surface_point(a, z - 1e-3);
+    vertex.position_m = surface_point(a, z, depth).cast<float>();
+    const Eigen::Vector3d along = surface_point(a + 1e-3, z, depth) - surface_point(a - 1e-3, z, depth);
+    const Eigen::Vector3d up = surface_point(a, z + 1e-3, depth) - surface_point(a, z - 1e-3, depth);
     vertex.normal = along.cross(up).normalized().cast<float>();
     vertex.s_texel = static_cast<float>(kShirtWidthTexels) * static_cast<float>(j) / kSegments;
     vertex.t_texel = static_cast<float>((kTopM - z) * kShirtTexelsPerM);
@@ -145,7 +146,7 @@ Mesh Torso::mesh(const ClothState& cloth) const {
 }
 
 Eigen::Vector3d Torso::back_centre_m() const {
-  return surface_point(0.5, kBackCentreZM);
+  return surface_point(0.5, kBackCentreZM, depth_);
 }
 
 Eigen::Vector3d Torso::shirt_point_m(double s_texel, double t_texel, const ClothState& cloth) const {

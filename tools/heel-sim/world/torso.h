@@ -19,7 +19,8 @@ struct ClothState {
 
 class Torso {
  public:
-  Torso();
+  /// Of a body so many times as deep, from chest to back, as the usual one.
+  explicit Torso(double depth);
 
   /// The bare surface with the cloth at rest.
   const Mesh& at_rest() const { return mesh_; }
@@ -32,6 +33,7 @@ class Torso {
   Eigen::Vector3d shirt_point_m(double s_texel, double t_texel, const ClothState& cloth) const;
 
  private:
+  double depth_;
   Mesh mesh_;
 };
 

@@ -14,6 +14,9 @@ namespace {
 
 constexpr double kFreeRoundPersonM = 5.6;  ///< nothing stands nearer: the camera goes round at up to 5.5 m
 constexpr double kRoomReachM = 8.0;
+// Every seed has a person of its own build.
+constexpr std::uint64_t kBuild = 0xb1d;
+constexpr double kFlattest = 0.75, kRoundest = 1.3;
 // Longer than PoseTracker remembers: the next case is looked for anew.
 constexpr double kBetweenCasesS = 1.0;
 
@@ -40,6 +43,8 @@ sim::Scenario still_scenario(const sim::Scenario& base, const StillSurroundings&
   scenario.person_start = {};
   scenario.person.shirt = sim::shirt_design(surroundings.shirt);
   scenario.light.level = surroundings.light;
+  scenario.person.depth =
+      sim::Random(sim::derived_seed(surroundings.seed, kBuild)).uniform(kFlattest, kRoundest);
   scenario.robot = {};
   scenario.room.clearance_m = kFreeRoundPersonM;
   scenario.room.margin_m = kRoomReachM;
