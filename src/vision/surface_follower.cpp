@@ -24,11 +24,11 @@ constexpr double kSureShare = 0.3;
 constexpr std::array kOtherYawsRad{-1.0, -0.6, -0.2, 0.2, 0.6, 1.0};
 constexpr std::size_t kMostFits = 2 + kOtherYawsRad.size();
 
-// Fits whose yaws differ by less are the same. One that has a pair's support less is e times less likely: by
+// Fits whose yaws differ by less are the same. One that has so much less support is e times less likely: by
 // noise alone it were a fifth of a pair, but folds, and which features happen to be found again, decide over
 // one or two.
 constexpr double kSameYawRad = 0.1;
-constexpr double kDoubtfulSupport = 1.0;
+constexpr double kDoubtfulSupport = 1.5;
 
 PlaneMotion as_start(const FrontalMotion& motion) {
   PlaneMotion start;
