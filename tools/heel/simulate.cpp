@@ -1,13 +1,17 @@
 // heel simulate: scenarios through the daemon's own stages in lock step, and how well they were followed.
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <iostream>
 #include <set>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "commands.h"
 #include "heel/error.h"
@@ -160,20 +164,34 @@ void run_several(const SimulateOptions& options, const std::vector<sim::Scenario
   if (report_failed(runs)) throw CLI::RuntimeError(kExitNo);
 }
 
-/// One seed after the other, from the scenario's (or the given) one on.
+sim::FollowMetrics run_seed(const SimulateOptions& options, sim::Scenario scenario, int later) {
+  scenario.seed += static_cast<std::uint64_t>(later);
+  const sim::LockstepSettings settings = settings_of(options, scenario);
+  sim::RunRecord record("", settings);
+  sim::run_lockstep(settings, record);
+  return record.metrics().evaluate();
+}
+
+/// From the scenario's seed (or the given one) on. Without pictures, whose rows the cores share already, one
+/// run a core at a time.
 void run_many(const SimulateOptions& options) {
   if (!options.out.empty()) throw Error("--out: given beside --runs (expected one or the other)");
   if (options.scenarios.size() != 1) throw Error("--runs: several scenarios (expected one)");
-  sim::Scenario scenario = scenario_of(options, options.scenarios.front());
+  const sim::Scenario scenario = scenario_of(options, options.scenarios.front());
   sim::ManyRuns many;
   const auto begin = std::chrono::steady_clock::now();
-  for (int i = 0; i < options.runs; ++i, ++scenario.seed) {
-    const sim::LockstepSettings settings = settings_of(options, scenario);
-    sim::RunRecord record("", settings);
-    sim::run_lockstep(settings, record);
-    many.runs.push_back(record.metrics().evaluate());
-    many.simulated_s += settings.scenario.duration_s;
-  }
+  many.runs.resize(static_cast<std::size_t>(options.runs));
+  many.simulated_s = options.runs * settings_of(options, scenario).scenario.duration_s;
+  std::atomic<int> next{0};
+  const auto work = [&] {
+    for (int i = next++; i < options.runs; i = next++)
+      many.runs[static_cast<std::size_t>(i)] = run_seed(options, scenario, i);
+  };
+  const unsigned at_once =
+      options.error_model.empty() ? 1 : std::max(1U, std::thread::hardware_concurrency());
+  std::vector<std::future<void>> workers;
+  for (unsigned i = 0; i < at_once; ++i) workers.push_back(std::async(std::launch::async, work));
+  for (std::future<void>& worker : workers) worker.get();
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (options.json) {
     std::cout << sim::to_json(many).dump(2) << '\n';

@@ -2,9 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
 
 #include "run_heel.h"
 #include "sanitized.h"
@@ -79,6 +82,26 @@ TEST_F(Simulate, SeveralGiveAListAndALimitThatIsNotMetNamesItsScenario) {
   ASSERT_EQ(json.size(), 2U);
   EXPECT_EQ(json[0].at("scenario"), "one");
   EXPECT_EQ(json[1].at("scenario"), "two");
+}
+
+// One run a core at a time: each is what it is alone, whichever ends first.
+TEST_F(Simulate, ManyRunsWithoutPicturesAreThoseOfTheirSeeds) {
+  const std::string walk = scenario("walk"), model = HEEL_SOURCE_DIR "/tools/heel-sim/errors/pictured.toml";
+  const Outcome many =
+      simulate({walk, "--json", "--error-model", model, "--seed", "7", "--duration", "9", "--runs", "4"});
+  ASSERT_EQ(many.status, 0) << many.err;
+  std::vector<double> driven_m;
+  for (const char* seed : {"7", "8", "9", "10"}) {
+    const Outcome one = simulate({walk, "--json", "--error-model", model, "--seed", seed, "--duration", "9"});
+    ASSERT_EQ(one.status, 0) << one.err;
+    driven_m.push_back(nlohmann::json::parse(one.out)["robot_path_m"].get<double>());
+  }
+  const auto figures = nlohmann::json::parse(many.out);
+  EXPECT_EQ(figures["runs"], 4);
+  EXPECT_EQ(figures["simulated_s"], 36.0);
+  EXPECT_NEAR(figures["robot_path_m"]["min"].get<double>(), *std::ranges::min_element(driven_m), 1e-9);
+  EXPECT_NEAR(figures["robot_path_m"]["max"].get<double>(), *std::ranges::max_element(driven_m), 1e-9);
+  EXPECT_LT(figures["robot_path_m"]["min"], figures["robot_path_m"]["max"]) << "seeds differ";
 }
 
 TEST_F(Simulate, BadInputIsNamedBeforeAnythingRuns) {
