@@ -5,14 +5,15 @@
 
 namespace heel {
 
-EnlargedView::EnlargedView(int max_width_px, int max_height_px)
+EnlargedView::EnlargedView(int max_width_px, std::size_t max_area_px)
     : max_width_px_(max_width_px),
-      max_height_px_(max_height_px),
-      pixels_(static_cast<std::size_t>(max_width_px) * static_cast<std::size_t>(max_height_px)),
+      pixels_(max_area_px),
       row_(static_cast<std::size_t>(max_width_px) / kFactor + 2) {}
 
 bool EnlargedView::has_room_for(const Region& part) const {
-  return kFactor * part.width_px <= max_width_px_ && kFactor * part.height_px <= max_height_px_;
+  const auto width = static_cast<std::size_t>(part.width_px),
+             height = static_cast<std::size_t>(part.height_px);
+  return kFactor * part.width_px <= max_width_px_ && kFactor * kFactor * width * height <= pixels_.size();
 }
 
 // Bilinear. Each new pixel's centre lies a quarter of a pixel from the nearest old one, so that the weights

@@ -1,6 +1,7 @@
 // A part of a frame, drawn twice as large: so the smallest filter meets blobs of half its size.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,8 +14,9 @@ class EnlargedView {
  public:
   static constexpr int kFactor = 2;
 
-  /// Takes all memory here, for a picture of at most this size.
-  EnlargedView(int max_width_px, int max_height_px);
+  /// Takes all memory here, for a picture of at most this width and this many pixels: as large as a frame, so
+  /// that it costs no more, but taller, as a torso is.
+  EnlargedView(int max_width_px, std::size_t max_area_px);
 
   bool has_room_for(const Region& part) const;
   /// `part` inside the frame, and not too large. The picture is valid until the next call; its pixel (x, y)
@@ -29,7 +31,7 @@ class EnlargedView {
     return (at_px + 0.5f) / kFactor - 0.5f + static_cast<float>(start_px);
   }
 
-  int max_width_px_, max_height_px_;
+  int max_width_px_;
   Region part_;
   std::vector<std::uint8_t> pixels_;
   std::vector<std::uint16_t> row_;

@@ -53,8 +53,8 @@ struct FeatureExtractor::Impl {
         max_width_px(width_px),
         max_height_px(height_px),
         max_features(given.max_features),
-        enlarged(width_px, height_px),
-        integral(width_px, height_px),
+        enlarged(width_px, static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
+        integral(width_px, EnlargedView::kFactor * height_px),  // an enlarged view is taller than a frame
         hessian(width_px),
         selection(static_cast<std::size_t>(given.max_features) * kCandidatesPerFeature) {
     downwards.reserve(static_cast<std::size_t>(given.max_features));

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "extracted.h"
 #include "heel/features.h"
@@ -26,8 +28,9 @@ double level_at(const TestImage& image, const Region& part, double x, double y) 
 
 TEST(EnlargedView, IsTheBilinearPictureOfItsPart) {
   const TestImage image = noise_image(90, 70, 3);
-  EnlargedView enlarged(90, 70);
-  for (const Region& part : {Region{0, 0, 45, 35}, Region{45, 35, 45, 35}, Region{20, 11, 1, 7}}) {
+  EnlargedView enlarged(90, 90 * 70);
+  for (const Region& part :
+       {Region{0, 0, 45, 35}, Region{45, 35, 45, 35}, Region{30, 0, 22, 70}, Region{20, 11, 1, 7}}) {
     const FrameView view = enlarged.draw(image.view(), part);
     ASSERT_EQ(view.header.width_px, static_cast<std::uint32_t>(2 * part.width_px));
     ASSERT_EQ(view.header.height_px, static_cast<std::uint32_t>(2 * part.height_px));
@@ -41,11 +44,13 @@ TEST(EnlargedView, IsTheBilinearPictureOfItsPart) {
   }
 }
 
-TEST(EnlargedView, HasRoomForAQuarterOfThePicture) {
-  const EnlargedView enlarged(90, 70);
+TEST(EnlargedView, HasRoomForAQuarterOfThePictureTallerOrNot) {
+  const EnlargedView enlarged(90, 90 * 70);
   EXPECT_TRUE(enlarged.has_room_for({5, 5, 45, 35}));
+  EXPECT_TRUE(enlarged.has_room_for({0, 0, 22, 70}));
   EXPECT_FALSE(enlarged.has_room_for({0, 0, 46, 10}));
-  EXPECT_FALSE(enlarged.has_room_for({0, 0, 10, 36}));
+  EXPECT_FALSE(enlarged.has_room_for({0, 0, 45, 36}));
+  EXPECT_FALSE(enlarged.has_room_for({0, 0, 23, 70}));
 }
 
 TEST(FeaturesClosely, FindsABlobTooSmallForTheSmallestFilterWhereItIs) {
@@ -107,6 +112,34 @@ TEST(FeaturesClosely, ARegionTooLargeToEnlargeIsLookedAtAsItIs) {
   const FeatureSet closely = extract(image, settings, {10, 10, 120, 90});
   ASSERT_EQ(closely.features.size(), plain.features.size());
   EXPECT_EQ(closely.descriptors, plain.descriptors);
+}
+
+// As the region of a torso is: its picture is twice as tall as the frame.
+TEST(FeaturesClosely, FindsTheSameInATallRegionAsInItsParts) {
+  const TestImage image = image_of(240, 200, BlobField(240, 200, 600, 12));
+  FeatureSettings settings;
+  settings.closely = true;
+  settings.sigma_max_px = 2.f;
+  const auto inner = [](const FeatureSet& set, int top, int bottom) {
+    std::vector<std::pair<float, float>> at_px;
+    for (const Feature& feature : set.features)
+      if (feature.y_px >= static_cast<float>(top) && feature.y_px < static_cast<float>(bottom))
+        at_px.emplace_back(feature.x_px, feature.y_px);
+    std::sort(at_px.begin(), at_px.end());
+    return at_px;
+  };
+  const FeatureSet tall = extract(image, settings, {60, 10, 20, 180});
+  for (const Region& part : {Region{60, 10, 20, 90}, Region{60, 100, 20, 90}}) {
+    const int top = part.y_px + 5, bottom = part.y_px + part.height_px - 5;
+    const auto expected = inner(extract(image, settings, part), top, bottom);
+    ASSERT_GE(expected.size(), 5U);
+    const auto found = inner(tall, top, bottom);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_NEAR(found[i].first, expected[i].first, 1e-3f);
+      EXPECT_NEAR(found[i].second, expected[i].second, 1e-3f);
+    }
+  }
 }
 
 TEST(FeaturesClosely, KeepsToTheRegionAndTheScalesAsked) {
