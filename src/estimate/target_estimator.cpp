@@ -16,8 +16,10 @@ constexpr double kRangeSigmaPerM = 0.02;
 constexpr double kAcrossSigmaPerM = 0.005;
 // A gap longer than this says nothing about where the person went: begin anew.
 constexpr TimeNs kLongestGap_ns = kNsPerS;
-// The target is carried on past its last frame no longer than this.
-constexpr TimeNs kLongestPrediction_ns = 500 * kNsPerMs;
+// The target is carried on past its last frame no longer than this. Whoever walks goes on walking; whoever
+// turns is soon done with it.
+constexpr TimeNs kLongestWalk_ns = 500 * kNsPerMs;
+constexpr TimeNs kLongestTurn_ns = 200 * kNsPerMs;
 
 double wrapped(double angle_rad) {
   return std::remainder(angle_rad, 2.0 * std::numbers::pi);
@@ -109,10 +111,12 @@ TargetState TargetEstimator::at(TimeNs now_ns) const {
   const auto robot = path_.at(now_ns);
   if (!known_ || !robot) return target;
 
-  const double ahead_s =
-      seconds_from_ns(std::clamp<TimeNs>(now_ns - t_capture_ns_, 0, kLongestPrediction_ns));
-  const Eigen::Vector2d position_odom_m = position_.position() + ahead_s * position_.velocity();
-  const double yaw_odom_rad = yaw_.position()(0) + ahead_s * yaw_.velocity()(0);
+  const auto ahead_s = [&](TimeNs longest_ns) {
+    return seconds_from_ns(std::clamp<TimeNs>(now_ns - t_capture_ns_, 0, longest_ns));
+  };
+  const Eigen::Vector2d position_odom_m =
+      position_.position() + ahead_s(kLongestWalk_ns) * position_.velocity();
+  const double yaw_odom_rad = yaw_.position()(0) + ahead_s(kLongestTurn_ns) * yaw_.velocity()(0);
 
   const Eigen::Matrix2d R_robot_from_odom = rotation(-robot->heading_rad);
   const Eigen::Vector2d position_m =

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <random>
 #include <vector>
@@ -88,6 +89,29 @@ TEST(TargetEstimator, PersonWalkingAndBendingIsCarriedToNow) {
   // 60 ms of walking alone would be 0.06 m, of turning 0.024 rad.
   EXPECT_LT(scene.position_error_m(), 0.03);
   EXPECT_LT(std::abs(scene.yaw_error_rad()), 0.01);
+}
+
+TEST(TargetEstimator, UnseenThePersonGoesOnWalkingButNotOnTurning) {
+  Scene scene;
+  scene.person_v_m_s = 1.0;
+  scene.person_yaw_rate_rad_s = 0.5;
+  scene.run(2.0);
+  scene.disturb = [](PoseEstimate& pose) { pose.reason = PoseReason::TooFewMatches; };
+  scene.run(0.1);  // what is underway arrives
+  const TimeNs seen_ns = scene.estimator.at(scene.now_ns).t_capture_ns;
+  const TargetState seen = scene.estimator.at(seen_ns);
+  const auto after = [&](int ms) {
+    while (scene.now_ns < seen_ns + ms * kNsPerMs) scene.run(0.01);
+    return scene.estimator.at(seen_ns + ms * kNsPerMs);
+  };
+  const auto walked_m = [](const TargetState& from, const TargetState& to) {
+    return std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+  };
+  const TargetState turned = after(200), walked = after(500), later = after(900);
+  EXPECT_NEAR(turned.yaw_rad - seen.yaw_rad, 0.1, 0.01);
+  EXPECT_EQ(walked.yaw_rad, turned.yaw_rad);
+  EXPECT_NEAR(walked_m(seen, walked), 0.5, 0.02);
+  EXPECT_NEAR(walked_m(walked, later), 0.0, 1e-12);
 }
 
 TEST(TargetEstimator, YawIsContinuousAcrossHalfATurn) {
