@@ -187,11 +187,16 @@ TEST(LinkOverTcp, Drives) {
 }
 
 TEST(LinkWithoutARobot, NeitherBlocksNorEnds) {
-  LinkBench bench("pty:/nonexistent/robot");
-  bench.run(0.5);
-  EXPECT_EQ(bench.link.state().phase, LinkPhase::Closed);
-  EXPECT_LT(bench.longest_ns, 50 * kNsPerMs);
-  EXPECT_GT(bench.link.open_failures(), 0u);
+  // A busy machine may hold up one of the runs; a link that blocks holds up every one.
+  TimeNs longest_ns = kNsPerS;
+  for (int i = 0; i < 5 && longest_ns >= 50 * kNsPerMs; ++i) {
+    LinkBench bench("pty:/nonexistent/robot");
+    bench.run(0.5);
+    EXPECT_EQ(bench.link.state().phase, LinkPhase::Closed);
+    EXPECT_GT(bench.link.open_failures(), 0u);
+    longest_ns = std::min(longest_ns, bench.longest_ns);
+  }
+  EXPECT_LT(longest_ns, 50 * kNsPerMs);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "heel/error.h"
 #include "heel/kpd_file.h"
+#include "temporary_folder.h"
 
 namespace heel::test {
 namespace {
@@ -31,12 +32,9 @@ FeatureSet two_features() {
   return set;
 }
 
-std::string path_in_temp(const std::string& name) {
-  return testing::TempDir() + "/" + name;
-}
-
 TEST(FeaturesKpd, BinaryHoldsEveryField) {
-  const std::string path = path_in_temp("heel_features.kpd");
+  const TemporaryFolder folder;
+  const std::string path = folder.file("features.kpd");
   cli::write_kpd_file(two_features(), 640, 480, path);
   ASSERT_EQ(std::filesystem::file_size(path), 4U * (8 + 2 * (7 + 64)));
   std::ifstream file(path, std::ios::binary);
@@ -55,7 +53,8 @@ TEST(FeaturesKpd, BinaryHoldsEveryField) {
 }
 
 TEST(FeaturesKpd, TextHoldsEveryField) {
-  const std::string path = path_in_temp("heel_features.txt");
+  const TemporaryFolder folder;
+  const std::string path = folder.file("features.txt");
   cli::write_kpd_file(two_features(), 640, 480, path);
   std::ifstream file(path);
   std::string line;
