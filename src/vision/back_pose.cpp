@@ -14,15 +14,14 @@ constexpr double kFlatness =
     4.0;  // then the odds of the curve are two in five, at twice as well one in sixteen
 constexpr double kLeastNoisePx = 0.3;  // no fit is better for less
 
-BackSurface flat_surface(const Outline& outline_px, const Eigen::Matrix3d& K_ref_inverse, double distance_m,
-                         const VisionConfig& config) {
-  const Eigen::Vector3d first = K_ref_inverse * outline_px[0].homogeneous();
-  const Eigen::Vector3d last = K_ref_inverse * outline_px[2].homogeneous();
+BackSurface flat_surface(const ReferenceView& reference, const VisionConfig& config) {
+  const Eigen::Vector3d first = reference.K_inverse * reference.outline_px[0].homogeneous();
+  const Eigen::Vector3d last = reference.K_inverse * reference.outline_px[2].homogeneous();
   BackSurface surface;
   surface.axis_x = 0.5 * (first.x() + last.x());
   surface.axis_y = 0.5 * (first.y() + last.y());
   surface.half_size = 0.5 * (last - first).head<2>();
-  if (distance_m > 0.0) surface.shape_sigma = config.back_shape_sigma_m / distance_m;
+  if (reference.distance_m > 0.0) surface.shape_sigma = config.back_shape_sigma_m / reference.distance_m;
   return surface;
 }
 
@@ -33,20 +32,18 @@ double explained(std::size_t pairs, const FrontalPose& pose) {
 
 }  // namespace
 
-BackPoseEstimator::BackPoseEstimator(const ReferenceFeatures& reference, const Eigen::Matrix3d& K_ref,
-                                     const Eigen::Matrix3d& K_cur, const Outline& outline_px,
-                                     const Eigen::Vector2d& centre_px, double distance_m,
+BackPoseEstimator::BackPoseEstimator(const ReferenceView& reference, const Eigen::Matrix3d& K_cur,
                                      const VisionConfig& config)
-    : K_ref_(K_ref),
+    : K_ref_(reference.K),
       K_cur_(K_cur),
-      centre_px_(centre_px),
-      flat_(flat_surface(outline_px, reference.K_inverse, distance_m, config)),
+      centre_px_(reference.centre_px),
+      flat_(flat_surface(reference, config)),
       curved_(flat_),
-      frontal_estimator_(reference.features.features.size()),
-      surface_follower_(reference, frontal_estimator_) {
-  if (!(distance_m > 0.0)) return;
-  curved_.bend = config.back_curvature_1_m * distance_m;
-  curved_.bend_sigma = config.back_curvature_sigma_1_m * distance_m;
+      frontal_estimator_(reference.px.size()),
+      surface_follower_({reference.set, reference.px, reference.K_inverse}, frontal_estimator_) {
+  if (!(reference.distance_m > 0.0)) return;
+  curved_.bend = config.back_curvature_1_m * reference.distance_m;
+  curved_.bend_sigma = config.back_curvature_sigma_1_m * reference.distance_m;
 }
 
 FrontalPose BackPoseEstimator::estimate(const PlaneSighting& seen, GuidedMatcher& matcher,

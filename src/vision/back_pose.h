@@ -12,7 +12,7 @@
 #include "heel/homography.h"
 #include "heel/motion.h"
 #include "motion_refine.h"
-#include "shape_plausibility.h"
+#include "reference_view.h"
 #include "surface_follower.h"
 
 namespace heel {
@@ -26,12 +26,9 @@ struct PlaneSighting {
 
 class BackPoseEstimator {
  public:
-  /// `outline_px`: the region's undistorted corners, `centre_px` its middle. Without a distance (0) the
-  /// back's curvature has no scale: then it is a plane, and its deviations are those of pixels alone. What
-  /// `reference` refers to is to outlive this. Memory is taken once.
-  BackPoseEstimator(const ReferenceFeatures& reference, const Eigen::Matrix3d& K_ref,
-                    const Eigen::Matrix3d& K_cur, const Outline& outline_px, const Eigen::Vector2d& centre_px,
-                    double distance_m, const VisionConfig& config);
+  /// Without a distance of the reference view the back's curvature has no scale: then it is a plane, and its
+  /// deviations are those of pixels alone. `reference` is to outlive this. Memory is taken once.
+  BackPoseEstimator(const ReferenceView& reference, const Eigen::Matrix3d& K_cur, const VisionConfig& config);
 
   BackPoseEstimator(const BackPoseEstimator&) = delete;
   BackPoseEstimator& operator=(const BackPoseEstimator&) = delete;

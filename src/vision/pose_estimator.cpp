@@ -7,15 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "back_pose.h"
 #include "guided_matcher.h"
-#include "heel/error.h"
 #include "heel/homography.h"
 #include "heel/matching.h"
 #include "heel/motion.h"
+#include "reference_view.h"
 #include "shape_plausibility.h"
 
 namespace heel {
@@ -46,6 +45,7 @@ struct ScaleRange {
 };
 
 ScaleRange magnification(const ShirtTemplate& shirt, const CameraModel& camera, const VisionConfig& config) {
+  require_camera(camera, "current");
   const double focal_ratio = std::sqrt((camera.fx * camera.fy) / (shirt.camera.fx * shirt.camera.fy));
   // Without a distance all that is known is that the template was taught somewhere in the same range.
   const double nearest_ref = shirt.distance_m > 0.0 ? shirt.distance_m : config.distance_min_m;
@@ -79,48 +79,8 @@ RansacSettings ransac_settings(const VisionConfig& config) {
   return settings;
 }
 
-void require_camera(const CameraModel& camera, const char* whose) {
-  if (camera.width_px <= 0 || camera.height_px <= 0 || !(camera.fx > 0.0) || !(camera.fy > 0.0))
-    throw Error(std::string(whose) + " camera: width, height, fx and fy must be positive (got " +
-                std::to_string(camera.width_px) + " x " + std::to_string(camera.height_px) + ", fx " +
-                std::to_string(camera.fx) + ", fy " + std::to_string(camera.fy) + ")");
-}
-
-/// Memory for what the constructor alone computes; throws where the template cannot be followed.
-FeatureSet checked_template_features(const ShirtTemplate& shirt, const CameraModel& camera,
-                                     const VisionConfig& config) {
-  require_camera(shirt.camera, "template");
-  require_camera(camera, "current");
-  FeatureSet reference = template_features(shirt);
-  const std::size_t needed = static_cast<std::size_t>(std::max(4, config.min_inliers));
-  if (reference.features.size() < needed)
-    throw Error("template: " + std::to_string(reference.features.size()) +
-                " features in its region (expected at least " + std::to_string(needed) +
-                ", vision.min_inliers)");
-  return reference;
-}
-
 Eigen::Vector2d undistorted(const CameraModel& camera, const Feature& feature) {
   return camera.undistort_px({static_cast<double>(feature.x_px), static_cast<double>(feature.y_px)});
-}
-
-std::vector<Eigen::Vector2d> undistorted(const CameraModel& camera, const FeatureSet& set) {
-  std::vector<Eigen::Vector2d> px;
-  for (const Feature& feature : set.features) px.push_back(undistorted(camera, feature));
-  return px;
-}
-
-/// Undistorted corners of the region, clockwise from the top left.
-Outline outline_of(const ShirtTemplate& shirt) {
-  const double left = shirt.roi.x_px, right = shirt.roi.x_px + shirt.roi.width_px - 1;
-  const double top = shirt.roi.y_px, bottom = shirt.roi.y_px + shirt.roi.height_px - 1;
-  return {shirt.camera.undistort_px({left, top}), shirt.camera.undistort_px({right, top}),
-          shirt.camera.undistort_px({right, bottom}), shirt.camera.undistort_px({left, bottom})};
-}
-
-Eigen::Vector2d centre_of(const ShirtTemplate& shirt) {
-  return shirt.camera.undistort_px(
-      {shirt.roi.x_px + 0.5 * (shirt.roi.width_px - 1), shirt.roi.y_px + 0.5 * (shirt.roi.height_px - 1)});
 }
 
 }  // namespace
@@ -141,16 +101,12 @@ struct PoseEstimator::Impl {
   void predict_from_homography();
 
   bool scales_agree();
-  double distance_m;
+  bool is_small(const Eigen::Matrix3d& H_cur_from_ref) const;
+
   CameraModel camera;
   VisionConfig config;
-
-  // The reference view.
-  FeatureSet reference;
-  std::vector<Eigen::Vector2d> reference_px;  // undistorted, one for each feature
-  Outline outline_px;                         // undistorted corners of the region
-  Eigen::Vector2d centre_px;                  // undistorted centre of the region
-  Eigen::Matrix3d K_ref, K_ref_inverse, K_cur, K_cur_inverse;
+  ReferenceView reference;
+  Eigen::Matrix3d K_cur, K_cur_inverse;
   ScaleRange range;
   ShapeLimits shape_limits;
   ExpectedView anywhere;  // every size at which the robot may follow
@@ -176,26 +132,20 @@ struct PoseEstimator::Impl {
 
 PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current_camera,
                           const VisionConfig& given)
-    : distance_m(shirt.distance_m),
-      camera(current_camera),
+    : camera(current_camera),
       config(given),
-      reference(checked_template_features(shirt, current_camera, given)),
-      reference_px(undistorted(shirt.camera, reference)),
-      outline_px(outline_of(shirt)),
-      centre_px(centre_of(shirt)),
-      K_ref(shirt.camera.K()),
-      K_ref_inverse(K_ref.inverse()),
+      reference(shirt, given),
       K_cur(camera.K()),
       K_cur_inverse(K_cur.inverse()),
       range(magnification(shirt, camera, config)),
-      extractor(camera.width_px, camera.height_px, frame_feature_settings(shirt, reference, range, config)),
-      matcher(static_cast<int>(reference.features.size()), config.max_features,
+      extractor(camera.width_px, camera.height_px,
+                frame_feature_settings(shirt, reference.set, range, config)),
+      matcher(static_cast<int>(reference.px.size()), config.max_features,
               MatchSettings{static_cast<float>(config.match_ratio), true}),
       guided_matcher(config.max_features, GuidedMatchSettings{}),
-      homography_estimator(static_cast<int>(reference.features.size()), ransac_settings(config)),
-      back_pose_estimator({reference, reference_px, K_ref_inverse}, K_ref, K_cur, outline_px, centre_px,
-                          shirt.distance_m, config) {
-  const std::size_t count = reference.features.size();
+      homography_estimator(static_cast<int>(reference.px.size()), ransac_settings(config)),
+      back_pose_estimator(reference, K_cur, config) {
+  const std::size_t count = reference.px.size();
   shape_limits.scale_min = range.min * kTiltShrink;
   shape_limits.scale_max = range.max * kScaleMargin;
 
@@ -217,7 +167,7 @@ PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current
 /// `dt_s`.
 ExpectedView PoseEstimator::Impl::expected_view(const Eigen::Matrix3d& H_cur_from_ref, double dt_s) const {
   Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& corner : outline_px)
+  for (const Eigen::Vector2d& corner : reference.outline_px)
     box.extend(camera.distort_px((H_cur_from_ref * corner.homogeneous()).hnormalized()));
   const double moved_px = config.tracking_rate_rad_s * dt_s * std::max(camera.fx, camera.fy);
   const Eigen::Vector2d margin_px = kViewMargin * box.sizes() + Eigen::Vector2d::Constant(moved_px);
@@ -229,22 +179,26 @@ ExpectedView PoseEstimator::Impl::expected_view(const Eigen::Matrix3d& H_cur_fro
                  static_cast<int>(size.y())};
 
   double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
-  for (std::size_t i = 0; i < reference.features.size(); ++i) {
-    const double sigma = reference.features[i].sigma_px * local_scale(H_cur_from_ref, reference_px[i]);
+  for (std::size_t i = 0; i < reference.px.size(); ++i) {
+    const double sigma = reference.set.features[i].sigma_px * local_scale(H_cur_from_ref, reference.px[i]);
     smallest = std::min(smallest, sigma);
     largest = std::max(largest, sigma);
   }
   const double scale_margin = kViewScaleMargin * (1.0 + kApproach_1_s * dt_s);
   view.sigma_min_px = std::max(anywhere.sigma_min_px, smallest / scale_margin);
   view.sigma_max_px = std::min(anywhere.sigma_max_px, largest * scale_margin);
-  view.closely = local_scale(H_cur_from_ref, centre_px) < kSmall;
+  view.closely = is_small(H_cur_from_ref);
   return view;
+}
+
+bool PoseEstimator::Impl::is_small(const Eigen::Matrix3d& H_cur_from_ref) const {
+  return local_scale(H_cur_from_ref, reference.centre_px) < kSmall;
 }
 
 bool PoseEstimator::Impl::deserves_a_closer_look(const PoseEstimate& pose) const {
   if (pose.inliers < kPairsOfAGuess) return false;
   const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> H(pose.H_cur_from_ref.data());
-  return plausible_shape(H, outline_px, shape_limits) && local_scale(H, centre_px) < kSmall;
+  return plausible_shape(H, reference.outline_px, shape_limits) && is_small(H);
 }
 
 /// Steps 1–4: features of the frame, their nearest neighbours in the template, lens distortion removed.
@@ -260,7 +214,7 @@ PoseReason PoseEstimator::Impl::find_pairs(const FrameView& frame, const Expecte
   pose.frame_features = static_cast<std::uint32_t>(frame_features.features.size());
   if (frame_features.features.size() < 4) return PoseReason::TooFewFeatures;
 
-  matcher.match(reference, frame_features, matches);
+  matcher.match(reference.set, frame_features, matches);
   mark(times, VisionStage::Matching);
   pose.matches = static_cast<std::uint32_t>(matches.size());
   if (matches.size() < 4) return PoseReason::TooFewMatches;
@@ -275,7 +229,7 @@ void PoseEstimator::Impl::pair_up(const std::vector<Match>& from) {
   pairs.clear();
   for (const Match& match : from)
     pairs.push_back(
-        {reference_px[static_cast<std::size_t>(match.ref)], frame_px[static_cast<std::size_t>(match.cur)]});
+        {reference.px[static_cast<std::size_t>(match.ref)], frame_px[static_cast<std::size_t>(match.cur)]});
 }
 
 /// Steps 5 and 6: the homography most pairs agree on, and the certainty.
@@ -286,12 +240,12 @@ PoseReason PoseEstimator::Impl::find_homography(PoseEstimate& pose) {
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.H_cur_from_ref.data()) =
       homography.H_cur_from_ref;
   pose.inliers = static_cast<std::uint32_t>(homography.inliers);
-  pose.certainty = static_cast<double>(homography.inliers) / static_cast<double>(reference.features.size());
+  pose.certainty = static_cast<double>(homography.inliers) / static_cast<double>(reference.px.size());
   return homography.inliers < config.min_inliers ? PoseReason::TooFewInliers : PoseReason::Found;
 }
 
 PoseReason PoseEstimator::Impl::check_shape() {
-  if (!plausible_shape(homography.H_cur_from_ref, outline_px, shape_limits) || !scales_agree())
+  if (!plausible_shape(homography.H_cur_from_ref, reference.outline_px, shape_limits) || !scales_agree())
     return PoseReason::ImplausibleShape;
   return PoseReason::Found;
 }
@@ -301,7 +255,7 @@ bool PoseEstimator::Impl::scales_agree() {
   disagreement.clear();
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (inlier_mask[i] == 0) continue;
-    const Feature& ref = reference.features[static_cast<std::size_t>(matches[i].ref)];
+    const Feature& ref = reference.set.features[static_cast<std::size_t>(matches[i].ref)];
     const Feature& cur = frame_features.features[static_cast<std::size_t>(matches[i].cur)];
     const double expected = local_scale(homography.H_cur_from_ref, pairs[i].ref_px);
     disagreement.push_back(std::abs(std::log(static_cast<double>(cur.sigma_px) / ref.sigma_px / expected)));
@@ -314,7 +268,7 @@ bool PoseEstimator::Impl::scales_agree() {
 /// How far the homography puts the outline's corners from where `guide` did, at most.
 double PoseEstimator::Impl::moved_px(const Eigen::Matrix3d& guide) const {
   double most_px = 0.0;
-  for (const Eigen::Vector2d& corner : outline_px)
+  for (const Eigen::Vector2d& corner : reference.outline_px)
     most_px = std::max(most_px, ((homography.H_cur_from_ref * corner.homogeneous()).hnormalized() -
                                  (guide * corner.homogeneous()).hnormalized())
                                     .norm());
@@ -324,7 +278,7 @@ double PoseEstimator::Impl::moved_px(const Eigen::Matrix3d& guide) const {
 void PoseEstimator::Impl::predict_from_homography() {
   const Eigen::Matrix3d& H = homography.H_cur_from_ref;
   for (std::size_t i = 0; i < predicted.size(); ++i)
-    predicted[i] = {(H * reference_px[i].homogeneous()).hnormalized(), local_scale(H, reference_px[i])};
+    predicted[i] = {(H * reference.px[i].homogeneous()).hnormalized(), local_scale(H, reference.px[i])};
 }
 
 /// Steps 3–6 once more, guided by a homography that has passed every check: more pairs, above all towards the
@@ -335,7 +289,7 @@ PoseReason PoseEstimator::Impl::match_again(PoseEstimate& pose) {
   guided_matcher.look_at(frame_features, frame_px);
   for (int round = 0; round < kGuidedRounds; ++round) {
     predict_from_homography();
-    guided_matcher.match(predicted, reference, matches);
+    guided_matcher.match(predicted, reference.set, matches);
     pair_up(matches);
     mark(times, VisionStage::GuidedMatching);
     const Eigen::Matrix3d guide = homography.H_cur_from_ref;
@@ -353,9 +307,10 @@ PoseReason PoseEstimator::Impl::find_motion(PoseEstimate& pose) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (inlier_mask[i] == 0) continue;
     inliers.push_back(pairs[i]);
-    inliers_ref.push_back((K_ref_inverse * pairs[i].ref_px.homogeneous()).hnormalized());
+    inliers_ref.push_back((reference.K_inverse * pairs[i].ref_px.homogeneous()).hnormalized());
   }
-  const PlaneMotions motions = decompose_plane_motion(K_cur_inverse * homography.H_cur_from_ref * K_ref);
+  const PlaneMotions motions =
+      decompose_plane_motion(K_cur_inverse * homography.H_cur_from_ref * reference.K);
   const MotionChoice choice = choose_motion(motions, inliers_ref);
   if (choice.best < 0) return PoseReason::NoValidMotion;
 
@@ -364,7 +319,7 @@ PoseReason PoseEstimator::Impl::find_motion(PoseEstimate& pose) {
       back_pose_estimator.estimate({inliers, homography.H_cur_from_ref, start}, guided_matcher, frame_px);
   const Eigen::Matrix3d& R = result.motion.R_cur_from_ref;
   const Eigen::Vector3d& t = result.motion.t_over_d;
-  const Eigen::Vector3d centre_over_d = R * (K_ref_inverse * centre_px.homogeneous()) + t;
+  const Eigen::Vector3d centre_over_d = R * (reference.K_inverse * reference.centre_px.homogeneous()) + t;
   // In front of the camera, its outside towards it.
   if (!(centre_over_d.z() > 0.0) || !(R.col(2).dot(centre_over_d) > 0.0)) return PoseReason::NoValidMotion;
 
@@ -373,8 +328,9 @@ PoseReason PoseEstimator::Impl::find_motion(PoseEstimate& pose) {
   Eigen::Map<Eigen::Vector3d>(pose.t_over_d.data()) = t;
   Eigen::Map<Eigen::Vector3d>(pose.t_over_d_sigma.data()) = result.t_over_d_sigma;
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.R_cur_from_ref.data()) = R;
-  pose.has_distance = distance_m > 0.0;
-  if (pose.has_distance) Eigen::Map<Eigen::Vector3d>(pose.position_m.data()) = distance_m * centre_over_d;
+  pose.has_distance = reference.distance_m > 0.0;
+  if (pose.has_distance)
+    Eigen::Map<Eigen::Vector3d>(pose.position_m.data()) = reference.distance_m * centre_over_d;
   return PoseReason::Found;
 }
 
@@ -413,7 +369,7 @@ PoseEstimate PoseEstimator::Impl::estimate(const FrameView& frame, const Expecte
   PoseEstimate pose;
   pose.frame_sequence = frame.header.sequence;
   pose.t_capture_ns = frame.header.t_capture_ns;
-  pose.template_features = static_cast<std::uint32_t>(reference.features.size());
+  pose.template_features = static_cast<std::uint32_t>(reference.px.size());
 
   if (frame.header.width_px != static_cast<std::uint32_t>(camera.width_px) ||
       frame.header.height_px != static_cast<std::uint32_t>(camera.height_px)) {
