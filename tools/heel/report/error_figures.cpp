@@ -16,7 +16,7 @@ namespace {
 constexpr int kErrorPanelWidthPx = 420, kErrorPanelHeightPx = 250;
 
 cv::Mat yaw_panel(const ErrorCurve& curve, const std::string& x_label) {
-  Series mean{"away from frontal", kBlue, {}, 1.6, false}, absolute{"mean absolute", kOrange, {}, 1.6, false};
+  Series mean{"outwards", kBlue, {}, 1.6, false}, absolute{"mean absolute", kOrange, {}, 1.6, false};
   Series p95{"95 %", kGrey, {}, 1.2, false};
   for (const ErrorBin& bin : curve.bins) {
     if (bin.found == 0) continue;
