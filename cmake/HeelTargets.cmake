@@ -1,44 +1,47 @@
-# heel_library(NAME DEPENDS …): a static library of every .cpp in the current folder.
-function(heel_library name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE_DEPENDS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
-  if(NOT sources)
-    return()
-  endif()
-  add_library(${name} STATIC ${sources})
-  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src)
-  target_link_libraries(${name} PUBLIC ${ARG_DEPENDS} PRIVATE heel_options ${ARG_PRIVATE_DEPENDS})
-  heel_precompiled(${name})
-endfunction()
-
 # heel_compile_alone(FILES …): never joined with others, because their names or macros would meet.
 function(heel_compile_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# heel_test(NAME SOURCES … DEPENDS … [SERIAL] [THREADS] [AS_ONE ENTRY]): a GoogleTest program; each of its tests is
-# a ctest entry.
+# heel_test(NAME [SOURCES …] DEPENDS … [PROGRAMS …] [COUNTS_ALLOCATIONS] [SERIAL] [THREADS] [AS_ONE ENTRY]): a
+# GoogleTest program of every .cpp in the current folder, or of SOURCES; each of its tests is a ctest entry.
+# PROGRAMS: heel, heeld, heel-sim: the built programs it runs; their paths are HEEL_PROGRAM, HEELD_PROGRAM,
+# HEEL_SIM_PROGRAM.
+# COUNTS_ALLOCATIONS: links support/allocation_count.cpp, which takes the place of the C library's malloc.
 # SERIAL: its tests run in real time and are not to share the machine with others.
 # THREADS: what it tests runs in several threads. The thread sanitizer's preset leaves the others out
 # (HEEL_ONLY_THREADED_TESTS): one thread races with nobody, at fifty times the price.
 # AS_ONE: all its tests are one entry of that name, because they share what took long to make.
 # Tests that need ../shared-style data find it in HEEL_TEST_DATA and call GTEST_SKIP() without it.
 function(heel_test name)
-  cmake_parse_arguments(ARG "SERIAL;THREADS" "TIMEOUT;AS_ONE" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "SERIAL;THREADS;COUNTS_ALLOCATIONS" "TIMEOUT;AS_ONE" "SOURCES;DEPENDS;LABELS;PROGRAMS" ${ARGN})
   if(NOT HEEL_BUILD_TESTS)
     return()
   endif()
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
+  if(NOT ARG_SOURCES)
+    file(GLOB ARG_SOURCES CONFIGURE_DEPENDS *.cpp)
+  endif()
+  if(ARG_COUNTS_ALLOCATIONS)
+    list(APPEND ARG_SOURCES ${CMAKE_SOURCE_DIR}/tests/support/allocation_count.cpp)
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
-  target_link_libraries(${name} PRIVATE heel_options ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE HEEL_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE heel_options heel_test_support ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
+  foreach(program IN LISTS ARG_PROGRAMS)
+    string(TOUPPER ${program} macro)
+    string(REPLACE "-" "_" macro ${macro})
+    target_compile_definitions(${name} PRIVATE ${macro}_PROGRAM="$<TARGET_FILE:${program}>")
+    add_dependencies(${name} ${program})
+  endforeach()
   # What is tested keeps its optimisation and is compiled file by file; the tests are joined, which halves their build.
   if(NOT CMAKE_BUILD_TYPE STREQUAL Debug)
     target_compile_options(${name} PRIVATE -O1 -Wno-subobject-linkage)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON)
-    heel_compile_alone(${CMAKE_SOURCE_DIR}/tests/allocation_count.cpp)  # takes the C library's place
+    heel_compile_alone(${CMAKE_SOURCE_DIR}/tests/support/allocation_count.cpp)  # takes the C library's place
     heel_precompiled_test(${name})
   endif()
   if(HEEL_ONLY_THREADED_TESTS AND NOT ARG_THREADS)

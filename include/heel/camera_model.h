@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 
 namespace heel {
 
@@ -23,12 +22,5 @@ struct CameraModel {
   /// Undistorted pixel → distorted pixel.
   Eigen::Vector2d distort_px(const Eigen::Vector2d& undistorted_px) const;
 };
-
-/// Reads ROS camera_info YAML, or OpenCV FileStorage (camera_matrix, distortion_coefficients, image_width,
-/// image_height). Throws heel::Error naming the file, the key and what was expected.
-CameraModel read_camera_model(const std::string& path);
-
-/// Writes ROS camera_info YAML.
-void write_camera_model(const CameraModel& camera, const std::string& path);
 
 }  // namespace heel

@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "heel/camera_model.h"
-#include "heel/config.h"
 #include "heel/features.h"
 #include "heel/flow.h"
 #include "heel/shirt_template.h"
+#include "heel/vision_config.h"
 
 namespace heel {
 

@@ -22,13 +22,6 @@ struct ShirtTemplate {
   int max_features = 300;   ///< template features kept
 };
 
-inline constexpr int kTemplateFormatVersion = 1;
-
-/// Throws heel::Error naming the file and what is wrong: not a template, newer version, truncated, checksum.
-ShirtTemplate read_template(const std::string& path);
-/// Writes to a temporary file and renames it: an existing template is never left half written.
-void write_template(const ShirtTemplate& shirt, const std::string& path);
-
 /// The features of the template's region (sigma over a wide range), strongest first.
 FeatureSet template_features(const ShirtTemplate& shirt);
 

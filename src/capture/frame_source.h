@@ -1,18 +1,16 @@
 // Where frames come from: a V4L2 or libcamera device, files, or the simulator. One interface for the capture
 // thread and for `heel teach --camera`.
 //
-//   auto source = open_frame_source(config.camera);          // throws heel::Error, one line
+//   auto source = open_frame_source(config.camera);          // frame_source_factory.h
 //   FrameView frame;
 //   while (source->wait_frame(kNsPerS, frame) == FrameResult::Frame) use(frame);
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include "heel/config.h"
 #include "heel/flow.h"
 
 namespace heel {
@@ -75,22 +73,5 @@ class FrameSource {
   std::string description_;
   SourceCounters counters_;
 };
-
-/// The kinds of camera address.
-enum class SourceKind : std::uint8_t { V4l2, Libcamera, File, Sim };
-
-struct SourceAddress {
-  SourceKind kind = SourceKind::V4l2;
-  std::string rest;  ///< path, camera id or channel name
-};
-
-/// Parses "v4l2:PATH", "libcamera:ID", "file:PATH", "sim:NAME". Throws heel::Error naming what was expected.
-SourceAddress parse_source_address(const std::string& address);
-
-/// Makes the source without opening it. Throws heel::Error on a bad address or a kind this build lacks.
-std::unique_ptr<FrameSource> make_frame_source(const CameraConfig& config);
-
-/// Makes and opens it. Throws heel::Error with the problem when it does not open.
-std::unique_ptr<FrameSource> open_frame_source(const CameraConfig& config);
 
 }  // namespace heel

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "heel/config.h"
-#include "heel/control.h"
+#include "control/control_stage.h"
+#include "core/config.h"
 
 namespace heel {
 

@@ -1,4 +1,6 @@
 // One control tick: estimate → supervise → law → gate.
+#include "control/control_stage.h"
+
 #include <cmath>
 #include <limits>
 
@@ -8,7 +10,6 @@
 #include "control/gate.h"
 #include "control/supervisor.h"
 #include "estimate/target_estimator.h"
-#include "heel/control.h"
 
 namespace heel {
 

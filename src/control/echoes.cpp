@@ -86,7 +86,7 @@ void EchoMemory::see(const RobotState& robot) {
 }
 
 Echoes EchoMemory::at(TimeNs now_ns, const Odometry& newest) const {
-  const FloorPose robot = carried_on(newest, std::max(0.0, seconds_from_ns(now_ns - newest.t_ns)));
+  const Pose2 robot = carried_on(newest, std::max(0.0, seconds_from_ns(now_ns - newest.t_ns)));
   const double c = std::cos(robot.heading_rad), s = std::sin(robot.heading_rad);
   Echoes echoes;
   for (const Place& place : places_) {

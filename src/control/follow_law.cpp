@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angles.h"
+
 namespace heel {
 namespace {
 
@@ -20,7 +22,7 @@ double speed(const TargetState& target, const ControlConfig& control) {
 }
 
 double proportional_yaw_rate(const TargetState& target, const ControlConfig& control) {
-  const double psi_rad = std::remainder(target.yaw_rad + control.setpoint_yaw_rad, 2.0 * std::numbers::pi);
+  const double psi_rad = wrap_angle_rad(target.yaw_rad + control.setpoint_yaw_rad);
   return control.gain_lateral_rad_s_m * target.goal_y_m + control.gain_yaw_1_s * psi_rad;
 }
 

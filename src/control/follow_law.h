@@ -37,8 +37,8 @@
 // · no reverse unless allowed.
 #pragma once
 
+#include "core/config.h"
 #include "estimate/sighting.h"
-#include "heel/config.h"
 #include "heel/flow.h"
 
 namespace heel {

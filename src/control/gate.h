@@ -6,7 +6,7 @@
 
 #include "control/echoes.h"
 #include "control/supervisor.h"
-#include "heel/config.h"
+#include "core/config.h"
 #include "heel/flow.h"
 
 namespace heel {

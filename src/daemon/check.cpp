@@ -2,9 +2,9 @@
 
 #include <cstdio>
 
+#include "config/config_load.h"
+#include "config/config_text.h"
 #include "daemon/inputs.h"
-#include "runtime/config_load.h"
-#include "runtime/config_text.h"
 
 namespace heel {
 

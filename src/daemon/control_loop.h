@@ -4,11 +4,11 @@
 
 #include <atomic>
 
-#include "heel/config.h"
-#include "heel/control.h"
+#include "control/control_stage.h"
+#include "core/config.h"
+#include "realtime/clock.h"
+#include "realtime/mailbox.h"
 #include "robot/robot_link.h"
-#include "runtime/clock.h"
-#include "runtime/mailbox.h"
 #include "telemetry/feeds.h"
 
 namespace heel {

@@ -8,8 +8,10 @@
 #include <optional>
 #include <thread>
 
-#include "capture/capture_loop.h"
+#include "capture/factory/frame_source_factory.h"
 #include "capture/frame_source.h"
+#include "config/config_load.h"
+#include "daemon/capture_loop.h"
 #include "daemon/check.h"
 #include "daemon/control_loop.h"
 #include "daemon/inputs.h"
@@ -17,9 +19,8 @@
 #include "daemon/signals.h"
 #include "daemon/vision_loop.h"
 #include "heel/error.h"
-#include "runtime/config_load.h"
-#include "runtime/logging.h"
-#include "runtime/schedule.h"
+#include "logging/logging.h"
+#include "realtime/schedule.h"
 #include "telemetry/telemetry.h"
 
 namespace heel {

@@ -3,7 +3,10 @@
 #include <cmath>
 #include <sstream>
 
+#include "capture/factory/source_address.h"
 #include "capture/frame_source.h"
+#include "files/camera_info.h"
+#include "files/template_file.h"
 #include "heel/error.h"
 
 namespace heel {

@@ -2,8 +2,8 @@
 // other before any thread starts.
 #pragma once
 
+#include "core/config.h"
 #include "heel/camera_model.h"
-#include "heel/config.h"
 #include "heel/shirt_template.h"
 
 namespace heel {

@@ -6,11 +6,11 @@
 #include <exception>
 #include <string>
 
+#include "config/config_load.h"
+#include "config/config_text.h"
 #include "daemon/check.h"
 #include "daemon/daemon.h"
-#include "runtime/config_load.h"
-#include "runtime/config_text.h"
-#include "runtime/logging.h"
+#include "logging/logging.h"
 
 namespace {
 

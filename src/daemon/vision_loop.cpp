@@ -1,6 +1,6 @@
 #include "daemon/vision_loop.h"
 
-#include "runtime/clock.h"
+#include "realtime/clock.h"
 
 namespace heel {
 

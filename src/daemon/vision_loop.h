@@ -4,9 +4,9 @@
 #include <atomic>
 
 #include "heel/pose_tracker.h"
-#include "runtime/frame_ring.h"
-#include "runtime/mailbox.h"
-#include "runtime/record_queue.h"
+#include "realtime/frame_ring.h"
+#include "realtime/mailbox.h"
+#include "realtime/record_queue.h"
 
 namespace heel {
 

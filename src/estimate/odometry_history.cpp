@@ -4,7 +4,7 @@
 
 namespace heel {
 
-FloorPose carried_on(const Odometry& from, double dt_s) {
+Pose2 carried_on(const Odometry& from, double dt_s) {
   const double turn_rad = from.yaw_rate_rad_s * dt_s;
   const double half = 0.5 * turn_rad;
   const double sinc = std::abs(half) < 1e-6 ? 1.0 : std::sin(half) / half;
@@ -15,7 +15,7 @@ FloorPose carried_on(const Odometry& from, double dt_s) {
 
 namespace {
 
-FloorPose between(const Odometry& a, const Odometry& b, TimeNs t_ns) {
+Pose2 between(const Odometry& a, const Odometry& b, TimeNs t_ns) {
   const double s = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
   return {a.x_m + s * (b.x_m - a.x_m), a.y_m + s * (b.y_m - a.y_m),
           a.heading_rad + s * (b.heading_rad - a.heading_rad)};
@@ -30,7 +30,7 @@ void OdometryHistory::push(const Odometry& odometry) {
   if (size_ < kCapacity) ++size_;
 }
 
-std::optional<FloorPose> OdometryHistory::at(TimeNs t_ns) const {
+std::optional<Pose2> OdometryHistory::at(TimeNs t_ns) const {
   if (size_ == 0) return std::nullopt;
   const Odometry& newest = from_newest(0);
   if (t_ns >= newest.t_ns) {

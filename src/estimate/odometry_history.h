@@ -5,19 +5,13 @@
 #include <cstddef>
 #include <optional>
 
+#include "core/pose2.h"
 #include "heel/flow.h"
 
 namespace heel {
 
-/// A pose on the floor: x forward, y left, heading counter-clockwise, of whichever frame the name says.
-struct FloorPose {
-  double x_m = 0.0;
-  double y_m = 0.0;
-  double heading_rad = 0.0;
-};
-
 /// Where a robot is `dt_s` later that keeps its speed and yaw rate: the unicycle's arc, by its chord.
-FloorPose carried_on(const Odometry& from, double dt_s);
+Pose2 carried_on(const Odometry& from, double dt_s);
 
 /// A fixed ring of odometry, newest last. Does not allocate.
 class OdometryHistory {
@@ -32,7 +26,7 @@ class OdometryHistory {
 
   /// The robot in odom at `t_ns`: interpolated between packets, carried on along an arc after the newest.
   /// Nothing when t_ns is older than the ring or too far ahead of it.
-  std::optional<FloorPose> at(TimeNs t_ns) const;
+  std::optional<Pose2> at(TimeNs t_ns) const;
 
  private:
   const Odometry& from_newest(std::size_t back) const {

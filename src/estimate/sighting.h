@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "heel/config.h"
+#include "core/config.h"
 #include "heel/flow.h"
 
 namespace heel {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angles.h"
+
 namespace heel {
 namespace {
 
@@ -20,10 +22,6 @@ constexpr TimeNs kLongestGap_ns = kNsPerS;
 // turns is soon done with it.
 constexpr TimeNs kLongestWalk_ns = 500 * kNsPerMs;
 constexpr TimeNs kLongestTurn_ns = 200 * kNsPerMs;
-
-double wrapped(double angle_rad) {
-  return std::remainder(angle_rad, 2.0 * std::numbers::pi);
-}
 
 Eigen::Matrix2d rotation(double angle_rad) {
   return Eigen::Rotation2Dd(angle_rad).toRotationMatrix();
@@ -85,7 +83,7 @@ bool TargetEstimator::see_pose(const PoseEstimate& pose) {
     position_.predict(seconds_from_ns(gap_ns), settings_.acceleration_m_s2);
     yaw_.predict(seconds_from_ns(gap_ns), settings_.yaw_acceleration_rad_s2);
     const Eigen::Vector2d d_position = position_m - position_.position();
-    const Eigen::Matrix<double, 1, 1> d_yaw(wrapped(yaw_rad - yaw_.position()(0)));
+    const Eigen::Matrix<double, 1, 1> d_yaw(wrap_angle_rad(yaw_rad - yaw_.position()(0)));
     const double gate = settings_.outlier_sigma * settings_.outlier_sigma;
     const bool wild = position_.distance_squared(d_position, R_position) > gate ||
                       yaw_.distance_squared(d_yaw, R_yaw) > gate;
@@ -121,7 +119,7 @@ TargetState TargetEstimator::at(TimeNs now_ns) const {
   const Eigen::Matrix2d R_robot_from_odom = rotation(-robot->heading_rad);
   const Eigen::Vector2d position_m =
       R_robot_from_odom * (position_odom_m - Eigen::Vector2d(robot->x_m, robot->y_m));
-  const double yaw_rad = wrapped(yaw_odom_rad - robot->heading_rad);
+  const double yaw_rad = wrap_angle_rad(yaw_odom_rad - robot->heading_rad);
 
   // The camera has the person where the reference view has them, moved by the set points; the robot's own
   // centre is behind the camera by the mount.

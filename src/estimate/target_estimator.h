@@ -2,10 +2,10 @@
 // constant-velocity filters carry position and walking direction from frame to frame and on to `now`.
 #pragma once
 
+#include "core/config.h"
 #include "estimate/constant_velocity_filter.h"
 #include "estimate/odometry_history.h"
 #include "estimate/sighting.h"
-#include "heel/config.h"
 #include "heel/flow.h"
 
 namespace heel {

@@ -17,7 +17,7 @@
 #include "arcos/other_packets.h"
 #include "arcos/parser.h"
 #include "arcos/sip.h"
-#include "heel/config.h"
+#include "core/config.h"
 #include "heel/flow.h"
 #include "robot/baud_sweep.h"
 #include "robot/command_pacer.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "arcos/command_codec.h"
-#include "heel/config.h"
+#include "core/config.h"
 #include "heel/flow.h"
 #include "robot/command_pacer.h"
 #include "robot/outgoing.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "runtime/clock.h"
+#include "realtime/clock.h"
 
 namespace heel {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "heel/config.h"
+#include "core/config.h"
 #include "heel/flow.h"
 #include "robot/arcos_session.h"
 #include "robot/line_keeper.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "heel/flow.h"
-#include "runtime/record_queue.h"
+#include "realtime/record_queue.h"
 
 namespace heel {
 

@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "heel/error.h"
-#include "runtime/clock.h"
+#include "realtime/clock.h"
 #include "telemetry/csv_columns.h"
 #include "telemetry/event_text.h"
 

@@ -2,9 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
-#include "runtime/clock.h"
-#include "runtime/futex.h"
-#include "runtime/journal_sink.h"
+#include "logging/journal_sink.h"
+#include "realtime/clock.h"
+#include "realtime/futex.h"
 #include "telemetry/event_text.h"
 
 namespace heel {

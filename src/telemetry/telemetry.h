@@ -14,7 +14,7 @@
 #include <memory>
 #include <mutex>
 
-#include "heel/config.h"
+#include "core/config.h"
 #include "heel/flow.h"
 #include "telemetry/feeds.h"
 #include "telemetry/recorder.h"

@@ -8,20 +8,21 @@
 #include <utility>
 #include <vector>
 
-#include "heel-sim/contact/contact.h"
-#include "heel-sim/live/live_camera.h"
-#include "heel-sim/live/still.h"
-#include "heel-sim/robot/p3at.h"
-#include "heel-sim/server/robot_server.h"
-#include "heel-sim/server/transport.h"
-#include "heel-sim/server/truth_csv.h"
-#include "heel-sim/server/wire_file.h"
-#include "heel-sim/world/truth_columns.h"
-#include "heel-sim/world/world.h"
+#include "files/camera_info.h"
 #include "heel/camera_model.h"
 #include "heel/error.h"
 #include "heel/time.h"
-#include "runtime/clock.h"
+#include "realtime/clock.h"
+#include "sim/contact/contact.h"
+#include "sim/live/live_camera.h"
+#include "sim/live/still.h"
+#include "sim/robot/p3at.h"
+#include "sim/scene/truth_columns.h"
+#include "sim/scene/world.h"
+#include "sim/transport/robot_server.h"
+#include "sim/transport/transport.h"
+#include "sim/transport/truth_csv.h"
+#include "sim/transport/wire_file.h"
 
 namespace {
 

@@ -10,11 +10,13 @@
 #include <vector>
 
 #include "commands.h"
-#include "frame_input.h"
-#include "heel/bench/vision_report.h"
+#include "evaluation/benchmarks/vision_report.h"
+#include "files/camera_info.h"
+#include "files/frame_input.h"
+#include "files/image_file.h"
+#include "files/template_file.h"
 #include "heel/error.h"
-#include "image_file.h"
-#include "vision/simd_target.h"
+#include "vision/features/simd_target.h"
 
 namespace heel::cli {
 namespace {

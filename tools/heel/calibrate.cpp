@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "commands.h"
+#include "files/camera_info.h"
+#include "files/image_file.h"
 #include "heel/camera_model.h"
 #include "heel/error.h"
-#include "image_file.h"
 
 namespace heel::cli {
 namespace {

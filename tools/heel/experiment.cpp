@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "commands.h"
+#include "config/config_load.h"
+#include "evaluation/experiments/real_images.h"
+#include "evaluation/experiments/still_cases.h"
+#include "evaluation/experiments/still_file.h"
 #include "heel/error.h"
-#include "heel/experiment/real_images.h"
-#include "heel/experiment/still_cases.h"
-#include "heel/experiment/still_file.h"
-#include "heel/lockstep/lockstep.h"
-#include "runtime/config_load.h"
+#include "sim/lockstep/lockstep.h"
 
 namespace heel::cli {
 namespace {

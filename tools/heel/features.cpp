@@ -8,9 +8,9 @@
 #include <string>
 
 #include "commands.h"
+#include "files/image_file.h"
+#include "files/kpd_file.h"
 #include "heel/error.h"
-#include "image_file.h"
-#include "kpd_file.h"
 
 namespace heel::cli {
 namespace {

@@ -5,14 +5,14 @@
 #include <string>
 
 #include "commands.h"
+#include "evaluation/experiments/run_record.h"
+#include "evaluation/experiments/still_cases.h"
+#include "evaluation/experiments/still_file.h"
+#include "evaluation/reports/fit_rows.h"
+#include "evaluation/reports/run_files.h"
 #include "heel/error.h"
-#include "heel/errors/error_fit.h"
-#include "heel/experiment/still_cases.h"
-#include "heel/experiment/still_file.h"
-#include "heel/lockstep/lockstep.h"
-#include "heel/lockstep/run_record.h"
-#include "heel/report/fit_rows.h"
-#include "heel/report/run_files.h"
+#include "sim/lockstep/lockstep.h"
+#include "sim/pose_noise/error_fit.h"
 
 namespace heel::cli {
 namespace {

@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "commands.h"
-#include "frame_input.h"
+#include "files/camera_info.h"
+#include "files/frame_input.h"
+#include "files/image_file.h"
+#include "files/template_file.h"
 #include "heel/error.h"
 #include "heel/pose_estimator.h"
-#include "image_file.h"
 #include "picture.h"
 #include "pose_output.h"
 

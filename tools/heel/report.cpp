@@ -5,11 +5,11 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "commands.h"
+#include "evaluation/reports/experiment_report.h"
+#include "evaluation/reports/figures.h"
+#include "evaluation/reports/run_files.h"
+#include "evaluation/reports/summary.h"
 #include "heel/error.h"
-#include "heel/report/experiment_report.h"
-#include "heel/report/figures.h"
-#include "heel/report/run_files.h"
-#include "heel/report/summary.h"
 
 namespace heel::cli {
 namespace {

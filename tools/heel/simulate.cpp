@@ -14,15 +14,16 @@
 #include <vector>
 
 #include "commands.h"
+#include "config/config_load.h"
+#include "evaluation/experiments/many_runs.h"
+#include "evaluation/experiments/run_record.h"
+#include "evaluation/metrics/metrics.h"
+#include "evaluation/reports/figures.h"
+#include "evaluation/reports/overview_figure.h"
+#include "files/image_file.h"
+#include "files/template_file.h"
 #include "heel/error.h"
-#include "heel/lockstep/lockstep.h"
-#include "heel/lockstep/many_runs.h"
-#include "heel/lockstep/metrics.h"
-#include "heel/lockstep/run_record.h"
-#include "heel/report/figures.h"
-#include "heel/report/overview_figure.h"
-#include "image_file.h"
-#include "runtime/config_load.h"
+#include "sim/lockstep/lockstep.h"
 #include "simulate_runs.h"
 
 namespace heel::cli {

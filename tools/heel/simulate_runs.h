@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "heel/lockstep/lockstep.h"
-#include "heel/lockstep/metrics.h"
+#include "evaluation/metrics/metrics.h"
+#include "sim/lockstep/lockstep.h"
 
 namespace heel::cli {
 

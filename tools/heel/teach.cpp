@@ -5,12 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "capture/factory/frame_source_factory.h"
 #include "capture/frame_source.h"
 #include "commands.h"
-#include "frame_input.h"
+#include "files/camera_info.h"
+#include "files/frame_input.h"
+#include "files/image_file.h"
+#include "files/template_file.h"
 #include "heel/error.h"
 #include "heel/shirt_template.h"
-#include "image_file.h"
 #include "picture.h"
 
 namespace heel::cli {

@@ -8,8 +8,8 @@
 
 #include "heel/homography.h"
 #include "heel/motion.h"
-#include "unit/geometry/scene.h"
-#include "vision/motion_refine.h"
+#include "vision/pose/motion_refine.h"
+#include "vision/pose/scene.h"
 
 namespace {
 
@@ -28,11 +28,11 @@ std::vector<Problem> problems(double wrong) {
   std::vector<Problem> result(64);
   std::uint64_t seed = 1;
   for (Problem& problem : result) {
-    heel_test::Random random(seed++);
-    const heel_test::View view = heel_test::random_view(random, heel_test::plain_camera());
+    heel::test::Random random(seed++);
+    const heel::test::View view = heel::test::random_view(random, heel::test::plain_camera());
     const int outliers = static_cast<int>(wrong * kPairs);
-    problem.pairs = heel_test::inlier_pairs(random, view.H, kPairs - outliers, 1.0, 0.0);
-    heel_test::add_outliers(random, problem.pairs, outliers);
+    problem.pairs = heel::test::inlier_pairs(random, view.H, kPairs - outliers, 1.0, 0.0);
+    heel::test::add_outliers(random, problem.pairs, outliers);
     std::shuffle(problem.pairs.begin(), problem.pairs.end(), random.engine);
     for (const PointPair& pair : problem.pairs) {
       problem.ref.emplace_back(static_cast<float>(pair.ref_px.x()), static_cast<float>(pair.ref_px.y()));
@@ -64,16 +64,16 @@ void opencv_homography(benchmark::State& state, int method) {
 }
 
 void heel_decomposition(benchmark::State& state) {
-  heel_test::Random random(1);
-  const Eigen::Matrix3d K = heel_test::plain_camera().K();
-  const Eigen::Matrix3d A = K.inverse() * heel_test::random_view(random, heel_test::plain_camera()).H * K;
+  heel::test::Random random(1);
+  const Eigen::Matrix3d K = heel::test::plain_camera().K();
+  const Eigen::Matrix3d A = K.inverse() * heel::test::random_view(random, heel::test::plain_camera()).H * K;
   for (auto _ : state) benchmark::DoNotOptimize(heel::decompose_plane_motion(A));
 }
 
 void opencv_decomposition(benchmark::State& state) {
-  heel_test::Random random(1);
-  const Eigen::Matrix3d K = heel_test::plain_camera().K();
-  const Eigen::Matrix3d A = K.inverse() * heel_test::random_view(random, heel_test::plain_camera()).H * K;
+  heel::test::Random random(1);
+  const Eigen::Matrix3d K = heel::test::plain_camera().K();
+  const Eigen::Matrix3d A = K.inverse() * heel::test::random_view(random, heel::test::plain_camera()).H * K;
   cv::Matx33d H;
   for (int i = 0; i < 9; ++i) H.val[i] = A(i / 3, i % 3);
   std::vector<cv::Mat> R, t, n;
@@ -81,10 +81,10 @@ void opencv_decomposition(benchmark::State& state) {
 }
 
 void heel_frontal_pose(benchmark::State& state) {
-  heel_test::Random random(1);
-  const Eigen::Matrix3d K = heel_test::plain_camera().K();
-  const heel_test::View view = heel_test::random_view(random, heel_test::plain_camera());
-  const std::vector<PointPair> pairs = heel_test::inlier_pairs(random, view.H, kPairs / 2, 1.0, 0.0);
+  heel::test::Random random(1);
+  const Eigen::Matrix3d K = heel::test::plain_camera().K();
+  const heel::test::View view = heel::test::random_view(random, heel::test::plain_camera());
+  const std::vector<PointPair> pairs = heel::test::inlier_pairs(random, view.H, kPairs / 2, 1.0, 0.0);
   const heel::PlaneMotion start{view.R, view.t_over_d, Eigen::Vector3d::UnitZ(), true};
   heel::FrontalPoseEstimator estimator(pairs.size());
   for (auto _ : state)

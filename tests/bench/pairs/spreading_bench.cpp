@@ -11,7 +11,7 @@
 
 #include "heel/homography.h"
 #include "heel/matching.h"
-#include "oxford_pairs.h"
+#include "support/oxford_pairs.h"
 
 namespace heel::bench {
 namespace {

@@ -1,4 +1,4 @@
-#include "bench_images.h"
+#include "bench/vision/bench_images.h"
 
 #include <cstdlib>
 #include <opencv2/imgcodecs.hpp>

@@ -5,14 +5,14 @@
 #include <opencv2/features2d.hpp>
 #include <string>
 
-#include "bench_images.h"
+#include "bench/vision/bench_images.h"
 #include "heel/features.h"
 #include "heel/matching.h"
-#include "vision/descriptor.h"
-#include "vision/fast_hessian.h"
-#include "vision/integral_image.h"
-#include "vision/keypoint_selection.h"
-#include "vision/orientation.h"
+#include "vision/features/descriptor.h"
+#include "vision/features/fast_hessian.h"
+#include "vision/features/integral_image.h"
+#include "vision/features/keypoint_selection.h"
+#include "vision/features/orientation.h"
 
 namespace heel::bench {
 namespace {

@@ -14,10 +14,11 @@
 #include <string>
 #include <vector>
 
-#include "each_simd_target.h"
+#include "core/angles.h"
 #include "heel/features.h"
-#include "temporary_folder.h"
-#include "unit/vision/test_image.h"
+#include "support/each_simd_target.h"
+#include "support/temporary_folder.h"
+#include "vision/features/test_image.h"
 
 namespace heel::test {
 namespace {
@@ -120,7 +121,7 @@ struct Differences {
     keep(px, a.x_px, b.x_px);
     keep(px, a.y_px, b.y_px);
     keep(px, a.sigma_px, b.sigma_px);
-    keep(angle_rad, std::remainder(double{a.angle_rad} - double{b.angle_rad}, 2 * M_PI), 0);
+    keep(angle_rad, wrap_angle_rad(double{a.angle_rad} - double{b.angle_rad}), 0);
     keep(response, double{a.response} / double{b.response}, 1);
     for (std::size_t k = 0; k < descriptor_a.size(); ++k) keep(descriptor, descriptor_a[k], descriptor_b[k]);
   }

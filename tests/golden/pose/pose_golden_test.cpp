@@ -14,9 +14,10 @@
 #include <string>
 #include <vector>
 
+#include "files/camera_info.h"
 #include "heel/camera_model.h"
-#include "temporary_folder.h"
-#include "unit/cli/run_heel.h"
+#include "support/temporary_folder.h"
+#include "tools/heel/run_heel.h"
 
 namespace heel {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "golden/video/frame_commands.h"
 #include "golden/video/video_scene.h"
-#include "process/process.h"
-#include "sanitized.h"
+#include "support/process.h"
+#include "support/sanitized.h"
 
 namespace heel::golden {
 namespace {
@@ -79,11 +79,11 @@ class VideoDrivesHeeld : public ::testing::Test {
 void drive(const VideoScene& scene, double gain_yaw_1_s) {
   scene.cut_frames(kFirst, kLast);
   const std::string config = scene.write_config(gain_yaw_1_s, "file:frames");
-  Process robot(
-      {HEEL_SIM_PATH, "--robot", "pty:" + scene.file("robot"), "--exact", "--wire", scene.file("wire.hex")},
-      scene.file("robot.log"));
+  Process robot({HEEL_SIM_PROGRAM, "--robot", "pty:" + scene.file("robot"), "--exact", "--wire",
+                 scene.file("wire.hex")},
+                scene.file("robot.log"));
   ASSERT_TRUE(robot.says("ready at", 10.0)) << robot.output();
-  Process daemon({HEELD_PATH, "--config", config}, scene.file("heeld.log"));
+  Process daemon({HEELD_PROGRAM, "--config", config}, scene.file("heeld.log"));
   const double video_s = (kLast - kFirst + 1) / kVideoRateHz;
   ASSERT_EQ(daemon.wait(video_s + 60.0), 0) << daemon.output() << robot.output();
   ASSERT_TRUE(robot.says("closed", 2.0)) << daemon.output() << robot.output();

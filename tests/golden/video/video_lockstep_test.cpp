@@ -15,7 +15,7 @@
 
 #include "golden/video/frame_commands.h"
 #include "golden/video/video_scene.h"
-#include "unit/cli/run_heel.h"
+#include "tools/heel/run_heel.h"
 
 namespace heel::golden {
 namespace {

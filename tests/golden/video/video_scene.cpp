@@ -10,8 +10,9 @@
 #include <opencv2/videoio.hpp>
 #include <stdexcept>
 
+#include "files/camera_info.h"
 #include "heel/camera_model.h"
-#include "unit/cli/run_heel.h"
+#include "tools/heel/run_heel.h"
 
 namespace heel::golden {
 

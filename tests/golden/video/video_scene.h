@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace heel::golden {
 

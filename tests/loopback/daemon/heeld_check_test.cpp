@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "process/process.h"
-#include "scene.h"
+#include "loopback/daemon/scene.h"
+#include "support/process.h"
 
 namespace heel::test {
 namespace {
@@ -18,7 +18,7 @@ struct Outcome {
 };
 
 Outcome heeld(const Scene& scene, std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), HEELD_PATH);
+  arguments.insert(arguments.begin(), HEELD_PROGRAM);
   Process process(arguments, scene.path("check.log"));
   const int status = process.wait(20.0);
   return {status, process.output()};

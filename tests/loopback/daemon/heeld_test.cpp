@@ -9,8 +9,8 @@
 #include <fstream>
 #include <memory>
 
-#include "process/process.h"
-#include "scene.h"
+#include "loopback/daemon/scene.h"
+#include "support/process.h"
 
 namespace heel::test {
 namespace {
@@ -32,16 +32,16 @@ class Heeld : public ::testing::Test {
   explicit Heeld(int frames = 2000) : scene_(frames) {}
 
   void start_robot(std::vector<std::string> more = {}) {
-    std::vector<std::string> argv = {HEEL_SIM_PATH,  "--robot", "pty:" + scene_.path("robot"),
-                                     "--exact",      "--truth", scene_.path("truth.csv"),
-                                     "--truth-rate", "500"};
+    std::vector<std::string> argv = {HEEL_SIM_PROGRAM, "--robot", "pty:" + scene_.path("robot"),
+                                     "--exact",        "--truth", scene_.path("truth.csv"),
+                                     "--truth-rate",   "500"};
     argv.insert(argv.end(), more.begin(), more.end());
     robot_ = std::make_unique<Process>(argv, scene_.path("robot.log"));
     ASSERT_TRUE(robot_->says("ready at", 10.0)) << robot_->output();
   }
   void start_heeld(const std::string& config) {
     daemon_ = std::make_unique<Process>(
-        std::vector<std::string>{HEELD_PATH, "--config", config}, scene_.path("heeld.log"),
+        std::vector<std::string>{HEELD_PROGRAM, "--config", config}, scene_.path("heeld.log"),
         std::map<std::string, std::string>{{"NOTIFY_SOCKET", notify_.path()}});
   }
   double speed() const { return newest_truth(scene_.path("truth.csv")).v_m_s; }

@@ -1,4 +1,4 @@
-#include "scene.h"
+#include "loopback/daemon/scene.h"
 
 #include <filesystem>
 #include <fstream>
@@ -7,9 +7,11 @@
 #include <sstream>
 #include <vector>
 
+#include "files/camera_info.h"
+#include "files/template_file.h"
 #include "heel/shirt_template.h"
-#include "process/process.h"
-#include "sanitized.h"
+#include "support/process.h"
+#include "support/sanitized.h"
 
 namespace heel::test {
 namespace {

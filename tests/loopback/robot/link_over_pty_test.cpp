@@ -10,9 +10,9 @@
 #include <string>
 #include <thread>
 
-#include "heel-sim/server/robot_server.h"
+#include "realtime/clock.h"
 #include "robot/robot_link.h"
-#include "runtime/clock.h"
+#include "sim/transport/robot_server.h"
 
 namespace heel {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "heel-sim/robot/p3at.h"
 #include "robot/arcos_session.h"
+#include "sim/robot/p3at.h"
 
 namespace heel {
 namespace {

@@ -1,0 +1,38 @@
+#include "capture/factory/frame_source_factory.h"
+
+#include "capture/factory/source_address.h"
+#include "capture/file/file_source.h"
+#include "capture/libcamera/libcamera_source.h"
+#include "capture/shared_memory/sim_source.h"
+#include "capture/v4l2/v4l2_source.h"
+#include "heel/error.h"
+
+namespace heel {
+
+std::unique_ptr<FrameSource> make_frame_source(const CameraConfig& config) {
+  const SourceAddress address = parse_source_address(config.source);
+  switch (address.kind) {
+    case SourceKind::File:
+      return std::make_unique<FileSource>(address.rest, config.rate_hz, config.file_speed);
+    case SourceKind::Sim:
+      return std::make_unique<SimSource>(address.rest);
+    case SourceKind::V4l2:
+      return std::make_unique<V4l2Source>(address.rest, config);
+    case SourceKind::Libcamera:
+      break;
+  }
+#ifdef HEEL_HAVE_LIBCAMERA
+  return std::make_unique<LibcameraSource>(address.rest, config);
+#else
+  throw Error("camera address '" + config.source +
+              "': this heel was built without libcamera; expected v4l2:PATH, file:PATH or sim:NAME");
+#endif
+}
+
+std::unique_ptr<FrameSource> open_frame_source(const CameraConfig& config) {
+  std::unique_ptr<FrameSource> source = make_frame_source(config);
+  if (source->open() != OpenResult::Opened) throw Error(source->problem());
+  return source;
+}
+
+}  // namespace heel

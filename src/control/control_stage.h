@@ -1,0 +1,41 @@
+// The control stage: everything between the newest pose and the wire, as pure functions of their inputs and
+// `now`.
+//   estimate (target in odom) → supervise (table) → law (the paper's) → gate (last look) → command
+#pragma once
+
+#include <memory>
+
+#include "core/config.h"
+#include "heel/flow.h"
+
+namespace heel {
+
+struct ControlInput {
+  TimeNs now_ns = 0;
+  RobotState robot;
+  PoseEstimate pose;      ///< the newest; its frame_sequence tells whether it is new
+  bool has_pose = false;  ///< a frame has been processed since start
+  bool shutdown = false;
+};
+
+/// Owns the estimator's and the supervisor's memory; reads no clock, holds no device. The daemon's control
+/// thread, the lock-step simulator and replay run this very code.
+class ControlStage {
+ public:
+  explicit ControlStage(const Config& config);
+  ~ControlStage();
+  ControlStage(ControlStage&&) noexcept;
+  ControlStage& operator=(ControlStage&&) noexcept;
+
+  /// New gains, limits and thresholds at a tick boundary; state is kept.
+  void reconfigure(const Config& config);
+
+  /// One tick. The record holds the verdict, the target, the wanted and the gated command.
+  TickRecord tick(const ControlInput& input);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace heel

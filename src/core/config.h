@@ -1,0 +1,122 @@
+// The daemon's configuration as typed structs. Each key's unit, range and effect stands in one table,
+// src/config/config_table.cpp, from which the parser, config/heel.toml and docs/configuration.md are made.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "heel/vision_config.h"
+
+namespace heel {
+
+struct CameraConfig {
+  std::string source = "v4l2:/dev/heel-camera";  ///< v4l2:PATH, libcamera:ID, file:PATH, sim:NAME
+  std::string info = "camera.yaml";              ///< camera_info YAML
+  std::string format = "auto";                   ///< auto, YUYV, GREY, NV12, RGB3, BGR3, MJPG
+  int width_px = 640;
+  int height_px = 480;
+  double rate_hz = 30.0;
+  double exposure_ms = 0.0;     ///< 0: automatic
+  double focus = -1.0;          ///< driver units; −1: leave alone
+  double gain = -1.0;           ///< driver units; −1: automatic
+  double file_speed = 1.0;      ///< file source: times its own rate; 0: as fast as asked
+  std::string at_end = "stop";  ///< a file source's last frame: stop (rest and exit) or loop
+  // Mount: the camera's optical centre in the robot frame.
+  double mount_x_m = 0.15;
+  double mount_y_m = 0.0;
+  double mount_z_m = 1.0;
+  double mount_pitch_rad = 0.0;  ///< + looks up
+};
+
+struct TargetConfig {
+  std::string shirt = "shirt.heel";  ///< the template file
+  double distance_m = 0.0;           ///< overrides the template's distance; 0: as the template says
+};
+
+struct EstimateConfig {
+  double acceleration_m_s2 = 1.0;        ///< how hard the person changes speed, one standard deviation
+  double yaw_acceleration_rad_s2 = 0.8;  ///< how hard the person changes direction, one standard deviation
+  double position_sigma_m = 0.03;        ///< least standard deviation of a measured position
+  double yaw_sigma_rad = 0.03;           ///< least standard deviation of a measured yaw
+  double outlier_sigma = 5.0;            ///< a measurement farther off than this is a wild jump
+  int outliers_to_reset = 5;             ///< this many in a row are believed after all
+};
+
+struct ControlConfig {
+  double rate_hz = 50.0;
+  double gain_distance_1_s = 1.0;     ///< v = gain · t_z error (m → m/s)
+  double gain_lateral_rad_s_m = 1.0;  ///< yaw rate from t_x error
+  double gain_yaw_1_s = 0.8;      ///< yaw rate from yaw error; see control/follow_law.h for how it is chosen
+  double setpoint_t_z_m = 0.0;    ///< added to the template's distance: + follows farther away
+  double setpoint_t_x_m = 0.0;    ///< + walks to the person's left
+  double setpoint_yaw_rad = 0.0;  ///< + circles to the person's right, still facing the person
+  double deadband_distance_m = 0.05;
+  bool reverse = false;           ///< may drive backwards when the person comes nearer
+  double bearing_max_rad = 0.35;  ///< the person is kept within this angle of the optical axis
+  double bearing_gain_1_s = 2.0;  ///< how fast the bearing may approach that angle
+};
+
+struct SupervisorConfig {
+  double certainty_follow = 0.1;  ///< start following at this certainty …
+  double certainty_drop = 0.06;   ///< … and give up below this one (hysteresis)
+  int frames_to_follow = 3;       ///< consecutive good frames before the wheels turn
+  double target_timeout_s = 0.4;  ///< no pose this long: target lost
+  double frame_timeout_s = 0.3;   ///< no frame this long: camera stale
+  double sip_timeout_s = 0.5;     ///< no SIP this long: robot stale
+  double bumper_hold_s = 2.0;     ///< rest this long after a bumper or stall has cleared
+  double sonar_timeout_s = 1.0;   ///< no echo from the front sonars this long: they are silent
+};
+
+struct GateConfig {
+  double v_max_m_s = 0.7;
+  double yaw_rate_max_rad_s = 1.0;
+  double acceleration_m_s2 = 0.6;
+  double deceleration_m_s2 = 1.5;
+  double separation_m = 0.8;  ///< never drives nearer to the person than this
+  double clearance_m = 0.4;   ///< nor nearer to anything the sonars hear in its way, bumper to echo
+  double yaw_acceleration_rad_s2 = 2.5;
+  double command_lifetime_s = 0.2;
+};
+
+struct RobotConfig {
+  std::string address = "serial:/dev/heel-robot@38400";  ///< serial:PATH@BAUD, pty:PATH@BAUD, tcp:HOST:PORT
+  bool sonar = true;
+  bool request_config = true;
+  double config_wait_s = 1.0;  ///< go on without CONFIGpac after this
+  double sync_retry_s = 1.0;
+  double reconnect_s = 1.0;
+  double dist_conv_factor = 1.0;   ///< mm per XPOS/YPOS unit: 1.0 p3at-sh, 0.465 p3at
+  int v_limit_mm_s = 750;          ///< SETV
+  int yaw_rate_limit_deg_s = 100;  ///< SETRV
+  int acceleration_mm_s2 = 600;    ///< SETA +
+  int deceleration_mm_s2 = 1500;   ///< SETA −, sent as a negative argument
+  int yaw_acceleration_deg_s2 = 180;
+};
+
+struct TelemetryConfig {
+  std::string directory;  ///< empty: nothing is recorded
+};
+
+struct RuntimeConfig {
+  std::string log_level = "info";
+  std::string ready_after = "all";  ///< all (robot and first frame), robot, start: when systemd is told READY
+  bool realtime = true;             ///< ask for SCHED_FIFO and mlockall; go on without, saying so
+  int priority_control = 60;
+  int priority_capture = 50;
+  int priority_vision = 40;
+};
+
+struct Config {
+  CameraConfig camera;
+  TargetConfig target;
+  VisionConfig vision;
+  EstimateConfig estimate;
+  ControlConfig control;
+  SupervisorConfig supervisor;
+  GateConfig gate;
+  RobotConfig robot;
+  TelemetryConfig telemetry;
+  RuntimeConfig runtime;
+};
+
+}  // namespace heel

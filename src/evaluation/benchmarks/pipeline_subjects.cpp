@@ -1,0 +1,80 @@
+#include <utility>
+
+#include "evaluation/benchmarks/subjects.h"
+#include "heel/pose_estimator.h"
+#include "heel/pose_tracker.h"
+
+namespace heel::bench {
+namespace {
+
+constexpr double kSearchGoal = 1.3, kTrackingGoal = 0.4;  // × cv::ORB(1000)
+
+/// The daemon's vision stage with the daemon's default settings.
+template <typename Vision>
+class HeelVision : public PipelineSubject {
+ public:
+  HeelVision(const BenchInput& input, Figure what)
+      : PipelineSubject(std::move(what)), input_(input), vision_(input.shirt, input.camera, VisionConfig{}) {
+    vision_.measure(stage_times());
+  }
+
+  double found_share() const override { return share(found_); }
+  double tracked_share() const override { return share(tracked_); }
+  std::uint32_t template_features() const override { return pose_.template_features; }
+
+ protected:
+  bool settle(std::size_t /*frame*/) override {
+    ++frames_;
+    features_ += pose_.frame_features;
+    if (pose_.found()) ++found_;
+    if (pose_.tracked) ++tracked_;
+    return true;
+  }
+  void complete(Figure& figure) const override {
+    if (frames_ > 0) figure.features = static_cast<double>(features_) / static_cast<double>(frames_);
+  }
+  const PoseEstimate& pose() const { return pose_; }
+
+ private:
+  void work(std::size_t index) override { pose_ = vision_.estimate(input_.frames[index].view(index)); }
+  double share(std::size_t count) const {
+    return frames_ > 0 ? static_cast<double>(count) / static_cast<double>(frames_) : 0.0;
+  }
+
+  const BenchInput& input_;
+  Vision vision_;
+  PoseEstimate pose_;
+  std::size_t frames_ = 0, features_ = 0, found_ = 0, tracked_ = 0;
+};
+
+/// Only the frames count in which it had not to search everywhere.
+class Tracking : public HeelVision<PoseTracker> {
+ public:
+  using HeelVision::HeelVision;
+
+ private:
+  bool settle(std::size_t frame) override {
+    HeelVision::settle(frame);
+    return pose().tracked;
+  }
+};
+
+Figure figure_of(const BenchInput& input, const char* key, const char* label, double goal) {
+  Figure figure{.key = key, .label = label, .yardstick = "orb_1000"};
+  if (input.frames.front().grey.size() == kGoalSize) figure.goal = goal;
+  return figure;
+}
+
+}  // namespace
+
+std::unique_ptr<PipelineSubject> search_subject(const BenchInput& input) {
+  return std::make_unique<HeelVision<PoseEstimator>>(
+      input, figure_of(input, "search", "frame to pose, searching everywhere", kSearchGoal));
+}
+
+std::unique_ptr<PipelineSubject> tracking_subject(const BenchInput& input) {
+  return std::make_unique<Tracking>(input,
+                                    figure_of(input, "tracking", "frame to pose, tracking", kTrackingGoal));
+}
+
+}  // namespace heel::bench

@@ -1,0 +1,67 @@
+#include "evaluation/experiments/many_runs.h"
+
+#include <array>
+#include <cstdio>
+
+namespace heel::sim {
+namespace {
+
+struct RunFigure {
+  const char* name;
+  double (*value)(const FollowMetrics& metrics);
+};
+
+int stops_of(const FollowMetrics& metrics) {
+  int stops = 0;
+  for (const auto& [reason, times] : metrics.stops_by_reason) stops += times;
+  return stops;
+}
+
+constexpr std::array kFigures{
+    RunFigure{"path_rms_m", [](const FollowMetrics& m) { return m.lateral_m.rms; }},
+    RunFigure{"separation_mean_m", [](const FollowMetrics& m) { return m.separation_m.mean; }},
+    RunFigure{"separation_least_m", [](const FollowMetrics& m) { return m.separation_m.lowest; }},
+    RunFigure{"found_share",
+              [](const FollowMetrics& m) {
+                return m.frames > 0 ? static_cast<double>(m.frames_found) / static_cast<double>(m.frames)
+                                    : 0.0;
+              }},
+    RunFigure{"out_of_view_longest_s", [](const FollowMetrics& m) { return m.out_of_view_longest_s; }},
+    RunFigure{"robot_path_m", [](const FollowMetrics& m) { return m.robot_path_m; }},
+    RunFigure{"stops", [](const FollowMetrics& m) { return static_cast<double>(stops_of(m)); }},
+};
+
+Quantiles over_runs(const ManyRuns& many, const RunFigure& figure) {
+  std::vector<double> values;
+  for (const FollowMetrics& metrics : many.runs) values.push_back(figure.value(metrics));
+  return quantiles(values);
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const ManyRuns& many) {
+  nlohmann::ordered_json json{{"runs", many.runs.size()}, {"simulated_s", many.simulated_s}};
+  for (const RunFigure& figure : kFigures) {
+    const Quantiles q = over_runs(many, figure);
+    json[figure.name] = {
+        {"mean", q.mean}, {"deviation", q.deviation}, {"min", q.lowest}, {"p05", q.p05}, {"p50", q.p50},
+        {"p95", q.p95},   {"max", q.highest}};
+  }
+  return json;
+}
+
+std::string many_runs_table(const ManyRuns& many) {
+  char line[160];
+  std::snprintf(line, sizeof line, "%-24s %9s %9s %9s %9s %9s\n", "over runs", "mean", "deviation", "least",
+                "median", "most");
+  std::string text = line;
+  for (const RunFigure& figure : kFigures) {
+    const Quantiles q = over_runs(many, figure);
+    std::snprintf(line, sizeof line, "%-24s %9.3f %9.3f %9.3f %9.3f %9.3f\n", figure.name, q.mean,
+                  q.deviation, q.lowest, q.p50, q.highest);
+    text += line;
+  }
+  return text;
+}
+
+}  // namespace heel::sim

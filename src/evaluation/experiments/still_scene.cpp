@@ -1,0 +1,132 @@
+#include "evaluation/experiments/still_scene.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+#include "evaluation/experiments/board.h"
+#include "realtime/thread_clock.h"
+#include "sim/scene/shirts.h"
+
+namespace heel::experiment {
+namespace {
+
+constexpr double kFreeRoundPersonM = 5.6;  ///< nothing stands nearer: the camera goes round at up to 5.5 m
+constexpr double kRoomReachM = 8.0;
+// Every seed has a person of its own build.
+constexpr std::uint64_t kBuild = 0xb1d;
+constexpr double kFlattest = 0.75, kRoundest = 1.3;
+// Longer than PoseTracker remembers: the next case is looked for anew.
+constexpr double kBetweenCasesS = 1.0;
+
+/// Yaw alone: the person stands upright before a camera that may be tilted.
+Eigen::Matrix3d true_rotation(const sim::Truth& truth, double heading_rad) {
+  // Camera axes of the reference view: level, square to the back of a person with this heading.
+  Eigen::Matrix3d world_from_ref;
+  const double c = std::cos(heading_rad), s = std::sin(heading_rad);
+  world_from_ref << s, 0, c, -c, 0, s, 0, -1, 0;
+  return truth.world_from_camera.linear().transpose() * world_from_ref;
+}
+
+}  // namespace
+
+sim::Scenario still_scenario(const sim::Scenario& base, const StillSurroundings& surroundings) {
+  sim::Scenario scenario = base;
+  scenario.name = "still";
+  scenario.seed = surroundings.seed;
+  scenario.path.clear();
+  scenario.passers_by.clear();
+  scenario.obstacles.clear();
+  scenario.light.changes.clear();
+  scenario.room.bump_m = 0.0;
+  scenario.person_start = {};
+  scenario.person.shirt = sim::shirt_design(surroundings.shirt);
+  scenario.light.level = surroundings.light;
+  scenario.person.depth =
+      Random(derived_seed(surroundings.seed, kBuild)).uniform(kFlattest, kRoundest);
+  scenario.robot = {};
+  scenario.room.clearance_m = kFreeRoundPersonM;
+  scenario.room.margin_m = kRoomReachM;
+  return scenario;
+}
+
+sim::RobotMotion robot_for(const sim::ScenarioCamera& camera, const Eigen::Vector3d& back_m,
+                           const StillView& view) {
+  const double heading = view.yaw_rad;  // the camera turned to the left sees the person walk to the right
+  const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
+  const Eigen::Vector2d left(-ahead.y(), ahead.x());
+  const Eigen::Vector2d camera_m = back_m.head<2>() - view.z_m * ahead + view.x_m * left;
+  const Eigen::Vector2d robot_m = camera_m - camera.mount_x_m * ahead - camera.mount_y_m * left;
+  sim::RobotMotion robot;
+  robot.x_m = robot_m.x();
+  robot.y_m = robot_m.y();
+  robot.heading_rad = heading;
+  robot.yaw_rate_rad_s = view.blur_px / (camera.model.fx * 1e-3 * camera.sensor.exposure_ms);
+  return robot;
+}
+
+StillScene::StillScene(const sim::Scenario& base, const StillSurroundings& surroundings,
+                       const ShirtTemplate& shirt, const VisionConfig& vision)
+    : surroundings_(surroundings),
+      world_(still_scenario(base, surroundings)),
+      shirt_(shirt),
+      vision_(shirt, base.camera.model, vision) {}
+
+std::array<StillRow, 2> StillScene::look(const std::string& name, const StillView& view) {
+  t_s_ += kBetweenCasesS;
+  const StillRow first = look_once(name, view, 0);
+  t_s_ += 1.0 / world_.scenario().camera.rate_hz;
+  return {first, look_once(name, view, 1)};
+}
+
+StillRow StillScene::look_once(const std::string& name, const StillView& view, int picture) {
+  const sim::ScenarioCamera& camera = world_.scenario().camera;
+  const Eigen::Vector3d back_m = world_.truth({}, t_s_).back_m;
+  const sim::RobotMotion robot = robot_for(camera, back_m, view);
+  const sim::Truth truth = world_.truth(robot, t_s_);
+  world_.render(robot, t_s_, ++frame_, grey_);
+  if (view.occluded != 0.0)
+    draw_board(truth, camera.model, view.occluded, derived_seed(surroundings_.seed, frame_),
+               surroundings_.light, grey_);
+
+  FrameView frame;
+  frame.header = {frame_, ns_from_seconds(t_s_), static_cast<std::uint32_t>(camera.model.width_px),
+                  static_cast<std::uint32_t>(camera.model.height_px)};
+  frame.grey = grey_.data();
+  frame.stride_bytes = frame.header.width_px;
+
+  StillRow row;
+  row.name = name;
+  row.surroundings = surroundings_;
+  row.view = view;
+  row.picture = picture;
+  const TimeNs t_begin_ns = thread_cpu_ns();
+  row.pose = vision_.estimate(frame);
+  row.vision_ms = 1e-6 * static_cast<double>(thread_cpu_ns() - t_begin_ns);
+  row.true_x_m = truth.back_in_camera_m.x();
+  row.true_y_m = truth.back_in_camera_m.y();
+  row.true_z_m = truth.back_in_camera_m.z();
+  row.true_yaw_rad = truth.yaw_rad;
+  // The back's centre seen in the reference view: straight ahead but for the camera's height.
+  const Eigen::Vector3d back_ref_m(0.0, camera.mount_z_m - truth.back_m.z(), shirt_.distance_m);
+  row.true_t_m = truth.back_in_camera_m - true_rotation(truth, truth.back_yaw_rad) * back_ref_m;
+  for (std::size_t i = 0; i < 3; ++i) {
+    row.t_m[i] = shirt_.distance_m * row.pose.t_over_d[i];
+    row.t_sigma_m[i] = shirt_.distance_m * row.pose.t_over_d_sigma[i];
+  }
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> H(row.pose.H_cur_from_ref.data());
+  const double left = shirt_.roi.x_px, right = shirt_.roi.x_px + shirt_.roi.width_px;
+  const double top = shirt_.roi.y_px, bottom = shirt_.roi.y_px + shirt_.roi.height_px;
+  const std::array<Eigen::Vector2d, 4> corners{Eigen::Vector2d(left, top), Eigen::Vector2d(right, top),
+                                               Eigen::Vector2d(right, bottom), Eigen::Vector2d(left, bottom)};
+  for (std::size_t i = 0; i < 4; ++i) {
+    row.outline_px[i].setZero();
+    if (row.pose.found())
+      row.outline_px[i] =
+          camera.model.distort_px((H * shirt_.camera.undistort_px(corners[i]).homogeneous()).hnormalized());
+  }
+  return row;
+}
+
+}  // namespace heel::experiment

@@ -1,0 +1,14 @@
+// A run's folder (truth.csv, ticks.csv, poses.csv) as samples for metrics and figures.
+#pragma once
+
+#include <string>
+
+#include "evaluation/metrics/metrics.h"
+
+namespace heel::report {
+
+/// Real-time runs carry the daemon's and the simulator's clock in truth.csv (t_monotonic_s); lock-step runs
+/// have one clock. Times in the result are those of the recording. Throws heel::Error.
+sim::MetricsCollector read_run(const std::string& directory);
+
+}  // namespace heel::report

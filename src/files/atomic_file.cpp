@@ -1,0 +1,102 @@
+// Whole files in, whole files out (see atomic_file.h).
+#include "files/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "heel/error.h"
+
+namespace heel {
+namespace {
+
+Error file_error(const std::string& path, const std::string& what) {
+  return Error(path + ": " + what + ": " + std::strerror(errno));
+}
+
+/// Closes and removes the temporary file unless it has been renamed into place.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& final_path)
+      : path_(final_path + ".XXXXXX"), fd_(mkstemp(path_.data())) {
+    if (fd_ < 0) throw file_error(final_path, "cannot write beside it");
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (fd_ >= 0) close(fd_);
+    if (!renamed_) unlink(path_.c_str());
+  }
+
+  bool write_all(std::string_view bytes) const {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(fd_, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) return false;
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return true;
+  }
+  /// As a new file would have it (mkstemp makes 0600).
+  bool give_usual_mode() const {
+    const mode_t mask = umask(0);
+    umask(mask);
+    return fchmod(fd_, 0666 & ~mask) == 0;
+  }
+  bool sync() const { return fsync(fd_) == 0; }
+  bool rename_to(const std::string& final_path) {
+    renamed_ = std::rename(path_.c_str(), final_path.c_str()) == 0;
+    return renamed_;
+  }
+
+ private:
+  std::string path_;
+  int fd_;
+  bool renamed_ = false;
+};
+
+/// The rename itself is durable once the folder is synced. Some file systems refuse that; the data is safe.
+void sync_folder_of(const std::string& path) {
+  std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (folder.empty()) folder = ".";
+  const int fd = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  fsync(fd);
+  close(fd);
+}
+
+}  // namespace
+
+void write_file_atomically(const std::string& path, std::string_view bytes) {
+  TemporaryFile temporary(path);
+  if (!temporary.write_all(bytes) || !temporary.give_usual_mode() || !temporary.sync() ||
+      !temporary.rename_to(path)) {
+    throw file_error(path, "cannot write");
+  }
+  sync_folder_of(path);
+}
+
+std::string read_whole_file(const std::string& path, std::size_t max_bytes) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) throw file_error(path, "cannot read");
+  if (!S_ISREG(status.st_mode)) throw Error(path + ": cannot read: expected a regular file");
+  if (static_cast<std::size_t>(status.st_size) > max_bytes) {
+    throw Error(path + ": " + std::to_string(status.st_size) + " bytes, expected at most " +
+                std::to_string(max_bytes));
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw file_error(path, "cannot read");
+  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  if (file.bad()) throw file_error(path, "cannot read");
+  return bytes;
+}
+
+}  // namespace heel

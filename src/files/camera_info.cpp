@@ -1,0 +1,196 @@
+// Camera files: ROS camera_info YAML in and out; OpenCV FileStorage YAML or JSON in.
+//
+// ROS:     camera_matrix: {rows, cols, data}, distortion_model: plumb_bob, distortion_coefficients: {…}
+// OpenCV:  %YAML:1.0, camera_matrix: !!opencv-matrix {rows, cols, dt, data}, no model name
+// Both:    image_width, image_height; coefficients in the order k1 k2 p1 p2 [k3].
+#include "files/camera_info.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "files/atomic_file.h"
+#include "heel/camera_model.h"
+#include "heel/error.h"
+
+namespace heel {
+namespace {
+
+constexpr std::size_t kMaxCameraInfoBytes = 1 << 20;
+constexpr int kMaxSensorSide_px = 32768;
+
+Error expected(const std::string& path, const std::string& key, const std::string& found,
+               const std::string& what) {
+  return Error(path + ": " + key + ": " + found + " (expected " + what + ")");
+}
+
+/// OpenCV opens its files with "%YAML:1.0", which is no YAML directive. The line is blanked, not removed, so
+/// that line numbers in messages stay true.
+std::string without_opencv_directive(std::string text) {
+  if (text.starts_with("%YAML:")) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    text.replace(0, end, "");
+  }
+  return text;
+}
+
+YAML::Node parse(const std::string& path) {
+  const std::string text = read_whole_file(path, kMaxCameraInfoBytes);
+  if (text.starts_with("<?xml")) {
+    throw Error(path + ": this is XML (expected camera_info YAML, or OpenCV FileStorage in YAML or JSON)");
+  }
+  YAML::Node root;
+  try {
+    root = YAML::Load(without_opencv_directive(text));
+  } catch (const YAML::Exception& error) {
+    throw Error(path + ":" + std::to_string(error.mark.line + 1) + ":" +
+                std::to_string(error.mark.column + 1) + ": not YAML: " + error.msg +
+                " (expected a camera_info file)");
+  }
+  if (!root.IsMap()) {
+    throw Error(path +
+                ": not a camera file (expected YAML with image_width, image_height, camera_matrix, "
+                "distortion_coefficients)");
+  }
+  return root;
+}
+
+YAML::Node need(const YAML::Node& parent, const std::string& path, const std::string& key,
+                const std::string& what) {
+  const YAML::Node node = parent[key];
+  if (!node || node.IsNull()) throw expected(path, key, "missing", what);
+  return node;
+}
+
+int read_image_side(const YAML::Node& root, const std::string& path, const std::string& key) {
+  const std::string what = "whole number of pixels, 1…" + std::to_string(kMaxSensorSide_px);
+  const YAML::Node node = need(root, path, key, what);
+  int side_px = 0;
+  if (!node.IsScalar() || !YAML::convert<int>::decode(node, side_px) || side_px < 1 ||
+      side_px > kMaxSensorSide_px) {
+    throw expected(path, key, node.IsScalar() ? "'" + node.Scalar() + "'" : "not a number", what);
+  }
+  return side_px;
+}
+
+/// The numbers of a matrix node, checked against its own rows and cols where it states them.
+std::vector<double> read_matrix(const YAML::Node& root, const std::string& path, const std::string& key,
+                                const std::string& what) {
+  const YAML::Node matrix = need(root, path, key, what);
+  const YAML::Node data = matrix.IsMap() ? matrix["data"] : matrix;
+  if (!data || !data.IsSequence()) throw expected(path, key + ".data", "missing or not a list", what);
+
+  std::vector<double> values;
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    double value = 0.0;
+    if (!data[i].IsScalar() || !YAML::convert<double>::decode(data[i], value) || !std::isfinite(value)) {
+      throw expected(path, key + ".data[" + std::to_string(i) + "]",
+                     data[i].IsScalar() ? "'" + data[i].Scalar() + "'" : "not a number", "a finite number");
+    }
+    values.push_back(value);
+  }
+  if (matrix.IsMap() && matrix["rows"] && matrix["cols"]) {
+    long rows = 0;
+    long cols = 0;
+    if (!YAML::convert<long>::decode(matrix["rows"], rows) ||
+        !YAML::convert<long>::decode(matrix["cols"], cols) ||
+        rows * cols != static_cast<long>(values.size())) {
+      throw expected(path, key, std::to_string(values.size()) + " numbers", "rows × cols of them");
+    }
+  }
+  return values;
+}
+
+void read_intrinsics(const YAML::Node& root, const std::string& path, CameraModel& camera) {
+  const std::string key = "camera_matrix";
+  const std::vector<double> k = read_matrix(root, path, key, "3 × 3: fx 0 cx, 0 fy cy, 0 0 1");
+  if (k.size() != 9) {
+    throw expected(path, key + ".data", std::to_string(k.size()) + " numbers", "9: fx 0 cx, 0 fy cy, 0 0 1");
+  }
+  if (k[1] != 0.0) throw expected(path, key + ".data[1]", "skew " + std::to_string(k[1]), "0: no skew");
+  if (k[3] != 0.0 || k[6] != 0.0 || k[7] != 0.0 || k[8] != 1.0) {
+    throw expected(path, key + ".data", "not a pinhole camera's matrix",
+                   "fx 0 cx, 0 fy cy, 0 0 1, row by row");
+  }
+  if (k[0] <= 0.0 || k[4] <= 0.0) {
+    throw expected(path, key + ".data", "fx " + std::to_string(k[0]) + ", fy " + std::to_string(k[4]),
+                   "focal lengths above 0, px");
+  }
+  camera.fx = k[0];
+  camera.cx = k[2];
+  camera.fy = k[4];
+  camera.cy = k[5];
+}
+
+/// What a coefficient count means in OpenCV, for a refusal that names the model.
+std::string model_of_count(std::size_t count) {
+  switch (count) {
+    case 8:
+      return "the rational model";
+    case 12:
+      return "the thin prism model";
+    case 14:
+      return "the tilted model";
+    default:
+      return "no model known here";
+  }
+}
+
+void read_distortion(const YAML::Node& root, const std::string& path, CameraModel& camera) {
+  if (const YAML::Node model = root["distortion_model"]) {
+    const std::string name = model.IsScalar() ? model.Scalar() : "";
+    if (name != "plumb_bob") throw expected(path, "distortion_model", "'" + name + "'", "plumb_bob");
+  }
+  const std::string key = "distortion_coefficients";
+  const std::vector<double> d = read_matrix(root, path, key, "k1 k2 p1 p2 [k3]");
+  if (d.size() != 4 && d.size() != 5) {
+    throw expected(path, key + ".data", std::to_string(d.size()) + " numbers: " + model_of_count(d.size()),
+                   "4 or 5, plumb_bob: k1 k2 p1 p2 [k3]");
+  }
+  camera.k1 = d[0];
+  camera.k2 = d[1];
+  camera.p1 = d[2];
+  camera.p2 = d[3];
+  camera.k3 = d.size() == 5 ? d[4] : 0.0;
+}
+
+std::string matrix_yaml(const std::string& key, int rows, int cols, const std::vector<double>& values) {
+  std::ostringstream out;
+  out.precision(17);  // every double comes back the same
+  out << key << ":\n  rows: " << rows << "\n  cols: " << cols << "\n  data: [";
+  for (std::size_t i = 0; i < values.size(); ++i) out << (i == 0 ? "" : ", ") << values[i];
+  out << "]\n";
+  return out.str();
+}
+
+}  // namespace
+
+CameraModel read_camera_model(const std::string& path) {
+  const YAML::Node root = parse(path);
+  CameraModel camera;
+  camera.width_px = read_image_side(root, path, "image_width");
+  camera.height_px = read_image_side(root, path, "image_height");
+  read_intrinsics(root, path, camera);
+  read_distortion(root, path, camera);
+  return camera;
+}
+
+void write_camera_model(const CameraModel& camera, const std::string& path) {
+  std::ostringstream out;
+  out << "image_width: " << camera.width_px << "\nimage_height: " << camera.height_px
+      << "\ncamera_name: camera\n"
+      << matrix_yaml("camera_matrix", 3, 3, {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1})
+      << "distortion_model: plumb_bob\n"
+      << matrix_yaml("distortion_coefficients", 1, 5, {camera.k1, camera.k2, camera.p1, camera.p2, camera.k3})
+      << matrix_yaml("rectification_matrix", 3, 3, {1, 0, 0, 0, 1, 0, 0, 0, 1})
+      << matrix_yaml("projection_matrix", 3, 4,
+                     {camera.fx, 0, camera.cx, 0, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0});
+  write_file_atomically(path, out.str());
+}
+
+}  // namespace heel

@@ -1,0 +1,17 @@
+// Template files: the reference view of the shirt, its region, its distance and its camera, in one file.
+#pragma once
+
+#include <string>
+
+#include "heel/shirt_template.h"
+
+namespace heel {
+
+inline constexpr int kTemplateFormatVersion = 1;
+
+/// Throws heel::Error naming the file and what is wrong: not a template, newer version, truncated, checksum.
+ShirtTemplate read_template(const std::string& path);
+/// Writes to a temporary file and renames it: an existing template is never left half written.
+void write_template(const ShirtTemplate& shirt, const std::string& path);
+
+}  // namespace heel

@@ -1,0 +1,76 @@
+#include "logging/logging.h"
+
+#include <spdlog/async.h>
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "heel/error.h"
+#include "logging/journal_sink.h"
+
+namespace heel {
+
+namespace {
+
+constexpr std::size_t kQueuedMessages = 4096;
+
+spdlog::level::level_enum parse_level(const std::string& level) {
+  for (const char* known : {"trace", "debug", "info", "warn", "error", "critical", "off"}) {
+    if (level == known) return spdlog::level::from_str(level);
+  }
+  throw Error("log level '" + level +
+              "': not known; expected trace, debug, info, warn, error, critical or off");
+}
+
+spdlog::sink_ptr make_sink() {
+  if (stderr_is_journal()) return make_journal_sink();
+  auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+  sink->set_formatter(make_terminal_formatter());
+  return sink;
+}
+
+}  // namespace
+
+bool stderr_is_journal() {
+  const char* stream = std::getenv("JOURNAL_STREAM");
+  struct stat file {};
+  if (stream == nullptr || fstat(STDERR_FILENO, &file) != 0) return false;
+  return stream == std::to_string(file.st_dev) + ":" + std::to_string(file.st_ino);
+}
+
+std::unique_ptr<spdlog::formatter> make_terminal_formatter() {
+  return std::make_unique<spdlog::pattern_formatter>("%H:%M:%S.%e %^%l%$ %v");
+}
+
+void start_logging(const std::string& level) {
+  const spdlog::level::level_enum parsed = parse_level(level);
+  spdlog::init_thread_pool(kQueuedMessages, 1);
+  // A reader of standard error that does not keep up costs old messages, never anyone's time.
+  auto logger = std::make_shared<spdlog::async_logger>("heel", make_sink(), spdlog::thread_pool(),
+                                                       spdlog::async_overflow_policy::overrun_oldest);
+  logger->set_level(parsed);
+  logger->flush_on(spdlog::level::info);
+  spdlog::set_default_logger(std::move(logger));
+}
+
+void set_log_level(const std::string& level) {
+  spdlog::set_level(parse_level(level));
+}
+
+void stop_logging() {
+  const auto level = spdlog::get_level();
+  // Kept until the logging thread has been joined: whoever lets go of a logger last destroys it.
+  const auto last_logger = spdlog::default_logger();
+  spdlog::shutdown();
+  // shutdown() leaves no default logger at all; a late message (a destructor's) must still find one.
+  auto logger = std::make_shared<spdlog::logger>("heel", make_sink());
+  logger->set_level(level);
+  spdlog::set_default_logger(std::move(logger));
+}
+
+}  // namespace heel

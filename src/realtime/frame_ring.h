@@ -1,0 +1,73 @@
+// Frames from the capture thread to the vision thread: preallocated, lock-free, freshest wins.
+// One writer, one reader. The reader always gets the newest complete frame; a frame that a fresher one
+// overtakes before it was read is dropped and counted; the frame the reader holds is never touched.
+//
+// At every moment, and exactly when both sides rest:  captured = consumed + dropped + (1 if unread else 0).
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "heel/flow.h"
+#include "realtime/slot_exchange.h"
+
+namespace heel {
+
+/// A slot to write a frame into.
+struct WritableFrame {
+  FrameHeader* header = nullptr;
+  std::uint8_t* grey = nullptr;
+  std::uint32_t stride_bytes = 0;
+};
+
+class FrameRing {
+ public:
+  /// Takes all memory here, for frames of at most this size.
+  FrameRing(std::uint32_t max_width_px, std::uint32_t max_height_px);
+
+  FrameRing(const FrameRing&) = delete;
+  FrameRing& operator=(const FrameRing&) = delete;
+
+  std::uint32_t max_width_px() const { return max_width_px_; }
+  std::uint32_t max_height_px() const { return max_height_px_; }
+
+  // ── writer ──
+  /// The slot to fill; the same one until publish().
+  WritableFrame writable();
+  /// Makes the filled slot the newest frame and wakes the reader.
+  void publish();
+  /// Copies a frame in and publishes it. False: it does not fit and is not taken.
+  bool push(const FrameView& frame);
+
+  // ── reader ──
+  /// The newest frame not taken before, or null. It stays valid and untouched until the next take that
+  /// succeeds.
+  const FrameView* take();
+  /// Sleeps until a frame is there to take (true), or until the timeout or wake() (false).
+  bool wait(TimeNs timeout_ns) const;
+
+  // ── anyone ──
+  /// Ends a wait() early, e.g. to stop the reader's thread.
+  void wake();
+  std::uint64_t captured() const { return captured_.load(std::memory_order_relaxed); }
+  std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
+  std::uint64_t consumed() const { return consumed_.load(std::memory_order_relaxed); }
+
+ private:
+  std::uint32_t max_width_px_;
+  std::uint32_t max_height_px_;
+  std::uint32_t stride_bytes_;
+  std::vector<std::uint8_t> pixels_;  // of all slots
+  std::array<FrameView, SlotExchange::kSlots> slots_;
+  std::array<std::uint8_t*, SlotExchange::kSlots> slot_pixels_{};
+
+  SlotExchange exchange_;
+  alignas(kCacheLineBytes) std::atomic<std::uint64_t> captured_{0};  // written by the writer
+  std::atomic<std::uint64_t> dropped_{0};                            // written by the writer
+  std::atomic<std::uint32_t> signal_{0};                             // changes with every publish and wake
+  alignas(kCacheLineBytes) std::atomic<std::uint64_t> consumed_{0};  // written by the reader
+};
+
+}  // namespace heel

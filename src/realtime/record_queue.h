@@ -1,0 +1,72 @@
+// A bounded queue of records from one hot thread to the telemetry thread. Wait-free on both sides.
+// When it is full the new record is dropped and counted: the hot thread never waits for a slow disk.
+#pragma once
+
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "realtime/slot_exchange.h"
+
+namespace heel {
+
+template <typename T>
+class RecordQueue {
+  static_assert(std::is_trivially_copyable_v<T>, "records cross threads as bytes");
+
+ public:
+  /// Takes all its memory here. The capacity is rounded up to a power of two.
+  explicit RecordQueue(std::size_t capacity)
+      : records_(std::bit_ceil(capacity < 2 ? std::size_t{2} : capacity)), mask_(records_.size() - 1) {}
+
+  RecordQueue(const RecordQueue&) = delete;
+  RecordQueue& operator=(const RecordQueue&) = delete;
+
+  /// Writer. False: the queue was full, the record is dropped and counted.
+  bool push(const T& record) {
+    const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
+    if (tail - cached_head_ == records_.size()) {
+      cached_head_ = head_.load(std::memory_order_acquire);
+      if (tail - cached_head_ == records_.size()) {
+        dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+        return false;
+      }
+    }
+    records_[tail & mask_] = record;
+    tail_.store(tail + 1, std::memory_order_release);
+    return true;
+  }
+
+  /// Reader. Oldest first; false: empty.
+  bool pop(T& out) {
+    const std::uint64_t head = head_.load(std::memory_order_relaxed);
+    if (head == cached_tail_) {
+      cached_tail_ = tail_.load(std::memory_order_acquire);
+      if (head == cached_tail_) return false;
+    }
+    out = records_[head & mask_];
+    head_.store(head + 1, std::memory_order_release);
+    return true;
+  }
+
+  std::size_t capacity() const { return records_.size(); }
+  /// Records lost since construction because the reader was too slow. Any thread.
+  std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
+
+ private:
+  std::vector<T> records_;
+  std::size_t mask_;
+
+  // Positions count up for ever. Each side keeps a copy of the other's position and looks again only when the
+  // copy says full (or empty), so that in steady flow the two do not pull each other's cache line.
+  alignas(kCacheLineBytes) std::atomic<std::uint64_t> tail_{0};  // written by the writer
+  std::uint64_t cached_head_ = 0;
+  std::atomic<std::uint64_t> dropped_{0};
+  alignas(kCacheLineBytes) std::atomic<std::uint64_t> head_{0};  // written by the reader
+  std::uint64_t cached_tail_ = 0;
+};
+
+}  // namespace heel

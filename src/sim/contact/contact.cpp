@@ -1,0 +1,101 @@
+#include "sim/contact/contact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace heel::sim {
+namespace {
+
+constexpr double kHalfLengthM = 0.313;  ///< the bumpers' outer edge
+constexpr double kHalfWidthM = 0.2525;
+constexpr double kBumperTravelM = 0.02;  ///< then comes what does not give
+constexpr int kSegments = 5;             ///< of a bumper
+constexpr int kPointsASegment = 3;
+constexpr int kPointsASide = 8;
+constexpr double kReachM = 0.41;  ///< half the diagonal, and a little
+
+Eigen::Vector2d in_world(const Pose2& pose, double ahead_m, double left_m) {
+  const double c = std::cos(pose.heading_rad);
+  const double s = std::sin(pose.heading_rad);
+  return {pose.x_m + c * ahead_m - s * left_m, pose.y_m + s * ahead_m + c * left_m};
+}
+
+bool holds(const std::vector<Footprint>& things, const Eigen::Vector2d& point) {
+  return std::any_of(things.begin(), things.end(), [&](const Footprint& thing) {
+    return (thing.nearest_m(point) - point).squaredNorm() < 1e-12;
+  });
+}
+
+/// Pressed segments of the front (`end` +1) or rear (−1) bumper.
+std::uint8_t pressed(const Pose2& pose, const std::vector<Footprint>& things, double end) {
+  unsigned bits = 0;
+  for (int i = 0; i < kSegments * kPointsASegment; ++i) {
+    const double across = 1.0 - 2.0 * (i + 0.5) / (kSegments * kPointsASegment);
+    if (holds(things, in_world(pose, end * kHalfLengthM, end * across * kHalfWidthM)))
+      bits |= 1u << (i / kPointsASegment);
+  }
+  return static_cast<std::uint8_t>(bits);
+}
+
+/// Whether the part that does not give is inside something.
+bool blocked(const Pose2& pose, const std::vector<Footprint>& things) {
+  const double length = kHalfLengthM - kBumperTravelM;
+  for (int i = 0; i <= kPointsASide; ++i) {
+    const double share = 2.0 * i / kPointsASide - 1.0;
+    for (const double side : {-1.0, 1.0})
+      if (holds(things, in_world(pose, side * length, share * kHalfWidthM)) ||
+          holds(things, in_world(pose, share * length, side * kHalfWidthM)))
+        return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Contact::Contact(const World& world, P3At& robot)
+    : world_(world), robot_(robot), free_pose_(robot.true_pose()) {
+  robot_.set_range_finder([this](const Pose2& sensor) {
+    return world_.range_m(sensor.x_m, sensor.y_m, sensor.heading_rad, t_s_);
+  });
+}
+
+std::vector<Footprint> Contact::near() const {
+  const Pose2& pose = robot_.true_pose();
+  const Eigen::Vector2d at(pose.x_m, pose.y_m);
+  std::vector<Footprint> things;
+  const auto add = [&](const std::vector<Footprint>& all) {
+    for (const Footprint& thing : all) {
+      const bool far =
+          (thing.centre_m - at).norm() > kReachM + thing.reach_m();  // most are, and that is soon seen
+      if (!far && (thing.nearest_m(at) - at).norm() < kReachM) things.push_back(thing);
+    }
+  };
+  add(world_.room().footprints());
+  add(world_.people_footprints(t_s_));
+  return things;
+}
+
+void Contact::choose_floor() {
+  const ScenarioRobot& robot = world_.scenario().robot;
+  if (robot.patches.empty()) return;
+  const Pose2& pose = robot_.true_pose();
+  const auto under = std::find_if(robot.patches.begin(), robot.patches.end(), [&](const FloorPatch& patch) {
+    return std::abs(pose.x_m - patch.x_m) <= 0.5 * patch.length_m &&
+           std::abs(pose.y_m - patch.y_m) <= 0.5 * patch.width_m;
+  });
+  robot_.set_true_track(under == robot.patches.end() ? robot.true_track_m : under->true_track_m);
+}
+
+void Contact::step(double t_s) {
+  t_s_ = t_s;
+  choose_floor();
+  const std::vector<Footprint> things = near();
+  if (blocked(robot_.true_pose(), things))
+    robot_.place(free_pose_);
+  else
+    free_pose_ = robot_.true_pose();
+  robot_.touch_bumper(pressed(robot_.true_pose(), things, 1.0), pressed(robot_.true_pose(), things, -1.0));
+}
+
+}  // namespace heel::sim

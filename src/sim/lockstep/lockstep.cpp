@@ -1,0 +1,294 @@
+#include "sim/lockstep/lockstep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "control/control_stage.h"
+#include "core/random.h"
+#include "heel/error.h"
+#include "heel/pose_tracker.h"
+#include "robot/arcos_session.h"
+#include "sim/contact/contact.h"
+#include "sim/lockstep/frame_supply.h"
+#include "sim/pose_noise/drawn_poses.h"
+
+namespace heel::sim {
+namespace {
+
+class Lockstep {
+ public:
+  Lockstep(const LockstepSettings& settings, LockstepObserver& observer);
+  LockstepCounts run();
+
+ private:
+  /// A frame taken but not yet seen by the vision stage.
+  struct TakenFrame {
+    std::uint64_t sequence = 0;
+    TimeNs t_ns = 0;  ///< middle
+    TimeNs stamp_error_ns = 0;
+    RobotMotion robot;
+    TruthMoment truth;
+  };
+  struct PoseUnderWay {
+    PoseEstimate pose;
+    TimeNs t_visible_ns = 0;
+  };
+
+  void advance_line(TimeNs t_ns);
+  void expose(TimeNs t_ns);
+  TimeNs readable_ns(TimeNs t_ns) const;
+  void see(const TakenFrame& taken, TimeNs t_start_ns);
+  void tick(TimeNs t_ns, bool shutdown);
+  void send(std::span<const std::uint8_t> bytes, TimeNs t_ns);
+  void start_person_when_motors_run(TimeNs t_ns);
+  RobotMotion motion_at(TimeNs t_ns) const;
+  TruthMoment truth_at(TimeNs t_ns) const;
+
+  const Scenario scenario_;
+  const double control_rate_hz_;
+  LockstepObserver& observer_;
+  std::unique_ptr<World> world_;  ///< none when frames come from a file
+  std::unique_ptr<FrameSupply> frames_;
+  std::optional<PoseTracker> vision_;        ///< of pictures
+  std::optional<errors::DrawnPoses> drawn_;  ///< or none
+  ControlStage control_;
+  ArcosSession session_;
+  P3At robot_;
+  std::optional<Contact> contact_;  ///< with a world
+
+  TimeNs t_line_ns_ = 0;  ///< the line has been carried up to here
+  TimeNs t_vision_free_ns_ = 0;
+  TimeNs t_last_ready_ns_ = 0;                ///< frames come one after the other
+  std::optional<TakenFrame> waiting_;         ///< freshest wins
+  std::deque<PoseUnderWay> poses_under_way_;  ///< in order; more than one behind a late frame
+  PoseEstimate newest_pose_;
+  bool has_pose_ = false;
+  bool frames_ended_ = false;
+  LockstepCounts counts_;
+};
+
+Lockstep::Lockstep(const LockstepSettings& settings, LockstepObserver& observer)
+    : scenario_(settings.scenario),
+      control_rate_hz_(settings.config.control.rate_hz),
+      observer_(observer),
+      control_(settings.config),
+      session_(settings.config.robot),
+      robot_(robot_settings(settings.scenario), derived_seed(settings.scenario.seed, 0x60)) {
+  if (settings.errors) {
+    world_ = std::make_unique<World>(scenario_, 1, Detail::TruthOnly);
+    contact_.emplace(*world_, robot_);
+    drawn_.emplace(*settings.errors, scenario_, settings.shirt.distance_m,
+                   derived_seed(scenario_.seed, 0xe0));
+    return;
+  }
+  vision_.emplace(settings.shirt, scenario_.camera.model, settings.config.vision);
+  if (scenario_.camera.source == "sim") {
+    world_ = std::make_unique<World>(scenario_);
+    frames_ = make_world_supply(*world_);
+    contact_.emplace(*world_, robot_);
+  } else {
+    frames_ = make_file_supply(scenario_.camera.source, scenario_.camera.model.width_px,
+                               scenario_.camera.model.height_px);
+  }
+}
+
+LockstepCounts Lockstep::run() {
+  const TimeNs tick_period_ns = ns_from_seconds(1.0 / control_rate_hz_);
+  const TimeNs frame_period_ns = ns_from_seconds(1.0 / scenario_.camera.rate_hz);
+  const TimeNs t_end_ns = ns_from_seconds(scenario_.duration_s);
+  TimeNs t_tick_ns = 0;
+  TimeNs t_frame_ns = frame_period_ns;
+  session_.line_opened(0);
+  while (t_tick_ns < t_end_ns && !frames_ended_) {
+    if (t_frame_ns < t_tick_ns) {
+      advance_line(t_frame_ns);
+      expose(t_frame_ns);
+      t_frame_ns += frame_period_ns;
+    } else {
+      advance_line(t_tick_ns);
+      tick(t_tick_ns, /*shutdown=*/false);
+      t_tick_ns += tick_period_ns;
+    }
+  }
+  advance_line(t_tick_ns);
+  tick(t_tick_ns, /*shutdown=*/true);
+  send(session_.close(t_tick_ns), t_tick_ns);
+  return counts_;
+}
+
+/// Bytes travel in steps of a millisecond, so that a SIP is stamped when it came, not at the next tick.
+void Lockstep::advance_line(TimeNs t_ns) {
+  while (t_line_ns_ + P3At::kStep_ns <= t_ns) {
+    t_line_ns_ += P3At::kStep_ns;
+    robot_.advance(t_line_ns_);
+    if (contact_) contact_->step(seconds_from_ns(t_line_ns_));
+    session_.receive(robot_.take_output(), t_line_ns_);
+  }
+  if (world_) start_person_when_motors_run(t_ns);
+}
+
+void Lockstep::start_person_when_motors_run(TimeNs t_ns) {
+  if (world_->walking() || !robot_.truth().motors_enabled) return;
+  world_->start_walk(seconds_from_ns(t_ns) + scenario_.walk_after_s);
+}
+
+RobotMotion Lockstep::motion_at(TimeNs t_ns) const {
+  const RobotTruth truth = robot_.truth();
+  // The model stands at the last whole millisecond.
+  const double dt_s = seconds_from_ns(t_ns - t_line_ns_);
+  RobotMotion motion{truth.pose.x_m, truth.pose.y_m, truth.pose.heading_rad, truth.v_m_s,
+                     truth.yaw_rate_rad_s};
+  motion.x_m += dt_s * truth.v_m_s * std::cos(truth.pose.heading_rad);
+  motion.y_m += dt_s * truth.v_m_s * std::sin(truth.pose.heading_rad);
+  motion.heading_rad += dt_s * truth.yaw_rate_rad_s;
+  return motion;
+}
+
+TruthMoment Lockstep::truth_at(TimeNs t_ns) const {
+  TruthMoment truth;
+  truth.t_ns = t_ns;
+  truth.robot = robot_.truth();
+  if (world_) {
+    truth.has_world = true;
+    truth.world = world_->truth(motion_at(t_ns), seconds_from_ns(t_ns));
+    truth.walking = truth.world.person.speed_m_s > 0.02;
+  }
+  return truth;
+}
+
+/// When the last row's exposure has ended.
+TimeNs Lockstep::readable_ns(TimeNs t_ns) const {
+  const double open_ms =
+      world_ ? world_->exposure(seconds_from_ns(t_ns)).exposure_ms : scenario_.camera.sensor.exposure_ms;
+  return t_ns + ns_from_seconds(0.5e-3 * (open_ms + scenario_.camera.readout_ms));
+}
+
+/// Vision takes the freshest frame as soon as it is free; a frame that is overtaken is never looked at.
+void Lockstep::expose(TimeNs t_ns) {
+  ++counts_.frames;
+  const FrameFate fate = frame_fate(scenario_.camera.timing, scenario_.seed, counts_.frames);
+  if (fate.dropped) {
+    ++counts_.frames_dropped;
+    return;
+  }
+  const TimeNs t_ready_ns = std::max(t_last_ready_ns_, readable_ns(t_ns) + fate.delay_ns);
+  t_last_ready_ns_ = t_ready_ns;
+  const TakenFrame taken{counts_.frames, t_ns, fate.stamp_error_ns, motion_at(t_ns), truth_at(t_ns)};
+  if (waiting_ && t_ready_ns >= t_vision_free_ns_) {
+    // It became free since the last frame: that one was seen first.
+    see(*waiting_, t_vision_free_ns_);
+    waiting_.reset();
+  }
+  if (t_ready_ns >= t_vision_free_ns_) {
+    see(taken, t_ready_ns);
+    return;
+  }
+  if (waiting_) ++counts_.frames_overtaken;
+  waiting_ = taken;
+}
+
+void Lockstep::see(const TakenFrame& taken, TimeNs t_start_ns) {
+  FrameView frame;
+  PoseEstimate pose;
+  double latency_ms = scenario_.vision_latency_ms;
+  if (drawn_) {
+    frame.header.sequence = taken.sequence;
+    frame.header.t_capture_ns = taken.t_ns + taken.stamp_error_ns;
+    pose = drawn_->estimate(frame.header, taken.robot, taken.truth.world);
+    latency_ms *= drawn_->time_share();
+  } else {
+    frame = frames_->frame(taken.sequence, taken.t_ns, taken.robot);
+    if (frame.grey == nullptr) {
+      frames_ended_ = true;
+      return;
+    }
+    frame.header.t_capture_ns += taken.stamp_error_ns;
+    pose = vision_->estimate(frame);
+  }
+  t_vision_free_ns_ = t_start_ns + ns_from_seconds(1e-3 * latency_ms);
+  PoseUnderWay done{pose, t_vision_free_ns_};
+  done.pose.t_done_ns = t_vision_free_ns_;
+  poses_under_way_.push_back(done);
+  observer_.on_pose(frame, done.pose, taken.truth);
+}
+
+void Lockstep::tick(TimeNs t_ns, bool shutdown) {
+  if (waiting_ && t_ns >= t_vision_free_ns_) {
+    see(*waiting_, t_vision_free_ns_);
+    waiting_.reset();
+  }
+  while (!poses_under_way_.empty() && poses_under_way_.front().t_visible_ns <= t_ns) {
+    newest_pose_ = poses_under_way_.front().pose;
+    has_pose_ = true;
+    poses_under_way_.pop_front();
+  }
+  ControlInput input;
+  input.now_ns = t_ns;
+  input.robot = session_.state();
+  input.pose = newest_pose_;
+  input.has_pose = has_pose_;
+  input.shutdown = shutdown;
+  TickRecord record = control_.tick(input);
+  record.tick = counts_.ticks++;
+  send(session_.tick(record.command, t_ns), t_ns);
+  observer_.on_tick(record, truth_at(t_ns));
+}
+
+void Lockstep::send(std::span<const std::uint8_t> bytes, TimeNs t_ns) {
+  if (bytes.empty()) return;
+  robot_.receive(bytes, t_ns);
+  observer_.on_bytes_to_robot(bytes, t_ns);
+}
+
+}  // namespace
+
+LockstepCounts run_lockstep(const LockstepSettings& settings, LockstepObserver& observer) {
+  if (settings.errors && settings.scenario.camera.source != "sim")
+    throw Error("scenario " + settings.scenario.name + ": frames come from " +
+                settings.scenario.camera.source +
+                " (expected the simulated world: an error model draws poses from its truth)");
+  return Lockstep(settings, observer).run();
+}
+
+ShirtTemplate teach_from_world(const Scenario& scenario, double distance_m) {
+  const ReferenceView view = World(scenario).reference_view(distance_m);
+  ShirtTemplate shirt;
+  shirt.grey = view.grey;
+  shirt.camera = scenario.camera.model;
+  shirt.roi = view.roi;
+  shirt.distance_m = distance_m;
+  const TemplateVerdict verdict = judge_template(shirt);
+  if (!verdict.usable)
+    throw Error("scenario " + scenario.name + ": the shirt cannot be followed: " + verdict.reason);
+  return shirt;
+}
+
+void apply_scenario(const Scenario& scenario, Config& config) {
+  const ScenarioCamera& camera = scenario.camera;
+  config.camera.width_px = camera.model.width_px;
+  config.camera.height_px = camera.model.height_px;
+  config.camera.rate_hz = camera.rate_hz;
+  config.camera.mount_x_m = camera.mount_x_m;
+  config.camera.mount_y_m = camera.mount_y_m;
+  config.camera.mount_z_m = camera.mount_z_m;
+  config.camera.mount_pitch_rad = camera.mount_pitch_rad;
+  config.robot.address = "pty:lockstep@38400";
+  config.vision.ransac_budget_ms = 0.0;  // a deadline would make the run depend on the machine
+}
+
+P3AtSettings robot_settings(const Scenario& scenario) {
+  const ScenarioRobot& robot = scenario.robot;
+  P3AtSettings settings;
+  settings.boot_baud = 38400;
+  settings.start = {robot.x_m, robot.y_m, robot.heading_rad};
+  settings.chassis.true_track_m = robot.true_track_m;
+  settings.chassis.left_scale_error = robot.left_scale_error;
+  settings.chassis.right_scale_error = robot.right_scale_error;
+  for (const std::string& fault : robot.faults) settings.faults.push_back(parse_fault(fault));
+  return settings;
+}
+
+}  // namespace heel::sim

@@ -1,0 +1,74 @@
+// The daemon's own stages in lock step with the simulated world, in virtual time:
+//
+//   World ─picture→ PoseTracker ─(modelled latency)→ ControlStage ─command→ ArcosSession ─bytes→ P3At
+//     ↑                                                    ↑ RobotState ──────────┘    ←bytes─┘   │
+//     └──────────────────────────────── true pose of the robot ───────────────────────────────────┘
+//
+// With an error model, World draws nothing and DrawnPoses stands in PoseTracker's place; all else is the
+// same. Nothing here reads a clock: the same scenario, configuration and template give the same run to the
+// bit.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/config.h"
+#include "heel/flow.h"
+#include "heel/shirt_template.h"
+#include "sim/pose_noise/error_model.h"
+#include "sim/robot/p3at.h"
+#include "sim/scene/scenario.h"
+#include "sim/scene/world.h"
+
+namespace heel::sim {
+
+struct LockstepSettings {
+  Scenario scenario;
+  Config config;
+  ShirtTemplate shirt;  ///< with `errors` only its distance is asked for
+  /// Poses are drawn from this model instead of pictures: some hundred times faster, for statistics.
+  std::optional<errors::ErrorModel> errors;
+};
+
+/// What is true at one moment. Without a world (frames from a file) only the robot's part is.
+struct TruthMoment {
+  TimeNs t_ns = 0;
+  RobotTruth robot;
+  bool has_world = false;
+  bool walking = false;
+  Truth world;
+};
+
+/// Is told of everything as it happens.
+class LockstepObserver {
+ public:
+  virtual ~LockstepObserver() = default;
+  virtual void on_tick(const TickRecord& /*tick*/, const TruthMoment& /*truth*/) {}
+  /// `truth` is that of the capture time.
+  virtual void on_pose(const FrameView& /*frame*/, const PoseEstimate& /*pose*/,
+                       const TruthMoment& /*truth*/) {}
+  virtual void on_bytes_to_robot(std::span<const std::uint8_t> /*bytes*/, TimeNs /*t_ns*/) {}
+};
+
+/// Counts of a run.
+struct LockstepCounts {
+  std::uint64_t ticks = 0;
+  std::uint64_t frames = 0;
+  std::uint64_t frames_overtaken = 0;  ///< vision was still busy
+  std::uint64_t frames_dropped = 0;    ///< never came, as the scenario has it
+};
+
+/// Runs the whole scenario. Throws heel::Error before it begins when something does not fit together.
+LockstepCounts run_lockstep(const LockstepSettings& settings, LockstepObserver& observer);
+
+/// The template as `heel teach` would make it from the world's reference view.
+ShirtTemplate teach_from_world(const Scenario& scenario, double distance_m);
+
+/// The configuration a scenario implies: camera and its mount as in the scenario.
+void apply_scenario(const Scenario& scenario, Config& config);
+
+/// What the scenario says of its robot.
+P3AtSettings robot_settings(const Scenario& scenario);
+
+}  // namespace heel::sim

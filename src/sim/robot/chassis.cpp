@@ -1,0 +1,81 @@
+#include "sim/robot/chassis.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace heel::sim {
+namespace {
+
+double approach(double value, double wanted, double step) {
+  return value + std::clamp(wanted - value, -step, step);
+}
+
+/// Adds an arc of length `distance_m` that turns by `turn_rad`; exact to second order in the turn.
+void add_arc(Pose2& pose, double distance_m, double turn_rad) {
+  const double middle_rad = pose.heading_rad + 0.5 * turn_rad;
+  pose.x_m += distance_m * std::cos(middle_rad);
+  pose.y_m += distance_m * std::sin(middle_rad);
+  pose.heading_rad += turn_rad;
+}
+
+}  // namespace
+
+ChassisSettings exact_chassis() {
+  ChassisSettings settings;
+  settings.true_track_m = settings.effective_track_m;
+  settings.left_scale_error = 0.0;
+  settings.right_scale_error = 0.0;
+  settings.drift_per_sqrt_m = 0.0;
+  settings.heading_drift_rad_per_sqrt_m = 0.0;
+  return settings;
+}
+
+void Chassis::drive(const WheelSpeeds& wanted, double dt_s) {
+  const double step = settings_.wheel_acceleration_max_m_s2 * dt_s;
+  wheels_.left_m_s = approach(wheels_.left_m_s, wanted.left_m_s, step);
+  wheels_.right_m_s = approach(wheels_.right_m_s, wanted.right_m_s, step);
+  move(dt_s);
+}
+
+void Chassis::coast(double dt_s) {
+  const double step = settings_.coast_deceleration_m_s2 * dt_s;
+  wheels_.left_m_s = approach(wheels_.left_m_s, 0.0, step);
+  wheels_.right_m_s = approach(wheels_.right_m_s, 0.0, step);
+  move(dt_s);
+}
+
+void Chassis::block(bool left, bool right) {
+  blocked_left_ = left;
+  blocked_right_ = right;
+}
+
+double Chassis::true_speed_m_s() const {
+  return 0.5 * (wheels_.left_m_s * (1.0 + settings_.left_scale_error) +
+                wheels_.right_m_s * (1.0 + settings_.right_scale_error));
+}
+
+double Chassis::true_yaw_rate_rad_s() const {
+  return (wheels_.right_m_s * (1.0 + settings_.right_scale_error) -
+          wheels_.left_m_s * (1.0 + settings_.left_scale_error)) /
+         settings_.true_track_m;
+}
+
+void Chassis::move(double dt_s) {
+  if (blocked_left_) wheels_.left_m_s = 0.0;
+  if (blocked_right_) wheels_.right_m_s = 0.0;
+  if (wheels_.left_m_s == 0.0 && wheels_.right_m_s == 0.0) return;
+
+  const double left_m = wheels_.left_m_s * dt_s;
+  const double right_m = wheels_.right_m_s * dt_s;
+  left_travel_m_ += left_m;
+  right_travel_m_ += right_m;
+  add_arc(odometry_, 0.5 * (left_m + right_m), (right_m - left_m) / settings_.effective_track_m);
+
+  // A random walk whose variance grows with the way driven does not depend on the step.
+  const double root_way = std::sqrt(0.5 * (std::abs(left_m) + std::abs(right_m)));
+  const double drift_m = settings_.drift_per_sqrt_m * root_way * gaussian_(random_);
+  const double drift_rad = settings_.heading_drift_rad_per_sqrt_m * root_way * gaussian_(random_);
+  add_arc(true_pose_, true_speed_m_s() * dt_s + drift_m, true_yaw_rate_rad_s() * dt_s + drift_rad);
+}
+
+}  // namespace heel::sim

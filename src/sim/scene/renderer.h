@@ -1,0 +1,65 @@
+// The pictures of a world. Drawing order: people and room (depth buffer), shading, motion of every block,
+// sensor, compression.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "sim/render/rasteriser.h"
+#include "sim/render/ray_table.h"
+#include "sim/render/sensor.h"
+#include "sim/render/workers.h"
+#include "sim/scene/person.h"
+
+namespace heel::sim {
+
+class World;
+struct RobotMotion;
+
+class Renderer {
+ public:
+  /// `world` must outlive it; `threads` as for World.
+  Renderer(const World& world, int threads);
+
+  void draw(const RobotMotion& robot, double t_s, std::uint64_t frame, std::vector<std::uint8_t>& grey);
+  /// The target alone in the room, nothing moving, by a perfect shutter and in full light.
+  void draw_still(const PersonPose& target, const Eigen::Isometry3d& view_from_world,
+                  std::vector<std::uint8_t>& grey);
+
+  const RayTable& rays() const { return rays_; }
+
+ private:
+  /// Camera and people at one moment.
+  struct Moment {
+    Eigen::Isometry3d camera_from_world;
+    std::vector<PersonPose> people;
+  };
+  /// A frame's moments. The exposure's are those of the middle row; the readout's those of the first and the
+  /// last row, and the same as `now` for a global shutter.
+  struct Moments {
+    Moment now;
+    Moment opens, closes;
+    Moment first_row, last_row;
+  };
+
+  Moment moment(const RobotMotion& robot, double t_s, double offset_s) const;
+  void draw(const Moments& moments, const Exposure& exposure, std::uint64_t frame,
+            std::vector<std::uint8_t>& grey);
+  void add_room(const Moments& moments);
+  void add_person(const Moments& moments, std::size_t figure);
+  void add_part(const Mesh& mesh, PersonPart part, const Moments& moments, std::size_t figure);
+  bool may_be_seen(const PersonPose& person, const Eigen::Isometry3d& camera_from_world) const;
+  void measure_motion(const Moments& moments);
+
+  const World& world_;
+  Workers workers_;
+  RayTable rays_;
+  Rasteriser rasteriser_;
+  Sensor sensor_;
+  std::vector<float> radiance_;
+  std::vector<Corner> corners_;  ///< of the mesh being added
+  MotionField motion_;
+};
+
+}  // namespace heel::sim

@@ -1,0 +1,31 @@
+// The parts of a scenario file, a reader for each. All throw heel::Error placed in the file.
+#pragma once
+
+#include <numbers>
+#include <string>
+
+#include "sim/scene/scenario.h"
+#include "sim/scene/toml_section.h"
+
+namespace heel::sim {
+
+inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+inline constexpr Range kMetres{-1000, 1000, "m"};
+inline constexpr Range kTurnDeg{-720, 720, "deg"};
+inline constexpr Range kShare{0, 1, ""};
+
+/// [person], with its [[person.path]]
+void read_target(TomlSection person, Scenario& scenario);
+/// One [[passerby]]
+PasserbySettings read_passerby(TomlSection passerby);
+/// [camera]
+void read_camera(TomlSection camera, const std::string& scenario_path, ScenarioCamera& out);
+/// [robot], with its [[robot.floor]]
+void read_robot(TomlSection robot, ScenarioRobot& out);
+/// [room], [light] with its [[light.change]]
+void read_room(TomlSection room, RoomSettings& out);
+void read_light(TomlSection light, LightSettings& out);
+/// One [[obstacle]]
+ObstacleSettings read_obstacle(TomlSection obstacle);
+
+}  // namespace heel::sim

@@ -1,0 +1,92 @@
+// Where it happens: room, light, obstacles, the robot and its floor.
+#include "sim/scene/scenario_parts.h"
+
+namespace heel::sim {
+namespace {
+
+constexpr Range kSize{0.01, 1000, "m"};
+constexpr Range kTrack{0.4, 1.0, "m"};
+
+}  // namespace
+
+void read_robot(TomlSection robot, ScenarioRobot& out) {
+  out.x_m = robot.number("x_m", out.x_m, kMetres);
+  out.y_m = robot.number("y_m", out.y_m, kMetres);
+  out.heading_rad = kRadPerDeg * robot.number("heading_deg", 0.0, kTurnDeg);
+  out.true_track_m = robot.number("true_track_m", out.true_track_m, kTrack);
+  out.left_scale_error = robot.number("left_scale_error", out.left_scale_error, {-0.2, 0.2, ""});
+  out.right_scale_error = robot.number("right_scale_error", out.right_scale_error, {-0.2, 0.2, ""});
+  for (TomlSection& patch : robot.sections("floor")) {
+    FloorPatch floor;
+    floor.x_m = patch.need("x_m", kMetres);
+    floor.y_m = patch.need("y_m", kMetres);
+    floor.length_m = patch.need("length_m", kSize);
+    floor.width_m = patch.need("width_m", kSize);
+    floor.true_track_m = patch.need("true_track_m", kTrack);
+    patch.finish();
+    out.patches.push_back(floor);
+  }
+  out.faults = robot.texts("faults");
+  robot.finish();
+}
+
+void read_room(TomlSection room, RoomSettings& out) {
+  out.margin_m = room.number("margin_m", out.margin_m, {1, 50, "m"});
+  out.clearance_m = room.number("clearance_m", out.clearance_m, {0.3, 50, "m"});
+  out.objects = static_cast<int>(room.integer("objects", out.objects, 0, 500));
+  out.windows = static_cast<int>(room.integer("windows", out.windows, 0, 50));
+  out.window_light = room.number("window_light", out.window_light, {0.1, 100, ""});
+  out.bump_m = room.number("bump_m", out.bump_m, {0, 0.1, "m"});
+  room.finish();
+}
+
+void read_light(TomlSection light, LightSettings& out) {
+  out.level = light.number("level", out.level, {0.02, 3, ""});
+  out.unevenness = light.number("unevenness", out.unevenness, {0, 0.9, ""});
+  out.window_azimuth_rad =
+      kRadPerDeg * light.number("window_azimuth_deg", out.window_azimuth_rad / kRadPerDeg, kTurnDeg);
+  for (TomlSection& change : light.sections("change")) {
+    const LightChange next{change.need("at_s", {0, 86400, "s"}), change.need("level", {0.01, 10, ""})};
+    if (!out.changes.empty() && next.t_s <= out.changes.back().t_s)
+      change.refuse("at_s", "not after the change before (expected them in order of time)");
+    change.finish();
+    out.changes.push_back(next);
+  }
+  light.finish();
+}
+
+ObstacleSettings read_obstacle(TomlSection obstacle) {
+  ObstacleSettings out;
+  const std::string kind = obstacle.text("kind", "");
+  out.x_m = obstacle.need("x_m", kMetres);
+  out.y_m = obstacle.need("y_m", kMetres);
+  if (kind == "pole") {
+    out.kind = ObstacleKind::Pole;
+    out.height_m = obstacle.number("height_m", 3.0, kSize);
+    out.radius_m = obstacle.number("radius_m", out.radius_m, kSize);
+    out.length_m = out.width_m = 2.0 * out.radius_m;
+  } else if (kind == "box" || kind == "wall" || kind == "doorway") {
+    out.kind = kind == "box"    ? ObstacleKind::Box
+               : kind == "wall" ? ObstacleKind::Wall
+                                : ObstacleKind::Doorway;
+    const bool box = out.kind == ObstacleKind::Box;
+    out.heading_rad = kRadPerDeg * obstacle.number("heading_deg", 0.0, kTurnDeg);
+    out.length_m = obstacle.number("length_m", box ? out.length_m : 3.0, kSize);
+    out.width_m = obstacle.number("width_m", box ? out.width_m : 0.12, kSize);
+    out.height_m = obstacle.number("height_m", box ? out.height_m : 2.99, kSize);
+  } else {
+    obstacle.refuse("kind", "'" + kind + "' is not an obstacle (expected pole, box, wall or doorway)");
+  }
+  if (out.kind == ObstacleKind::Doorway) {
+    out.opening_m = obstacle.number("opening_m", out.opening_m, {0.5, 100, "m"});
+    out.lintel_m = obstacle.number("lintel_m", out.lintel_m, {1, 100, "m"});
+    if (out.opening_m >= out.length_m)
+      obstacle.refuse("opening_m", "not narrower than the wall (expected less than length_m)");
+    if (out.lintel_m >= out.height_m)
+      obstacle.refuse("lintel_m", "not lower than the wall (expected less than height_m)");
+  }
+  obstacle.finish();
+  return out;
+}
+
+}  // namespace heel::sim

@@ -1,0 +1,82 @@
+#include "sim/transport/tcp_transport.h"
+
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "heel/error.h"
+
+namespace heel::sim {
+namespace {
+
+constexpr int kOn = 1;
+
+FileDescriptor listen_on(const addrinfo& place) {
+  FileDescriptor listener(
+      ::socket(place.ai_family, place.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, place.ai_protocol));
+  if (!listener.valid()) return listener;
+  setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &kOn, sizeof kOn);
+  const bool listening =
+      ::bind(listener.get(), place.ai_addr, place.ai_addrlen) == 0 && ::listen(listener.get(), 4) == 0;
+  return listening ? std::move(listener) : FileDescriptor();
+}
+
+int port_of(int fd) {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  if (getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) != 0) return 0;
+  return ntohs(address.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6*>(&address)->sin6_port
+                                             : reinterpret_cast<const sockaddr_in*>(&address)->sin_port);
+}
+
+}  // namespace
+
+TcpTransport::TcpTransport(const std::string& host, int port) : host_(host), port_(port) {
+  const std::string where = "--robot tcp:" + host + ":" + std::to_string(port);
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
+  addrinfo* found = nullptr;
+  if (const int error = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found); error != 0) {
+    throw Error(where + ": '" + host + "' is not a host of this machine: " + gai_strerror(error));
+  }
+  listener_ = listen_on(*found);
+  const int error = errno;
+  freeaddrinfo(found);
+  if (!listener_.valid()) throw Error(where + ": cannot listen: " + std::strerror(error));
+  port_ = port_of(listener_.get());
+}
+
+bool TcpTransport::client_present() {
+  if (client_.valid()) return true;
+  if (client_was_present_) {  // the caller shall see every change of client
+    client_was_present_ = false;
+    return false;
+  }
+  client_ = FileDescriptor(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  client_was_present_ = client_.valid();
+  if (client_was_present_) setsockopt(client_.get(), IPPROTO_TCP, TCP_NODELAY, &kOn, sizeof kOn);
+  return client_was_present_;
+}
+
+std::size_t TcpTransport::read(std::span<std::uint8_t> into) {
+  if (!client_.valid()) return 0;
+  const ssize_t size = ::recv(client_.get(), into.data(), into.size(), 0);
+  if (size > 0) return static_cast<std::size_t>(size);
+  if (size == 0 || (errno != EAGAIN && errno != EINTR)) client_.close();
+  return 0;
+}
+
+void TcpTransport::write(std::span<const std::uint8_t> bytes) {
+  while (client_.valid() && !bytes.empty()) {
+    const ssize_t size = ::send(client_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (size <= 0) return;  // no room, or gone: the next read tells
+    bytes = bytes.subspan(static_cast<std::size_t>(size));
+  }
+}
+
+}  // namespace heel::sim

@@ -1,0 +1,28 @@
+// A TCP port that one client at a time may use; the next one waits until it has gone.
+#pragma once
+
+#include "sim/transport/file_descriptor.h"
+#include "sim/transport/transport.h"
+
+namespace heel::sim {
+
+class TcpTransport : public Transport {
+ public:
+  /// Listens at once; throws heel::Error when it cannot. Port 0 takes a free one.
+  TcpTransport(const std::string& host, int port);
+
+  bool client_present() override;
+  std::size_t read(std::span<std::uint8_t> into) override;
+  void write(std::span<const std::uint8_t> bytes) override;
+  std::string address() const override { return "tcp:" + host_ + ":" + std::to_string(port_); }
+  int port() const { return port_; }
+
+ private:
+  std::string host_;
+  int port_;
+  FileDescriptor listener_;
+  FileDescriptor client_;
+  bool client_was_present_ = false;
+};
+
+}  // namespace heel::sim

@@ -1,0 +1,198 @@
+#include "vision/features/box_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "vision/features/box_grid.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace heel::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using F32 = hn::CappedTag<float, 16>;
+using I32 = hn::RebindToSigned<F32>;
+using U32 = hn::RebindToUnsigned<F32>;
+
+// A coordinate of the integral image as the line before it and how far beyond that it lies.
+struct Lines {
+  hn::Vec<I32> index;
+  hn::Vec<F32> fraction;
+};
+
+HWY_INLINE Lines split(hn::Vec<F32> coordinate, int size_px) {
+  const F32 d;
+  const I32 di;
+  const auto floor = hn::ConvertTo(di, hn::Floor(coordinate));
+  const auto index = hn::Min(hn::Max(floor, hn::Zero(di)), hn::Set(di, size_px - 1));
+  return {index, hn::Sub(coordinate, hn::ConvertTo(d, index))};
+}
+
+HWY_INLINE hn::Vec<F32> difference(hn::Vec<U32> a, hn::Vec<U32> b) {
+  return hn::ConvertTo(F32(), hn::BitCast(I32(), hn::Sub(a, b)));
+}
+
+HWY_INLINE hn::Vec<F32> lerp(hn::Vec<F32> a, hn::Vec<F32> b, hn::Vec<F32> t) {
+  return hn::Add(a, hn::Mul(t, hn::Sub(b, a)));
+}
+
+// Where the columns of an upright grid lie in the integral image, four at a time: the column before each grid
+// line, as an index, and how far beyond that the line lies.
+using F4 = hn::FixedTag<float, 4>;
+using I4 = hn::RebindToSigned<F4>;
+using U4 = hn::RebindToUnsigned<F4>;
+
+struct GridColumns {
+  static constexpr int kPadded = (kGridLines + 3) / 4 * 4;
+  HWY_ALIGN std::array<std::int32_t, kPadded> index;
+  HWY_ALIGN std::array<float, kPadded> fraction;
+  HWY_ALIGN std::array<std::uint32_t, 2 * kPadded>
+      base;  // what the base line holds there: left, right, left …
+};
+
+// The two sums left and right of each of two grid lines: one 64-bit read a grid line where a gather of single
+// values would need two.
+HWY_INLINE hn::Vec<U4> load_pairs(const std::uint32_t* line, const std::int32_t* index) {
+  const hn::FixedTag<std::uint32_t, 2> d2;
+  return hn::Combine(U4(), hn::LoadU(d2, line + index[1]), hn::LoadU(d2, line + index[0]));
+}
+
+void place_columns(const IntegralImage& integral, float x0, float first, float spacing_px,
+                   const std::uint32_t* base, GridColumns& columns) {
+  const F4 d;
+  const I4 di;
+  for (int i = 0; i < GridColumns::kPadded; i += 4) {
+    const auto step = hn::Add(hn::Iota(d, static_cast<float>(i)), hn::Set(d, first));
+    const auto x = hn::Add(hn::Set(d, x0), hn::Mul(step, hn::Set(d, spacing_px)));
+    const auto index =
+        hn::Min(hn::Max(hn::ConvertTo(di, hn::Floor(x)), hn::Zero(di)), hn::Set(di, integral.width_px() - 1));
+    hn::Store(index, di, columns.index.data() + i);
+    hn::Store(hn::Sub(x, hn::ConvertTo(d, index)), d, columns.fraction.data() + i);
+    hn::Store(load_pairs(base, columns.index.data() + i), U4(), columns.base.data() + 2 * i);
+    hn::Store(load_pairs(base, columns.index.data() + i + 2), U4(), columns.base.data() + 2 * i + 4);
+  }
+}
+
+void SampleUprightGrid(const IntegralImage& integral, float x_px, float y_px, float spacing_px, int lines,
+                       Patch& grid) {
+  const F4 d;
+  const float first = -0.5f * static_cast<float>(lines - 1);
+  const float x0 = x_px + 0.5f, y0 = y_px + 0.5f;  // pixel centres in the integral image
+  const int base_y = std::min(std::max(static_cast<int>(y0), 0), integral.height_px());
+  const std::uint32_t* base = integral.row(base_y);
+  const int base_x = std::min(std::max(static_cast<int>(x0), 0), integral.width_px());
+  GridColumns columns;
+  place_columns(integral, x0, first, spacing_px, base, columns);
+  for (int j = 0; j < lines; ++j) {
+    const float y = y0 + (first + static_cast<float>(j)) * spacing_px;
+    const int row = std::min(std::max(static_cast<int>(std::floor(y)), 0), integral.height_px() - 1);
+    const std::uint32_t* upper = integral.row(row);
+    const std::uint32_t* lower = integral.row(row + 1);
+    const auto upper_origin = hn::Set(U4(), upper[base_x] - base[base_x]);
+    const auto lower_origin = hn::Set(U4(), lower[base_x] - base[base_x]);
+    const auto down = hn::Set(d, y - static_cast<float>(row));
+    // Both neighbours of two grid lines at height y, left and right in turn.
+    const auto between_rows = [&](int i) {
+      const auto base_sums = hn::Load(U4(), columns.base.data() + 2 * i);
+      const auto at = [&](const std::uint32_t* line, hn::Vec<U4> origin) {
+        const auto sums = hn::Sub(load_pairs(line, columns.index.data() + i), base_sums);
+        return hn::ConvertTo(d, hn::BitCast(I4(), hn::Sub(sums, origin)));
+      };
+      const auto top = at(upper, upper_origin);
+      return hn::Add(top, hn::Mul(down, hn::Sub(at(lower, lower_origin), top)));
+    };
+    for (int i = 0; i < lines; i += 4) {
+      const auto low = between_rows(i), high = between_rows(i + 2);
+      const auto left = hn::ConcatEven(d, high, low), right = hn::ConcatOdd(d, high, low);
+      const auto across = hn::Load(d, columns.fraction.data() + i);
+      hn::StoreU(hn::Add(left, hn::Mul(across, hn::Sub(right, left))), d, grid.data() + j * kPatchStride + i);
+    }
+  }
+}
+
+void SampleUprightCells(const IntegralImage& integral, float x_px, float y_px, float spacing_px,
+                        Patch& cells) {
+  const F32 d;
+  SampleUprightGrid(integral, x_px, y_px, spacing_px, kGridLines, cells);
+  for (int j = 0; j < kPatchCells; ++j) {
+    float* row = cells.data() + j * kPatchStride;
+    for (int i = 0; i < kPatchCells; i += static_cast<int>(hn::Lanes(d))) {
+      const auto strip = [&](int column) {
+        return hn::Sub(hn::LoadU(d, row + 2 * kPatchStride + column), hn::LoadU(d, row + column));
+      };
+      hn::StoreU(hn::Sub(strip(i + 2), strip(i)), d, row + i);
+    }
+  }
+}
+
+void SampleRotatedCells(const IntegralImage& integral, float x_px, float y_px, float spacing_px,
+                        float cos_angle, float sin_angle, Patch& cells) {
+  const F32 d;
+  const U32 du;
+  const I32 di;
+  const int middle = kPatchCells / 2;
+  const auto half = hn::Set(d, spacing_px);
+  const auto stride = hn::Set(di, static_cast<std::int32_t>(integral.stride()));
+  const std::uint32_t* origin = integral.row(0);
+  for (int j = 0; j < kPatchCells; ++j) {
+    const float v = static_cast<float>(j - middle) * spacing_px;
+    for (int i = 0; i < kPatchCells; i += static_cast<int>(hn::Lanes(d))) {
+      const auto u = hn::Mul(hn::Iota(d, static_cast<float>(i - middle)), hn::Set(d, spacing_px));
+      const auto x = hn::Add(hn::Set(d, x_px + 0.5f - sin_angle * v), hn::Mul(hn::Set(d, cos_angle), u));
+      const auto y = hn::Add(hn::Set(d, y_px + 0.5f + cos_angle * v), hn::Mul(hn::Set(d, sin_angle), u));
+      const Lines left = split(hn::Sub(x, half), integral.width_px());
+      const Lines right = split(hn::Add(x, half), integral.width_px());
+      const Lines top = split(hn::Sub(y, half), integral.height_px());
+      const Lines bottom = split(hn::Add(y, half), integral.height_px());
+      // Everything above one line of the integral image, between the box's left and right.
+      const auto strip = [&](hn::Vec<I32> line) {
+        const auto start = hn::Mul(line, stride);
+        const auto at = [&](hn::Vec<I32> column, std::size_t offset) {
+          return hn::GatherIndex(du, origin + offset, hn::Add(start, column));
+        };
+        const auto l0 = at(left.index, 0), l1 = at(left.index, 1);
+        const auto r0 = at(right.index, 0), r1 = at(right.index, 1);
+        return hn::Add(difference(r0, l0), hn::Sub(hn::Mul(right.fraction, difference(r1, r0)),
+                                                   hn::Mul(left.fraction, difference(l1, l0))));
+      };
+      const auto one = hn::Set(di, 1);
+      const auto above = lerp(strip(top.index), strip(hn::Add(top.index, one)), top.fraction);
+      const auto below = lerp(strip(bottom.index), strip(hn::Add(bottom.index, one)), bottom.fraction);
+      hn::StoreU(hn::Sub(below, above), d, cells.data() + j * kPatchStride + i);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace heel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace heel {
+
+HWY_EXPORT(SampleUprightGrid);
+HWY_EXPORT(SampleUprightCells);
+HWY_EXPORT(SampleRotatedCells);
+
+void sample_upright_grid(const IntegralImage& integral, float x_px, float y_px, float spacing_px, int lines,
+                         Patch& grid) {
+  HWY_DYNAMIC_DISPATCH(SampleUprightGrid)(integral, x_px, y_px, spacing_px, lines, grid);
+}
+
+void sample_upright_cells(const IntegralImage& integral, float x_px, float y_px, float spacing_px,
+                          Patch& cells) {
+  HWY_DYNAMIC_DISPATCH(SampleUprightCells)(integral, x_px, y_px, spacing_px, cells);
+}
+
+void sample_rotated_cells(const IntegralImage& integral, float x_px, float y_px, float spacing_px,
+                          float cos_angle, float sin_angle, Patch& cells) {
+  HWY_DYNAMIC_DISPATCH(SampleRotatedCells)(integral, x_px, y_px, spacing_px, cos_angle, sin_angle, cells);
+}
+
+}  // namespace heel
+#endif  // HWY_ONCE

@@ -1,0 +1,228 @@
+// The matcher behind heel/matching.h: one exhaustive comparison a Laplacian sign, then ratio and mutual
+// check. Unit descriptors: |a − b|² = 2 − 2 a·b, so that the nearest has the largest inner product. All
+// products are formed of bytes first; how far those can be off is known, and whatever they leave open is
+// answered exactly.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "heel/matching.h"
+#include "vision/matching/byte_products.h"
+
+namespace heel {
+namespace {
+
+constexpr float kRounding = 1e-5f;  // more than what sums of 64 floats are off by
+constexpr float kUnitsOff = 2.f;  // more than a product of bytes is off by, its excesses being whole numbers
+
+// What an exact inner product lies between.
+struct Bounds {
+  float least, most;
+};
+
+float distance_of(float inner_product) {
+  return std::sqrt(std::max(0.f, 2.f - 2.f * inner_product));
+}
+
+/// What a product of bytes that were moved by `error` in all leaves open: the distance is off by no more.
+Bounds exact_product(std::int16_t byte_product, float error) {
+  const float units = static_cast<float>(byte_product);
+  const float shortest = std::max(0.f, distance_of((units + kUnitsOff) / kProductUnit) - error);
+  const float longest = distance_of((units - kUnitsOff) / kProductUnit) + error;
+  return {1.f - 0.5f * longest * longest - kRounding, 1.f - 0.5f * shortest * shortest + kRounding};
+}
+
+/// Always summed in the same order, so that every instruction set finds the same.
+float inner_product(const Descriptor& a, const Descriptor& b) {
+  std::array<float, 8> sums{};
+  for (std::size_t k = 0; k < kDescriptorSize; k += sums.size())
+    for (std::size_t l = 0; l < sums.size(); ++l) sums[l] += a[k + l] * b[k + l];
+  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+}
+
+const Descriptor& descriptor_of(const FeatureSet& set, std::int32_t feature) {
+  return set.descriptors[static_cast<std::size_t>(feature)];
+}
+
+void members_of_sign(const FeatureSet& set, std::size_t max_count, bool dark,
+                     std::vector<std::int32_t>& members) {
+  members.clear();
+  const std::size_t count = std::min(set.features.size(), max_count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if ((set.features[i].laplacian > 0) == dark) members.push_back(static_cast<std::int32_t>(i));
+  }
+}
+
+}  // namespace
+
+struct Matcher::Impl {
+  // A ref, by its place among the members, and its nearest cur.
+  struct Candidate {
+    std::int32_t ref = 0, cur = -1;
+    float product = -2.f;
+    float second = -2.f;  // the second largest is no less
+    std::int16_t byte_product = kAbsentProduct;
+  };
+  // The products of one ref's bytes with all curs', and how far the distances they stand for can be off.
+  struct Row {
+    const Descriptor& ref;
+    std::span<const std::int16_t> products;
+    TwoLargest largest;
+    float error;
+  };
+
+  Impl(std::size_t ref_capacity, std::size_t cur_capacity, const MatchSettings& given)
+      : settings(given),
+        max_ref(ref_capacity),
+        max_cur(cur_capacity),
+        ref_bytes(ref_capacity),
+        cur_bytes(cur_capacity),
+        products(hwy::AllocateAligned<std::int16_t>(padded() * kByteTile)),
+        cur_first(hwy::AllocateAligned<std::int16_t>(padded())),
+        cur_second(hwy::AllocateAligned<std::int16_t>(padded())),
+        places(padded()) {
+    ref_members.reserve(ref_capacity);
+    cur_members.reserve(cur_capacity);
+    candidates.reserve(ref_capacity);
+  }
+
+  void match_sign(const FeatureSet& ref, const FeatureSet& cur, bool dark, std::vector<Match>& out);
+  void find_candidates(const FeatureSet& ref, const FeatureSet& cur);
+  bool passes_ratio(float best, float second) const {
+    return distance_of(best) < settings.ratio * distance_of(second);
+  }
+  bool cannot_pass_ratio(const Row& row) const;
+  bool passes_ratio(const Row& row, const Candidate& nearest, const FeatureSet& cur);
+  Candidate nearest_of(const Row& row, const FeatureSet& cur);
+  std::span<const std::int32_t> places_near(const Row& row, std::int16_t largest);
+  bool is_nearest_of_cur(const Candidate& candidate, const FeatureSet& ref, const FeatureSet& cur) const;
+
+  std::size_t padded() const { return CurBytes::padded(std::max<std::size_t>(1, max_cur)); }
+  float error_with(float ref_error) const { return ref_error + cur_bytes.max_error(); }
+
+  MatchSettings settings;
+  std::size_t max_ref, max_cur;
+  RefBytes ref_bytes;
+  CurBytes cur_bytes;
+  hwy::AlignedFreeUniquePtr<std::int16_t[]> products;               // of one tile of refs
+  hwy::AlignedFreeUniquePtr<std::int16_t[]> cur_first, cur_second;  // the larger two of every cur
+  std::vector<std::int32_t> places, ref_members, cur_members;
+  std::vector<Candidate> candidates;
+};
+
+/// Of all places whose products of bytes have `largest` as their largest: those where the largest exact
+/// product can be.
+std::span<const std::int32_t> Matcher::Impl::places_near(const Row& row, std::int16_t largest) {
+  const float distance = distance_of(exact_product(largest, row.error).least) + row.error;
+  const float limit = std::floor((1.f - 0.5f * distance * distance - kRounding) * kProductUnit) - kUnitsOff;
+  const auto above = static_cast<std::int16_t>(std::max(limit, float{kAbsentProduct}));
+  return {places.data(), places_above(row.products, above, places.data())};
+}
+
+bool Matcher::Impl::cannot_pass_ratio(const Row& row) const {
+  return cur_members.size() > 1 && !passes_ratio(exact_product(row.largest.first, row.error).most,
+                                                 exact_product(row.largest.second, row.error).least);
+}
+
+/// Of equals the first wins.
+Matcher::Impl::Candidate Matcher::Impl::nearest_of(const Row& row, const FeatureSet& cur) {
+  Candidate nearest;
+  for (const std::int32_t place : places_near(row, row.largest.first)) {
+    const auto member = static_cast<std::size_t>(place);
+    const float product = inner_product(row.ref, descriptor_of(cur, cur_members[member]));
+    nearest.second = std::max(nearest.second, std::min(product, nearest.product));
+    if (product <= nearest.product) continue;
+    nearest.product = product;
+    nearest.cur = place;
+    nearest.byte_product = row.products[member];
+  }
+  return nearest;
+}
+
+bool Matcher::Impl::passes_ratio(const Row& row, const Candidate& nearest, const FeatureSet& cur) {
+  if (cur_members.size() < 2) return true;
+  if (!passes_ratio(nearest.product, nearest.second)) return false;
+  const bool largest = nearest.byte_product == row.largest.first;
+  const std::int16_t others = largest ? row.largest.second : row.largest.first;
+  const Bounds second = exact_product(others, row.error);
+  if (passes_ratio(nearest.product, second.most)) return true;
+  if (!passes_ratio(nearest.product, second.least)) return false;
+  float exact = -2.f;
+  for (const std::int32_t place : places_near(row, others)) {
+    if (place == nearest.cur) continue;
+    const std::int32_t member = cur_members[static_cast<std::size_t>(place)];
+    exact = std::max(exact, inner_product(row.ref, descriptor_of(cur, member)));
+  }
+  return passes_ratio(nearest.product, exact);
+}
+
+void Matcher::Impl::find_candidates(const FeatureSet& ref, const FeatureSet& cur) {
+  const std::size_t stride = CurBytes::padded(cur_members.size());
+  std::fill_n(cur_first.get(), stride, kAbsentProduct);
+  std::fill_n(cur_second.get(), stride, kAbsentProduct);
+  candidates.clear();
+  for (std::size_t first = 0; first < ref_members.size(); first += kByteTile) {
+    const std::size_t tile = std::min(kByteTile, ref_members.size() - first);
+    byte_products(ref_bytes, first, cur_bytes, products.get());
+    keep_two_largest(products.get(), tile, stride, cur_first.get(), cur_second.get());
+    for (std::size_t i = first; i < first + tile; ++i) {
+      const std::span<const std::int16_t> of_ref(products.get() + (i - first) * stride, stride);
+      const Row row{descriptor_of(ref, ref_members[i]), of_ref, two_largest(of_ref),
+                    error_with(ref_bytes.error(i))};
+      if (cannot_pass_ratio(row)) continue;
+      Candidate nearest = nearest_of(row, cur);
+      nearest.ref = static_cast<std::int32_t>(i);
+      if (passes_ratio(row, nearest, cur)) candidates.push_back(nearest);
+    }
+  }
+}
+
+bool Matcher::Impl::is_nearest_of_cur(const Candidate& candidate, const FeatureSet& ref,
+                                      const FeatureSet& cur) const {
+  const auto member = static_cast<std::size_t>(candidate.cur);
+  const bool largest = candidate.byte_product == cur_first[member];
+  const Bounds others =
+      exact_product(largest ? cur_second[member] : cur_first[member], error_with(ref_bytes.max_error()));
+  if (others.most < candidate.product) return true;
+  if (others.least > candidate.product) return false;
+  const Descriptor& descriptor = descriptor_of(cur, cur_members[member]);
+  for (std::size_t i = 0; i < ref_members.size(); ++i) {
+    const float product = inner_product(descriptor_of(ref, ref_members[i]), descriptor);
+    const bool earlier = static_cast<std::int32_t>(i) < candidate.ref;
+    if (product > candidate.product || (earlier && product == candidate.product)) return false;
+  }
+  return true;
+}
+
+void Matcher::Impl::match_sign(const FeatureSet& ref, const FeatureSet& cur, bool dark,
+                               std::vector<Match>& out) {
+  members_of_sign(ref, max_ref, dark, ref_members);
+  members_of_sign(cur, max_cur, dark, cur_members);
+  if (ref_members.empty() || cur_members.empty()) return;
+  cur_bytes.pack(cur.descriptors, cur_members);
+  ref_bytes.pack(ref.descriptors, ref_members, cur_bytes.centre());
+  find_candidates(ref, cur);
+  for (const Candidate& candidate : candidates) {
+    if (settings.mutual && !is_nearest_of_cur(candidate, ref, cur)) continue;
+    out.push_back({ref_members[static_cast<std::size_t>(candidate.ref)],
+                   cur_members[static_cast<std::size_t>(candidate.cur)], distance_of(candidate.product)});
+  }
+}
+
+Matcher::Matcher(int max_ref, int max_cur, const MatchSettings& settings)
+    : impl_(std::make_unique<Impl>(static_cast<std::size_t>(std::max(0, max_ref)),
+                                   static_cast<std::size_t>(std::max(0, max_cur)), settings)) {}
+Matcher::~Matcher() = default;
+Matcher::Matcher(Matcher&&) noexcept = default;
+Matcher& Matcher::operator=(Matcher&&) noexcept = default;
+
+void Matcher::match(const FeatureSet& ref, const FeatureSet& cur, std::vector<Match>& out) {
+  out.clear();
+  impl_->match_sign(ref, cur, true, out);
+  impl_->match_sign(ref, cur, false, out);
+  std::sort(out.begin(), out.end(), [](const Match& a, const Match& b) { return a.ref < b.ref; });
+}
+
+}  // namespace heel

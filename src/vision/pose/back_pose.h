@@ -1,0 +1,48 @@
+// Steps 7 and 8's last part: from a motion of the plane to the pose of the back that was seen, be it curved,
+// as backs are, or flat, as a picture or a board held up.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "heel/homography.h"
+#include "heel/motion.h"
+#include "heel/vision_config.h"
+#include "vision/matching/guided_matcher.h"
+#include "vision/pose/back_surface.h"
+#include "vision/pose/motion_refine.h"
+#include "vision/pose/surface_follower.h"
+#include "vision/template/reference_view.h"
+
+namespace heel {
+
+/// What both poses start from: the homography's inliers, and a motion of the plane that explains them.
+struct PlaneSighting {
+  std::span<const PointPair> inliers;  ///< undistorted pixels
+  Eigen::Matrix3d H_cur_from_ref;
+  PlaneMotion motion;
+};
+
+class BackPoseEstimator {
+ public:
+  /// Without a distance of the reference view the back's curvature has no scale: then it is a plane, and its
+  /// deviations are those of pixels alone. `reference` is to outlive this. Memory is taken once.
+  BackPoseEstimator(const ReferenceView& reference, const Eigen::Matrix3d& K_cur, const VisionConfig& config);
+
+  BackPoseEstimator(const BackPoseEstimator&) = delete;
+  BackPoseEstimator& operator=(const BackPoseEstimator&) = delete;
+
+  /// `matcher` looks at the frame's features, `frame_px` are their undistorted pixels.
+  FrontalPose estimate(const PlaneSighting& seen, GuidedMatcher& matcher,
+                       std::span<const Eigen::Vector2d> frame_px);
+
+ private:
+  Eigen::Matrix3d K_ref_, K_cur_;
+  Eigen::Vector2d centre_px_;
+  BackSurface flat_, curved_;
+  FrontalPoseEstimator frontal_estimator_;
+  SurfaceFollower surface_follower_;
+};
+
+}  // namespace heel

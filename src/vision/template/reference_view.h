@@ -1,0 +1,29 @@
+// The reference view: the template as the steps of vision need it.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "heel/features.h"
+#include "heel/shirt_template.h"
+#include "heel/vision_config.h"
+#include "vision/homography/shape_plausibility.h"
+
+namespace heel {
+
+struct ReferenceView {
+  /// Throws heel::Error when the template has no camera or too few features to be followed.
+  ReferenceView(const ShirtTemplate& shirt, const VisionConfig& config);
+
+  FeatureSet set;
+  std::vector<Eigen::Vector2d> px;  ///< undistorted, one for each feature
+  Outline outline_px;               ///< the region's undistorted corners, clockwise from the top left
+  Eigen::Vector2d centre_px;        ///< undistorted centre of the region
+  Eigen::Matrix3d K, K_inverse;
+  double distance_m = 0.0;  ///< 0: not known
+};
+
+/// Throws heel::Error naming `whose` camera it is when it has no size or focal length.
+void require_camera(const CameraModel& camera, const char* whose);
+
+}  // namespace heel

@@ -1,0 +1,275 @@
+// The simulator's frame channel: writer and reader, their lives and deaths.
+#include "capture/shared_memory/sim_source.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "capture/made_frames.h"
+#include "heel/error.h"
+#include "realtime/clock.h"
+
+namespace heel {
+namespace {
+
+using test::is_whole;
+using test::make_frame;
+using testing::HasSubstr;
+
+constexpr std::uint32_t kWidth = 70;
+constexpr std::uint32_t kHeight = 9;
+
+// A name nobody else on the machine uses.
+std::string own_name(const std::string& what) {
+  return "test-" + std::to_string(getpid()) + "-" + what;
+}
+
+void publish(SimChannelWriter& writer, std::uint64_t sequence) {
+  make_frame(writer.writable(), sequence, kWidth, kHeight);
+  writer.publish();
+}
+
+TEST(SimChannel, NamesThatAreNoNamesAreRefused) {
+  EXPECT_EQ(sim_channel_path("yard.1_b-2"), "/heel-sim-yard.1_b-2");
+  for (const char* name : {"", "a/b", "a b", "ä"}) EXPECT_THROW(sim_channel_path(name), Error) << name;
+  EXPECT_THROW(sim_channel_path(std::string(65, 'a')), Error);
+}
+
+TEST(SimSource, AbsentWithoutASimulatorThenThere) {
+  const std::string name = own_name("absent");
+  SimSource source(name);
+  EXPECT_EQ(source.open(), OpenResult::Absent);
+  EXPECT_THAT(source.problem(), HasSubstr("sim:" + name));
+  FrameView frame;
+  EXPECT_EQ(source.wait_frame(0, frame), FrameResult::Lost);
+  const SimChannelWriter writer(name, kWidth, kHeight);
+  EXPECT_EQ(source.open(), OpenResult::Opened);
+  EXPECT_EQ(source.wait_frame(0, frame), FrameResult::Timeout);
+}
+
+TEST(SimSource, GivesTheNewestFrameOnceAndCountsTheSkipped) {
+  const std::string name = own_name("newest");
+  SimChannelWriter writer(name, kWidth, kHeight);
+  publish(writer, 3);  // before anyone has opened: old
+  SimSource source(name);
+  ASSERT_EQ(source.open(), OpenResult::Opened);
+  FrameView frame;
+  EXPECT_EQ(source.wait_frame(0, frame), FrameResult::Timeout);
+  publish(writer, 10);
+  ASSERT_EQ(source.wait_frame(0, frame), FrameResult::Frame);
+  EXPECT_EQ(frame.header.sequence, 10u);
+  EXPECT_EQ(frame.header.width_px, kWidth);
+  EXPECT_EQ(frame.header.height_px, kHeight);
+  EXPECT_TRUE(is_whole(frame));
+  EXPECT_EQ(source.wait_frame(0, frame), FrameResult::Timeout);
+  for (std::uint64_t sequence = 11; sequence <= 30; ++sequence) publish(writer, sequence);
+  ASSERT_EQ(source.wait_frame(0, frame), FrameResult::Frame);
+  EXPECT_EQ(frame.header.sequence, 30u);
+  EXPECT_TRUE(is_whole(frame));
+  EXPECT_EQ(source.counters().dropped_by_driver, 19u);
+}
+
+TEST(SimSource, SmallerFramesThanTheChannelAreGivenLargerAreRefusedByTheWriter) {
+  const std::string name = own_name("sizes");
+  SimChannelWriter writer(name, kWidth, kHeight);
+  SimSource source(name);
+  ASSERT_EQ(source.open(), OpenResult::Opened);
+  make_frame(writer.writable(), 1, 31, 4);
+  writer.publish();
+  FrameView frame;
+  ASSERT_EQ(source.wait_frame(0, frame), FrameResult::Frame);
+  EXPECT_EQ(frame.header.width_px, 31u);
+  EXPECT_EQ(frame.header.height_px, 4u);
+  EXPECT_TRUE(is_whole(frame));
+  writer.writable().header->width_px = kWidth + 1;
+  EXPECT_THROW(writer.publish(), Error);
+}
+
+TEST(SimSource, AWaitEndsWhenAFrameComes) {
+  const std::string name = own_name("wait");
+  SimChannelWriter writer(name, kWidth, kHeight);
+  SimSource source(name);
+  ASSERT_EQ(source.open(), OpenResult::Opened);
+  const TimeNs before_ns = monotonic_now_ns();
+  std::jthread later([&] {
+    sleep_until_ns(before_ns + 20 * kNsPerMs);
+    publish(writer, 1);
+  });
+  FrameView frame;
+  EXPECT_EQ(source.wait_frame(60 * kNsPerS, frame), FrameResult::Frame);
+  EXPECT_LT(monotonic_now_ns() - before_ns, 30 * kNsPerS);
+}
+
+TEST(SimSource, AbsentWhenTheWriterHasSaidFarewellAndStillHoldsTheName) {
+  const std::string name = own_name("farewell");
+  const SimChannelWriter writer(name, kWidth, kHeight);
+  const int fd = shm_open(sim_channel_path(name).c_str(), O_RDWR | O_CLOEXEC, 0);
+  ASSERT_GE(fd, 0);
+  void* memory = mmap(nullptr, sizeof(SimChannelHeader), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+  ASSERT_NE(memory, MAP_FAILED);
+  static_cast<SimChannelHeader*>(memory)->closed.store(1);
+  SimSource source(name);
+  EXPECT_EQ(source.open(), OpenResult::Absent);
+  EXPECT_THAT(source.problem(), HasSubstr("has ended"));
+  munmap(memory, sizeof(SimChannelHeader));
+  ::close(fd);
+}
+
+TEST(SimSource, LostWhenTheSimulatorEndsAndFoundAgainWhenItReturns) {
+  const std::string name = own_name("restart");
+  SimSource source(name);
+  FrameView frame;
+  for (std::uint64_t life = 1; life <= 3; ++life) {
+    auto writer = std::make_unique<SimChannelWriter>(name, kWidth, kHeight);
+    ASSERT_EQ(source.open(), OpenResult::Opened) << source.problem();
+    publish(*writer, life);
+    ASSERT_EQ(source.wait_frame(0, frame), FrameResult::Frame);
+    EXPECT_EQ(frame.header.sequence, life);
+    writer.reset();
+    EXPECT_EQ(source.wait_frame(60 * kNsPerS, frame), FrameResult::Lost) << "at once, not after the timeout";
+    source.close();
+    EXPECT_EQ(source.open(), OpenResult::Absent);
+  }
+}
+
+TEST(SimChannel, TwoLivingSimulatorsOfOneNameAreRefused) {
+  const std::string name = own_name("two");
+  const SimChannelWriter writer(name, kWidth, kHeight);
+  try {
+    const SimChannelWriter second(name, kWidth, kHeight);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("another simulator"));
+  }
+  SimSource source(name);
+  EXPECT_EQ(source.open(), OpenResult::Opened) << "the first one is unharmed";
+}
+
+TEST(SimSource, AKilledSimulatorIsNoticedAndReplaced) {
+  const std::string name = own_name("killed");
+  int ready[2];
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    SimChannelWriter writer(name, kWidth, kHeight);
+    publish(writer, 1);
+    if (write(ready[1], "x", 1) != 1) _exit(1);
+    while (true) pause();
+  }
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  close(ready[0]);
+  close(ready[1]);
+
+  SimSource source(name);
+  ASSERT_EQ(source.open(), OpenResult::Opened);
+  FrameView frame;
+  EXPECT_EQ(source.wait_frame(kNsPerMs, frame), FrameResult::Timeout) << "silent, but alive";
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  EXPECT_EQ(source.wait_frame(kNsPerMs, frame), FrameResult::Lost);
+  EXPECT_EQ(source.open(), OpenResult::Absent) << "what it left behind is not a simulator";
+
+  SimChannelWriter next(name, kWidth, kHeight);
+  ASSERT_EQ(source.open(), OpenResult::Opened) << source.problem();
+  publish(next, 2);
+  ASSERT_EQ(source.wait_frame(0, frame), FrameResult::Frame);
+  EXPECT_EQ(frame.header.sequence, 2u);
+}
+
+// Something else's shared memory, or a newer simulator's: each refused by name, none crashes.
+TEST(SimSource, ForeignAndNewerSegmentsAreRefused) {
+  const std::string name = own_name("foreign");
+  auto writer = std::make_unique<SimChannelWriter>(name, kWidth, kHeight);
+  const int fd = shm_open(sim_channel_path(name).c_str(), O_RDWR, 0);
+  ASSERT_GE(fd, 0);
+  auto* header = static_cast<SimChannelHeader*>(
+      mmap(nullptr, sizeof(SimChannelHeader), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0));
+  close(fd);
+  ASSERT_NE(header, MAP_FAILED);
+  SimSource source(name);
+
+  header->version = 2;
+  EXPECT_EQ(source.open(), OpenResult::Refused);
+  EXPECT_THAT(source.problem(), HasSubstr("version 2, expected 1"));
+  header->version = kSimChannelVersion;
+
+  header->magic.store(0);
+  EXPECT_EQ(source.open(), OpenResult::Absent);
+  header->magic.store(42);
+  EXPECT_EQ(source.open(), OpenResult::Refused);
+  EXPECT_THAT(source.problem(), HasSubstr("not a frame channel"));
+  header->magic.store(kSimChannelMagic);
+
+  const std::uint64_t slot_bytes = header->slot_bytes;
+  header->slot_bytes = std::uint64_t{1} << 62;  // times the slots: wraps round to nothing
+  EXPECT_EQ(source.open(), OpenResult::Refused);
+  header->slot_bytes = slot_bytes;
+  header->max_height_px *= 100;
+  EXPECT_EQ(source.open(), OpenResult::Refused);
+  EXPECT_THAT(source.problem(), HasSubstr("contradicts"));
+  munmap(header, sizeof(SimChannelHeader));
+}
+
+// A slot that is being written: its lock is odd. It is not given, and does not hold the reader for ever.
+TEST(SimSource, ASlotThatIsBeingWrittenIsNotGiven) {
+  const std::string name = own_name("locked");
+  SimChannelWriter writer(name, kWidth, kHeight);
+  SimSource source(name);
+  ASSERT_EQ(source.open(), OpenResult::Opened);
+  publish(writer, 1);
+  const int fd = shm_open(sim_channel_path(name).c_str(), O_RDWR, 0);
+  ASSERT_GE(fd, 0);
+  struct stat file {};
+  ASSERT_EQ(fstat(fd, &file), 0);
+  const auto bytes = static_cast<std::size_t>(file.st_size);
+  auto* channel =
+      static_cast<SimChannelHeader*>(mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0));
+  close(fd);
+  ASSERT_NE(channel, MAP_FAILED);
+  std::atomic<std::uint64_t>& lock = sim_slot(channel, 1)->lock;
+  FrameView frame;
+  lock.fetch_add(1);
+  EXPECT_EQ(source.wait_frame(kNsPerMs, frame), FrameResult::Timeout);
+  lock.fetch_sub(1);
+  EXPECT_EQ(source.wait_frame(kNsPerMs, frame), FrameResult::Frame);
+  EXPECT_TRUE(is_whole(frame));
+  munmap(channel, bytes);
+}
+
+TEST(SimSource, StressNothingTornNeverBackwards) {
+  const std::string name = own_name("stress");
+  SimChannelWriter writer(name, kWidth, kHeight);
+  SimSource source(name);
+  ASSERT_EQ(source.open(), OpenResult::Opened);
+  constexpr std::uint64_t kFrames = 20'000;
+  std::jthread producer([&] {
+    for (std::uint64_t sequence = 1; sequence <= kFrames; ++sequence) publish(writer, sequence);
+  });
+  FrameView frame;
+  std::uint64_t last = 0;
+  std::uint64_t given = 0;
+  while (last < kFrames) {
+    ASSERT_EQ(source.wait_frame(10 * kNsPerS, frame), FrameResult::Frame);
+    ASSERT_TRUE(is_whole(frame)) << "frame " << frame.header.sequence;
+    ASSERT_GT(frame.header.sequence, last);
+    if (given == 0) last = frame.header.sequence - 1;  // what came before the first is nobody's drop
+    EXPECT_LE(last, kFrames);
+    ++given;
+    last = frame.header.sequence;
+  }
+  EXPECT_LE(given + source.counters().dropped_by_driver, kFrames);
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,74 @@
+// Camera addresses and the factory: what is accepted, and what a wrong one is told.
+#include "capture/factory/source_address.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "capture/factory/frame_source_factory.h"
+#include "capture/frame_source.h"
+#include "heel/error.h"
+
+namespace heel {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string complaint_about(const std::string& address) {
+  try {
+    parse_source_address(address);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(SourceAddress, EachKindWithItsRest) {
+  const SourceAddress v4l2 = parse_source_address("v4l2:/dev/video0");
+  EXPECT_EQ(v4l2.kind, SourceKind::V4l2);
+  EXPECT_EQ(v4l2.rest, "/dev/video0");
+  EXPECT_EQ(parse_source_address("sim:yard").kind, SourceKind::Sim);
+  EXPECT_EQ(parse_source_address("file:a b.mp4").rest, "a b.mp4");
+  const SourceAddress libcamera = parse_source_address("libcamera:/base/soc/i2c0mux/imx219@10");
+  EXPECT_EQ(libcamera.kind, SourceKind::Libcamera);
+  EXPECT_EQ(parse_source_address("file:C:/odd:name").rest, "C:/odd:name") << "only the first colon counts";
+}
+
+TEST(SourceAddress, WrongOnesAreNamedWithWhatWasExpected) {
+  EXPECT_THAT(complaint_about("/dev/video0"),
+              AllOf(HasSubstr("'/dev/video0'"), HasSubstr("expected v4l2:PATH")));
+  EXPECT_THAT(complaint_about("usb:0"), AllOf(HasSubstr("unknown kind 'usb'"), HasSubstr("sim:NAME")));
+  EXPECT_THAT(complaint_about("file:"), HasSubstr("nothing after the colon"));
+  EXPECT_THAT(complaint_about(""), HasSubstr("no kind before a colon"));
+}
+
+TEST(FrameSourceFactory, OpeningWhatIsNotThereIsOneLineThatNamesIt) {
+  CameraConfig config;
+  config.source = "file:/nowhere/at/all.mp4";
+  try {
+    open_frame_source(config);
+    FAIL() << "opened";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("file:/nowhere/at/all.mp4"), HasSubstr("no such file")));
+  }
+  config.source = "sim:no-such-simulator";
+  EXPECT_THROW(open_frame_source(config), Error);
+  config.source = "sim:a/b";
+  EXPECT_THROW(make_frame_source(config), Error);
+}
+
+TEST(FrameSourceFactory, ALibcameraCameraThatIsNotThereIsNamed) {
+  CameraConfig config;
+  config.source = "libcamera:no such camera";
+  try {
+    open_frame_source(config);
+    FAIL() << "opened";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("libcamera:no such camera"));
+    EXPECT_THAT(error.what(), testing::AnyOf(HasSubstr("knows no camera of this id; it knows"),
+                                             HasSubstr("built without libcamera")));
+  }
+}
+
+}  // namespace
+}  // namespace heel

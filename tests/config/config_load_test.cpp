@@ -1,0 +1,160 @@
+// The parser against hand-written files: what is taken, what is refused, and what is said about it.
+#include "config/config_load.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "config/config_table.h"
+#include "config/config_text.h"
+
+namespace heel {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<std::string> complaints_about(const std::string& text) {
+  try {
+    parse_config(text, "f.toml");
+  } catch (const ConfigError& error) {
+    return error.lines();
+  }
+  return {};
+}
+
+TEST(ConfigLoad, TakesValuesAndRemembersTheirLines) {
+  const LoadedConfig loaded = parse_config("[control]\n\ngain_yaw_1_s = 3\nreverse = true\n", "/etc/f.toml");
+  EXPECT_EQ(loaded.config.control.gain_yaw_1_s, 3.0);
+  EXPECT_TRUE(loaded.config.control.reverse);
+  EXPECT_EQ(loaded.config.control.rate_hz, Config().control.rate_hz);
+  EXPECT_THAT(config_listing(loaded), HasSubstr("/etc/f.toml:3\n"));
+  int from_file = 0;
+  for (const int line : loaded.line_of) from_file += line != 0;
+  EXPECT_EQ(from_file, 2);
+}
+
+TEST(ConfigLoad, UnknownKeyNamesPlaceAndNearest) {
+  EXPECT_THAT(
+      complaints_about("[control]\n  gain_yaw_1s = 3\n"),
+      ElementsAre("f.toml:2:3: control.gain_yaw_1s: no such key; did you mean control.gain_yaw_1_s?"));
+}
+
+TEST(ConfigLoad, UnknownSectionNamesPlaceAndNearest) {
+  EXPECT_THAT(complaints_about("[contorl]\nrate_hz = 50\n"),
+              ElementsAre("f.toml:1:2: contorl: no such section; did you mean control?"));
+}
+
+TEST(ConfigLoad, SaysEverythingThatIsWrong) {
+  EXPECT_THAT(
+      complaints_about("[gate]\nv_max_m_s = 'fast'\nacceleration_m_s2 = -1\n[camera]\nwidth_px = 640.5\n"
+                       "at_end = \"pause\"\nsource = \"usb\"\n[robot]\nsonar = 1\n"),
+      ElementsAre("f.toml:2:13: gate.v_max_m_s: is 'fast', expected a number 0…1.2 m/s",
+                  "f.toml:3:21: gate.acceleration_m_s2: is -1, expected a number 0.05…5 m/s²",
+                  "f.toml:5:12: camera.width_px: is 640.5, expected a whole number 64…4096 px",
+                  "f.toml:6:10: camera.at_end: is 'pause', expected stop or loop",
+                  "f.toml:7:10: camera.source: is 'usb', expected v4l2, libcamera, file or sim, a colon and "
+                  "the place, in quotes",
+                  "f.toml:9:9: robot.sonar: is 1, expected true or false"));
+}
+
+TEST(ConfigLoad, RefusesNotANumberAndInfinity) {
+  EXPECT_EQ(complaints_about("[gate]\nv_max_m_s = nan\nacceleration_m_s2 = inf\n").size(), 2u);
+}
+
+TEST(ConfigLoad, RefusesIntegersThatOverflow) {
+  EXPECT_EQ(complaints_about("[camera]\nwidth_px = 4294967936\n").size(), 1u);
+}
+
+TEST(ConfigLoad, RefusesListsAndTablesAsValues) {
+  EXPECT_THAT(complaints_about("[gate]\nv_max_m_s = [1]\n"), ElementsAre(HasSubstr("is a list")));
+  EXPECT_THAT(complaints_about("[gate.v_max_m_s]\nx = 1\n"), ElementsAre(HasSubstr("is a section")));
+  EXPECT_THAT(complaints_about("gate = 3\n"), ElementsAre(HasSubstr("is a section; write [gate]")));
+}
+
+TEST(ConfigLoad, SyntaxErrorsNameThePlace) {
+  EXPECT_THAT(complaints_about("[gate]\nv_max_m_s = = 3\n"), ElementsAre(HasSubstr("f.toml:2:13: ")));
+}
+
+TEST(ConfigLoad, ChecksKeysAgainstEachOther) {
+  EXPECT_THAT(complaints_about("[supervisor]\ncertainty_drop = 0.5\n"),
+              ElementsAre("f.toml:2:1: supervisor.certainty_drop: is 0.5, must not be larger than "
+                          "supervisor.certainty_follow"));
+  // The key at fault stands at its default: there is no line to name.
+  EXPECT_THAT(complaints_about("[supervisor]\ncertainty_follow = 0.01\n"),
+              ElementsAre("f.toml: supervisor.certainty_drop: is 0.06, must not be larger than "
+                          "supervisor.certainty_follow"));
+}
+
+TEST(ConfigLoad, DefaultsPassTheirOwnChecks) {
+  EXPECT_TRUE(complaints_about("").empty());
+  EXPECT_TRUE(complaints_about(default_config_text()).empty());
+}
+
+TEST(ConfigLoad, RelativePathsStartAtTheFile) {
+  const Config config =
+      parse_config(
+          "[target]\nshirt = \"red.heel\"\n[camera]\nsource = \"file:../v.mp4\"\ninfo = \"/a/c.yaml\"\n"
+          "[robot]\naddress = \"tcp:localhost:8101\"\n",
+          "/etc/heel/f.toml")
+          .config;
+  EXPECT_EQ(config.target.shirt, "/etc/heel/red.heel");
+  EXPECT_EQ(config.camera.source, "file:/etc/v.mp4");
+  EXPECT_EQ(config.camera.info, "/a/c.yaml");
+  EXPECT_EQ(config.robot.address, "tcp:localhost:8101");
+  EXPECT_EQ(config.telemetry.directory, "");
+}
+
+TEST(ConfigLoad, MissingFileIsNamed) {
+  try {
+    load_config("/nowhere/heel.toml");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/nowhere/heel.toml: cannot be read"));
+  }
+}
+
+TEST(ConfigLoad, NamesKeysThatNeedARestart) {
+  Config before, after;
+  after.control.gain_yaw_1_s = 5;
+  EXPECT_TRUE(keys_needing_restart(before, after).empty());
+  after.camera.width_px = 320;
+  after.robot.sonar = !before.robot.sonar;
+  EXPECT_THAT(keys_needing_restart(before, after), ElementsAre("camera.width_px", "robot.sonar"));
+}
+
+TEST(ConfigTable, EveryKeyIsDescribedOnceInAKnownSectionWithADefaultInRange) {
+  std::set<std::string> names;
+  std::set<const void*> members;
+  Config config;
+  for (const auto& key : config_keys()) {
+    EXPECT_TRUE(names.insert(key.full_name()).second) << key.full_name();
+    EXPECT_TRUE(
+        members.insert(std::visit([&](auto field) -> const void* { return field(config); }, key.field))
+            .second)
+        << key.full_name();
+    EXPECT_TRUE(key.effect.ends_with('.')) << key.full_name();
+    bool section_known = false;
+    for (const auto& section : config_sections()) section_known |= section.name == key.section;
+    EXPECT_TRUE(section_known) << key.full_name();
+  }
+}
+
+TEST(ConfigTable, EveryNumberRefusesJustOutsideItsRange) {
+  for (const auto& key : config_keys()) {
+    if (type_name(key) != "int" && type_name(key) != "real") continue;
+    const bool whole = type_name(key) == "int";
+    for (const double value : {key.min - 1.0, key.max + 1.0}) {
+      const std::string text = whole ? std::to_string(static_cast<long>(value)) : std::to_string(value);
+      EXPECT_EQ(
+          complaints_about("[" + std::string(key.section) + "]\n" + std::string(key.name) + " = " + text)
+              .size(),
+          1u)
+          << key.full_name() << " " << text;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,234 @@
+// The whole stage in a loop with an exact robot and a perfect camera: it starts gently, follows, stops for
+// every reason in time, does not jump after gaps, and takes no memory.
+#include "control/control_stage.h"
+
+#include <gtest/gtest.h>
+
+#include "core/angles.h"
+#include "estimate/floor_truth.h"
+#include "support/allocation_count.h"
+
+namespace heel {
+namespace {
+
+struct Following {
+  Config config;
+  ControlStage stage{config};
+  truth::Reference reference;
+  Pose2 robot;
+  Pose2 person{3.0, 0.0, 0.0};
+  double person_v_m_s = 0.5, person_yaw_rate_rad_s = 0.0;
+  bool camera = true, visible = true;
+  double ahead_m = 0.0;  // what the front sonar left of the middle hears, when more than 0
+  ControlInput input;
+  TickRecord record;
+  double v_m_s = 0.0, yaw_rate_rad_s = 0.0;
+
+  Following() {
+    input.now_ns = 5 * kNsPerS;
+    input.robot.phase = LinkPhase::Running;
+    input.robot.has_sip = true;
+    input.robot.motors_enabled = true;
+    input.robot.odometry = truth::odometry(input.now_ns, robot, 0, 0);
+  }
+
+  void tick() {
+    if (input.now_ns % (100 * kNsPerMs) == 0) {
+      input.robot.odometry = truth::odometry(input.now_ns, robot, v_m_s, yaw_rate_rad_s);
+      input.robot.sonar.fill({input.now_ns, 5.0});
+      if (ahead_m > 0.0) input.robot.sonar[3].range_m = ahead_m;
+    }
+    if (camera && input.now_ns % (40 * kNsPerMs) == 0) {
+      const std::uint64_t sequence = input.pose.frame_sequence + 1;
+      input.pose = truth::measured(person, robot, mount_of(config.camera), reference);
+      if (!visible) input.pose.reason = PoseReason::TooFewMatches;
+      input.pose.frame_sequence = sequence;
+      input.pose.t_capture_ns = input.now_ns;
+      input.has_pose = true;
+    }
+    record = stage.tick(input);
+    v_m_s = record.command.v_m_s;
+    yaw_rate_rad_s = record.command.yaw_rate_rad_s;
+    robot = truth::moved(robot, v_m_s, yaw_rate_rad_s, 0.02);
+    person = truth::moved(person, person_v_m_s, person_yaw_rate_rad_s, 0.02);
+    input.now_ns += 20 * kNsPerMs;
+  }
+  void run(double seconds) {
+    for (TimeNs end_ns = input.now_ns + ns_from_seconds(seconds); input.now_ns < end_ns;) tick();
+  }
+  /// Seconds until the command is zero.
+  double until_rest() {
+    const TimeNs start_ns = input.now_ns;
+    while (v_m_s != 0.0 || yaw_rate_rad_s != 0.0) tick();
+    return seconds_from_ns(input.now_ns - start_ns);
+  }
+};
+
+TEST(ControlStage, WaitsForFramesThenStartsGently) {
+  Following run;
+  run.tick();
+  EXPECT_EQ(run.record.stop_reason, StopReason::NoTargetYet);
+  EXPECT_EQ(run.v_m_s, 0.0);
+  double last_v = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    run.tick();
+    EXPECT_LE(run.v_m_s - last_v, run.config.gate.acceleration_m_s2 * 0.02 + 1e-12);
+    last_v = run.v_m_s;
+  }
+  EXPECT_EQ(run.record.stop_reason, StopReason::None);
+  EXPECT_GT(run.v_m_s, 0.2);
+}
+
+TEST(ControlStage, FollowsAWalkingPersonRoundABend) {
+  Following run;
+  run.run(10.0);
+  run.person_yaw_rate_rad_s = 0.25;
+  double worst_bearing_rad = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    run.tick();
+    worst_bearing_rad =
+        std::max(worst_bearing_rad, std::abs(std::atan2(run.record.target.y_m, run.record.target.x_m)));
+  }
+  run.person_yaw_rate_rad_s = 0.0;
+  run.run(20.0);
+  EXPECT_EQ(run.record.stop_reason, StopReason::None);
+  EXPECT_LT(worst_bearing_rad, run.config.control.bearing_max_rad + 0.05);
+  EXPECT_NEAR(run.v_m_s, 0.5, 0.02);
+  EXPECT_NEAR(wrap_angle_rad(run.robot.heading_rad - run.person.heading_rad), 0.0, 0.03);
+}
+
+TEST(ControlStage, TargetLostComesToRestInTime) {
+  Following run;
+  run.person_v_m_s = 0.7;
+  run.run(10.0);
+  ASSERT_GT(run.v_m_s, 0.6);
+  run.visible = false;
+  EXPECT_LE(run.until_rest(), run.config.supervisor.target_timeout_s + 0.55);
+  EXPECT_EQ(run.record.stop_reason, StopReason::TargetLost);
+}
+
+TEST(ControlStage, CameraGoneComesToRestInTime) {
+  Following run;
+  run.person_v_m_s = 0.7;
+  run.run(10.0);
+  run.camera = false;
+  EXPECT_LE(run.until_rest(), run.config.supervisor.frame_timeout_s + 0.55);
+  EXPECT_EQ(run.record.stop_reason, StopReason::StaleFrame);
+}
+
+TEST(ControlStage, ReasonsAboutTheRobotStopAtOnceAndResumeFromZero) {
+  Following run;
+  run.run(10.0);
+  ASSERT_GT(run.v_m_s, 0.3);
+  run.input.robot.bumpers_front = 1;
+  run.tick();
+  EXPECT_EQ(run.record.stop_reason, StopReason::Bumper);
+  EXPECT_EQ(run.v_m_s, 0.0);
+  run.input.robot.bumpers_front = 0;
+  run.run(run.config.supervisor.bumper_hold_s - 0.1);
+  EXPECT_EQ(run.v_m_s, 0.0);
+  double last_v = 0.0;
+  for (int i = 0; i < 50; ++i) {
+    run.tick();
+    EXPECT_LE(run.v_m_s - last_v, run.config.gate.acceleration_m_s2 * 0.02 + 1e-12);
+    last_v = run.v_m_s;
+  }
+  EXPECT_GT(last_v, 0.2);
+}
+
+TEST(ControlStage, SomethingInTheWayIsNotDrivenInto) {
+  Following run;
+  run.run(10.0);
+  ASSERT_GT(run.v_m_s, 0.4);
+  const Pose2 begin = run.robot;
+  for (const TimeNs end_ns = run.input.now_ns + 10 * kNsPerS; run.input.now_ns < end_ns; run.tick())
+    run.ahead_m = std::max(1.5 - (run.robot.x_m - begin.x_m), 0.15);
+  EXPECT_EQ(run.v_m_s, 0.0);
+  EXPECT_EQ(run.record.stop_reason, StopReason::None);
+  EXPECT_TRUE(run.record.command.limited_by & kGateObstacle);
+  // The sonar sits 68 mm behind the bumper and looks 10° to the side.
+  EXPECT_NEAR(run.ahead_m * std::cos(0.1745) - 0.068, run.config.gate.clearance_m, 0.07);
+}
+
+TEST(ControlStage, SilentSonarsAreAReasonToRestUnlessTheyAreOff) {
+  for (const bool sonar : {true, false}) {
+    Following run;
+    run.config.robot.sonar = sonar;
+    run.stage.reconfigure(run.config);
+    run.run(10.0);
+    ASSERT_GT(run.v_m_s, 0.4);
+    for (int i = 0; i < 100; ++i) {
+      run.tick();
+      run.input.robot.sonar.fill({7 * kNsPerS, 0.2});  // older than anything, and near
+    }
+    EXPECT_EQ(run.record.stop_reason, sonar ? StopReason::SonarSilent : StopReason::None);
+    EXPECT_EQ(run.v_m_s == 0.0, sonar);
+  }
+}
+
+TEST(ControlStage, ShutdownIsZero) {
+  Following run;
+  run.run(5.0);
+  run.input.shutdown = true;
+  run.tick();
+  EXPECT_EQ(run.record.stop_reason, StopReason::Shutdown);
+  EXPECT_EQ(run.v_m_s, 0.0);
+}
+
+TEST(ControlStage, AfterAGapInTheTicksTheFirstCommandIsZero) {
+  Following run;
+  run.run(5.0);
+  ASSERT_GT(run.v_m_s, 0.3);
+  run.input.now_ns += kNsPerS;
+  run.tick();
+  EXPECT_EQ(run.v_m_s, 0.0);
+  EXPECT_EQ(run.yaw_rate_rad_s, 0.0);
+}
+
+TEST(ControlStage, ReconnectionForgetsTheOldOdometryFrame) {
+  Following run;
+  run.run(2.0);
+  ASSERT_TRUE(run.record.target.known);
+  run.camera = false;
+  ++run.input.robot.reconnects;
+  run.tick();
+  EXPECT_FALSE(run.record.target.known);
+}
+
+TEST(ControlStage, ReconfigureKeepsTheTargetAndTheSpeed) {
+  Following run;
+  run.run(5.0);
+  const double before = run.v_m_s;
+  run.config.gate.v_max_m_s = 0.2;
+  run.stage.reconfigure(run.config);
+  run.tick();
+  EXPECT_EQ(run.record.stop_reason, StopReason::None);
+  // A speed above the new limit counts as the limit from this tick on.
+  EXPECT_LT(run.v_m_s, before);
+  EXPECT_LE(run.v_m_s, 0.2);
+  EXPECT_GT(run.v_m_s, 0.1);
+}
+
+TEST(ControlStage, TheSameInputsGiveTheSameCommands) {
+  Following a, b;
+  for (int i = 0; i < 500; ++i) {
+    a.tick();
+    b.tick();
+    ASSERT_EQ(a.v_m_s, b.v_m_s);
+    ASSERT_EQ(a.yaw_rate_rad_s, b.yaw_rate_rad_s);
+  }
+}
+
+TEST(ControlStage, TickTakesNoMemory) {
+  Following run;
+  if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  const std::uint64_t before = test::allocations_of_this_thread();
+  run.run(3.0);
+  run.stage.reconfigure(run.config);
+  run.run(1.0);
+  EXPECT_EQ(test::allocations_of_this_thread(), before);
+  EXPECT_GT(before, 0u);
+}
+
+}  // namespace
+}  // namespace heel

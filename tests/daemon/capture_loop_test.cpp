@@ -1,0 +1,267 @@
+// The capture thread's body against a scripted source: outages, corrupt frames, ends, stops; and against the
+// simulator's channel: no allocation in steady state.
+#include "daemon/capture_loop.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <deque>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "capture/made_frames.h"
+#include "capture/shared_memory/sim_source.h"
+#include "realtime/clock.h"
+#include "support/allocation_count.h"
+
+namespace heel {
+namespace {
+
+constexpr std::uint32_t kWidth = 20;
+constexpr std::uint32_t kHeight = 4;
+
+// Plays a list of openings and results; when the list is over it times out for ever.
+class ScriptedSource final : public FrameSource {
+ public:
+  ScriptedSource() : FrameSource("test:script"), pixels_(kWidth * kHeight) { description_ = "a script"; }
+
+  OpenResult open() override {
+    opened_at_ns.push_back(monotonic_now_ns());
+    if (openings.empty()) return OpenResult::Opened;
+    const OpenResult result = openings.front();
+    openings.pop_front();
+    if (result == OpenResult::Opened) return result;
+    return fail(result, result == OpenResult::Absent ? "not there" : "not allowed");
+  }
+  FrameResult wait_frame(TimeNs timeout_ns, FrameView& frame) override {
+    if (results.empty()) {
+      if (on_idle) on_idle();
+      sleep_until_ns(monotonic_now_ns() + std::min(timeout_ns, kNsPerMs));
+      return FrameResult::Timeout;
+    }
+    const FrameResult result = results.front();
+    results.pop_front();
+    if (result == FrameResult::Error) ++counters_.corrupt;
+    if (result != FrameResult::Frame) return fail(result, "scripted");
+    FrameHeader header;
+    test::make_frame({&header, pixels_.data(), kWidth}, ++sequence_, kWidth, kHeight);
+    header.width_px = width_px;
+    frame = {header, pixels_.data(), kWidth};
+    return result;
+  }
+  void close() override { ++closed; }
+
+  std::deque<OpenResult> openings;
+  std::deque<FrameResult> results;
+  std::vector<TimeNs> opened_at_ns;
+  std::function<void()> on_idle;
+  std::uint32_t width_px = kWidth;
+  int closed = 0;
+
+ private:
+  std::uint64_t sequence_ = 0;
+  std::vector<std::uint8_t> pixels_;
+};
+
+class CaptureLoopTest : public testing::Test {
+ protected:
+  CaptureLoopTest() {
+    source_.on_idle = [this] { loop_.stop(); };
+  }
+
+  std::vector<EventKind> kinds() {
+    std::vector<EventKind> result;
+    for (Event event; events_.pop(event);) result.push_back(event.kind);
+    return result;
+  }
+
+  FrameRing ring_{kWidth, kHeight};
+  RecordQueue<CaptureCounters> counts_{64};
+  RecordQueue<Event> events_{64};
+  ScriptedSource source_;
+  CaptureLoop loop_{
+      source_, ring_, counts_, events_, {.reopen_first_ns = kNsPerMs, .reopen_longest_ns = 8 * kNsPerMs}};
+};
+
+using enum FrameResult;
+
+TEST_F(CaptureLoopTest, FramesGoIntoTheRing) {
+  source_.results = {Frame, Frame, Timeout, Frame};
+  loop_.run();
+  EXPECT_EQ(loop_.counters().captured, 3u);
+  EXPECT_EQ(loop_.counters().dropped_in_ring, 2u);
+  const FrameView* frame = ring_.take();
+  ASSERT_NE(frame, nullptr);
+  EXPECT_EQ(frame->header.sequence, 3u);
+  EXPECT_TRUE(test::is_whole(*frame));
+  EXPECT_EQ(source_.closed, 1) << "closed on the way out";
+  EXPECT_THAT(kinds(), testing::ElementsAre(EventKind::CameraOpened));
+}
+
+TEST_F(CaptureLoopTest, ALostSourceIsClosedAndOpenedAgainWithGrowingPausesToldOnce) {
+  source_.openings = {OpenResult::Opened, OpenResult::Absent, OpenResult::Absent,
+                      OpenResult::Absent, OpenResult::Absent, OpenResult::Opened};
+  source_.results = {Frame, Lost, Frame};
+  loop_.run();
+  EXPECT_EQ(loop_.counters().captured, 2u);
+  EXPECT_EQ(loop_.counters().reopened, 1u);
+  EXPECT_THAT(kinds(), testing::ElementsAre(EventKind::CameraOpened, EventKind::CameraLost,
+                                            EventKind::CameraUnavailable, EventKind::CameraOpened));
+  ASSERT_EQ(source_.opened_at_ns.size(), 6u);
+  // Pauses of 1, 2, 4, 8 ms; never shorter than asked.
+  for (std::size_t i = 2; i < 6; ++i) {
+    EXPECT_GE(source_.opened_at_ns[i] - source_.opened_at_ns[i - 1], kNsPerMs << (i - 2)) << i;
+  }
+}
+
+TEST_F(CaptureLoopTest, ASourceLostBeforeItsFirstFrameIsOpenedWithGrowingPauses) {
+  source_.results = {Lost, Lost, Lost, Frame, Lost, Lost};
+  loop_.run();
+  ASSERT_EQ(source_.opened_at_ns.size(), 6u);
+  const auto between_ns = [this](std::size_t i) {
+    return source_.opened_at_ns[i] - source_.opened_at_ns[i - 1];
+  };
+  // 1, 2, 4 ms without a frame; the frame begins anew: at once, then 1 ms.
+  EXPECT_GE(between_ns(1), kNsPerMs);
+  EXPECT_GE(between_ns(2), 2 * kNsPerMs);
+  EXPECT_GE(between_ns(3), 4 * kNsPerMs);
+  EXPECT_GE(between_ns(5), kNsPerMs);
+}
+
+TEST_F(CaptureLoopTest, AnEmptyStreamThatBeginsAgainIsOpenedWithGrowingPauses) {
+  source_.results = {EndOfStream, EndOfStream, Frame};
+  CaptureLoop endless(source_, ring_, counts_, events_,
+                      {.reopen_first_ns = kNsPerMs, .reopen_longest_ns = 8 * kNsPerMs, .begin_again = true});
+  source_.on_idle = [&] { endless.stop(); };
+  endless.run();
+  ASSERT_EQ(source_.opened_at_ns.size(), 3u);
+  EXPECT_GE(source_.opened_at_ns[1] - source_.opened_at_ns[0], kNsPerMs);
+  EXPECT_GE(source_.opened_at_ns[2] - source_.opened_at_ns[1], 2 * kNsPerMs);
+}
+
+TEST_F(CaptureLoopTest, EventsCarryTheProblemAndItsTime) {
+  source_.openings = {OpenResult::Refused};
+  const TimeNs before_ns = monotonic_now_ns();
+  loop_.run();
+  Event event;
+  ASSERT_TRUE(events_.pop(event));
+  EXPECT_EQ(event.kind, EventKind::CameraUnavailable);
+  EXPECT_STREQ(event.text.data(), "test:script: not allowed");
+  EXPECT_GE(event.t_ns, before_ns);
+  EXPECT_LE(event.t_ns, monotonic_now_ns());
+}
+
+TEST_F(CaptureLoopTest, EveryNewReasonInAnOutageIsTold) {
+  source_.openings = {OpenResult::Absent, OpenResult::Absent, OpenResult::Refused, OpenResult::Refused,
+                      OpenResult::Opened};
+  source_.results = {Frame};
+  loop_.run();
+  EXPECT_THAT(kinds(), testing::ElementsAre(EventKind::CameraUnavailable, EventKind::CameraUnavailable,
+                                            EventKind::CameraOpened));
+}
+
+TEST_F(CaptureLoopTest, UnusableFramesAreCountedNotDeadly) {
+  source_.results = {Frame, Error, Error, Frame};
+  loop_.run();
+  EXPECT_EQ(loop_.counters().captured, 2u);
+  EXPECT_EQ(loop_.counters().dropped_by_driver, 2u);
+}
+
+TEST_F(CaptureLoopTest, CountsAreToldWheneverTheyHaveChangedAndOnlyThen) {
+  source_.openings = {OpenResult::Opened, OpenResult::Opened};
+  source_.results = {Frame, Timeout, Timeout, Frame, Error, Lost, Frame};
+  const TimeNs before_ns = monotonic_now_ns();
+  loop_.run();
+  struct Told {
+    std::uint64_t captured, dropped_by_driver, dropped_in_ring, reopened;
+    bool operator==(const Told&) const = default;
+  };
+  std::vector<Told> told;
+  TimeNs t_last_ns = before_ns;
+  for (CaptureCounters c; counts_.pop(c);) {
+    told.push_back({c.captured, c.dropped_by_driver, c.dropped_in_ring, c.reopened});
+    EXPECT_GE(c.t_ns, t_last_ns);
+    t_last_ns = c.t_ns;
+  }
+  EXPECT_LE(t_last_ns, monotonic_now_ns());
+  EXPECT_THAT(told, testing::ElementsAre(Told{1, 0, 0, 0}, Told{2, 0, 1, 0}, Told{2, 1, 1, 0},
+                                         Told{2, 1, 1, 1}, Told{3, 1, 2, 1}));
+}
+
+TEST_F(CaptureLoopTest, FramesOfAnotherSizeAreRefusedAndToldOnce) {
+  source_.width_px = kWidth - 1;
+  source_.results = {Frame, Frame, Frame};
+  loop_.run();
+  EXPECT_EQ(loop_.counters().captured, 0u);
+  EXPECT_THAT(kinds(), testing::ElementsAre(EventKind::CameraOpened, EventKind::FrameRefused));
+}
+
+TEST_F(CaptureLoopTest, TheEndOfAStreamEndsTheLoop) {
+  source_.results = {Frame, EndOfStream};
+  EXPECT_FALSE(loop_.ended());
+  loop_.run();
+  EXPECT_TRUE(loop_.ended());
+  EXPECT_THAT(kinds(), testing::ElementsAre(EventKind::CameraOpened, EventKind::CameraEnded));
+}
+
+TEST_F(CaptureLoopTest, ASourceOpenedBeforehandIsNotOpenedAgain) {
+  source_.results = {Frame};
+  loop_.assume_open();
+  loop_.run();
+  EXPECT_TRUE(source_.opened_at_ns.empty());
+  EXPECT_EQ(loop_.counters().captured, 1u);
+  EXPECT_EQ(loop_.counters().reopened, 0u);
+}
+
+TEST_F(CaptureLoopTest, StopEndsALongPauseAndTheHeartBeatsMeanwhile) {
+  source_.openings = {OpenResult::Absent};
+  CaptureLoop slow(source_, ring_, counts_, events_,
+                   {.wait_ns = kNsPerMs, .reopen_first_ns = 60 * kNsPerS, .reopen_longest_ns = 60 * kNsPerS});
+  const TimeNs start_ns = monotonic_now_ns();
+  std::jthread thread([&] { slow.run(); });
+  while (slow.heartbeat_ns() < start_ns + 20 * kNsPerMs) {
+    ASSERT_LT(monotonic_now_ns() - start_ns, 30 * kNsPerS) << "no heartbeat";
+    std::this_thread::yield();
+  }
+  slow.stop();
+  thread.join();
+  EXPECT_LT(monotonic_now_ns() - start_ns, 30 * kNsPerS);
+}
+
+TEST(CaptureLoop, DoesNotAllocateInSteadyState) {
+  if (!test::counts_allocations()) GTEST_SKIP() << "the sanitizer's allocator is in the way";
+  const std::string name = "test-" + std::to_string(getpid()) + "-loop";
+  SimChannelWriter writer(name, kWidth, kHeight);
+  SimSource source(name);
+  ASSERT_EQ(source.open(), OpenResult::Opened);
+  FrameRing ring(kWidth, kHeight);
+  RecordQueue<CaptureCounters> counts(8);
+  RecordQueue<Event> events(8);
+  CaptureLoop loop(source, ring, counts, events);
+  loop.assume_open();
+  const std::uint64_t before_vector = test::allocations_of_this_thread();
+  const std::vector<int> allocated(100);
+  ASSERT_EQ(test::allocations_of_this_thread() - before_vector, 1u) << "the counter does not count";
+
+  std::uint64_t allocations = 0;
+  std::jthread thread([&] {
+    const std::uint64_t before = test::allocations_of_this_thread();
+    loop.run();
+    allocations = test::allocations_of_this_thread() - before;
+  });
+  for (std::uint64_t sequence = 1; sequence <= 200; ++sequence) {
+    test::make_frame(writer.writable(), sequence, kWidth, kHeight);
+    writer.publish();
+    while (ring.captured() < sequence) std::this_thread::yield();
+  }
+  loop.stop();
+  thread.join();
+  EXPECT_EQ(loop.counters().captured, 200u);
+  EXPECT_EQ(allocations, 0u);
+}
+
+}  // namespace
+}  // namespace heel

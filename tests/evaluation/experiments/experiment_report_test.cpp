@@ -1,0 +1,223 @@
+// Figures and tables of experiments, from rows whose figures are worked out by hand.
+#include "evaluation/reports/experiment_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "evaluation/experiments/still_file.h"
+#include "evaluation/reports/error_statistics.h"
+#include "evaluation/reports/fit_rows.h"
+#include "evaluation/reports/paper_comparison.h"
+#include "evaluation/reports/paper_figures.h"
+#include "evaluation/reports/run_table.h"
+#include "heel/error.h"
+#include "support/temporary_folder.h"
+
+namespace heel {
+namespace {
+
+using experiment::StillRow;
+using report::StillSample;
+using test::TemporaryFolder;
+using ::testing::HasSubstr;
+
+StillRow row_at(double x_m, double z_m, double yaw_rad, double yaw_error_rad, double certainty = 0.3) {
+  StillRow row;
+  row.name = "made up";
+  row.view = {.x_m = x_m, .z_m = z_m, .yaw_rad = yaw_rad};
+  row.true_x_m = x_m;
+  row.true_z_m = z_m;
+  row.true_yaw_rad = yaw_rad;
+  row.pose.reason = PoseReason::Found;
+  row.pose.certainty = certainty;
+  row.pose.yaw_rad = yaw_rad + yaw_error_rad;
+  row.pose.yaw_sigma_rad = 0.05;
+  row.pose.position_m = {x_m + 0.01, 0.0, z_m - 0.02};
+  row.t_sigma_m = {0.1, 0.1, 0.1};
+  return row;
+}
+
+std::vector<StillSample> written_and_read(const std::vector<StillRow>& rows) {
+  const TemporaryFolder folder;
+  experiment::write_stills(rows, folder.file("rows.csv"));
+  return report::read_stills(folder.file("rows.csv"));
+}
+
+TEST(Stills, AreReadAsTheyWereWritten) {
+  StillRow lost = row_at(0.1, 2.0, 0.5, 0.0);
+  lost.pose.reason = PoseReason::TooFewInliers;
+  lost.surroundings = {3, "mosaic", 0.25};
+  lost.view.blur_px = 2.5;
+  const auto samples = written_and_read({row_at(-0.4, 1.5, 0.3, 0.02), lost});
+  ASSERT_EQ(samples.size(), 2U);
+  EXPECT_TRUE(samples[0].found);
+  EXPECT_NEAR(samples[0].yaw_error_rad(), 0.02, 1e-6);
+  EXPECT_NEAR(samples[0].x_est_m - samples[0].true_x_m, 0.01, 1e-6);
+  EXPECT_TRUE(samples[0].undisturbed());
+  EXPECT_FALSE(samples[1].found);
+  EXPECT_EQ(samples[1].certainty, 0.0) << "not found counts as no certainty";
+  EXPECT_EQ(samples[1].shirt, "mosaic");
+  EXPECT_FALSE(samples[1].undisturbed());
+}
+
+TEST(Stills, FlippedAndWrong) {
+  const double bearing_rad = std::atan2(0.4, 2.0);
+  // 20° to one side of the line of sight, seen 20° to the other.
+  const auto samples = written_and_read(
+      {row_at(0.4, 2.0, bearing_rad + 0.35, -0.70), row_at(0.4, 2.0, bearing_rad + 0.35, -0.30),
+       row_at(0.4, 2.0, bearing_rad + 0.05, -0.10), row_at(0.4, 2.0, bearing_rad + 0.35, 0.10)});
+  EXPECT_TRUE(samples[0].flipped());
+  EXPECT_TRUE(samples[0].wrong());
+  EXPECT_FALSE(samples[1].flipped()) << "still on its own side";
+  EXPECT_TRUE(samples[1].wrong()) << "17 degrees";
+  EXPECT_FALSE(samples[2].flipped()) << "nearly frontal: no sign to lose";
+  EXPECT_FALSE(samples[3].wrong());
+}
+
+TEST(Steps, MeanDeviationAndCertaintyOfEachCommandedValue) {
+  StillRow lost = row_at(0.0, 1.0, 0.2, 0.0);
+  lost.pose.reason = PoseReason::TooFewMatches;
+  const auto steps =
+      report::steps_of(written_and_read({row_at(0.0, 1.0, 0.2, 0.01, 0.4), row_at(0.0, 1.0, 0.2, 0.03, 0.2),
+                                         lost, row_at(0.0, 1.0, -0.2, 0.0, 0.6)}),
+                       &StillSample::yaw_rad, &StillSample::yaw_est_rad, &StillSample::true_yaw_rad, 100.0);
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_NEAR(steps[0].at, -20.0, 1e-9);
+  EXPECT_EQ(steps[1].pictures, 3U);
+  EXPECT_EQ(steps[1].found, 2U);
+  EXPECT_NEAR(steps[1].mean, 22.0, 1e-6);
+  EXPECT_NEAR(steps[1].deviation, 1.0, 1e-6);
+  EXPECT_NEAR(steps[1].mean_abs_error, 2.0, 1e-6);
+  EXPECT_NEAR(steps[1].certainty_mean, 0.2, 1e-6);
+}
+
+TEST(Errors, BinsCountWhatBelongs) {
+  const auto samples = written_and_read(
+      {row_at(0, 2, 0.5, 0.1), row_at(0, 2, 0.5, -0.1), row_at(0, 2, 0.5, -1.0), row_at(0, 4, 0.5, 0.0)});
+  const report::ErrorBin bin =
+      report::error_bin("near", 2.0, samples, [](const StillSample& s) { return s.true_z_m < 3.0; });
+  EXPECT_EQ(bin.found, 3U);
+  EXPECT_EQ(bin.flips, 1U);
+  EXPECT_EQ(bin.wrong, 1U);
+  EXPECT_NEAR(bin.yaw_mean_rad, -1.0 / 3.0, 1e-6);
+  EXPECT_NEAR(bin.yaw_nees, (4.0 + 4.0 + 400.0) / 3.0, 1e-3);
+}
+
+TEST(Errors, TheBandOfHonestDeviationsNarrowsWithTheNumber) {
+  // chi-squared with 100 degrees of freedom: 2.5 % at 74.22, 97.5 % at 129.56.
+  EXPECT_NEAR(report::nees_band(100).low, 0.7422, 0.001);
+  EXPECT_NEAR(report::nees_band(100).high, 1.2956, 0.001);
+}
+
+TEST(Comparison, RSquaredAndMonotony) {
+  EXPECT_NEAR(report::r_squared({0, 1, 2, 3}, {1, 3, 5, 7}), 1.0, 1e-12);
+  EXPECT_NEAR(report::r_squared({0, 1, 2}, {0, 1, 0}), 0.0, 1e-12);
+  std::vector<report::Step> steps(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    steps[i].at = static_cast<double>(i);
+    steps[i].mean = static_cast<double>(i);
+    steps[i].pictures = steps[i].found = 10;
+  }
+  EXPECT_EQ(report::breaks_of_monotony(steps, "m"), "");
+  steps[2].mean = 0.5;
+  EXPECT_THAT(report::breaks_of_monotony(steps, "m"), HasSubstr("falls from 1 to 2 m"));
+  steps[2].found = 4;
+  EXPECT_THAT(report::breaks_of_monotony(steps, "m"),
+              HasSubstr("found in fewer than half of the pictures at 2 m"));
+}
+
+TEST(ExperimentReport, DrawsWhatThereIsAndSaysHowGoodItIs) {
+  const TemporaryFolder folder;
+  const std::string directory = folder.path().string();
+  EXPECT_FALSE(report::holds_experiments(directory));
+  std::vector<StillRow> lateral, yaw;
+  for (int i = -4; i <= 4; ++i) lateral.push_back(row_at(0.2 * i, 2.0, 0.0, 0.01));
+  for (int i = -3; i <= 3; ++i) yaw.push_back(row_at(0.0, 2.0, 0.3 * i, i == 3 ? -0.5 : 0.0));
+  experiment::write_stills(lateral, folder.file("lateral.csv"));
+  experiment::write_stills(yaw, folder.file("yaw.csv"));
+  ASSERT_TRUE(report::holds_experiments(directory));
+  const std::string summary = report::report_experiments(directory);
+  EXPECT_THAT(summary, HasSubstr("R2 1.00000 | yes"));
+  EXPECT_THAT(summary, HasSubstr("wrong above 0.1: 6.2 % of 16"));
+  for (const char* name : {"fig2_t_x.png", "fig4_yaw.png", "fig5_yaw_over_x.png"})
+    EXPECT_FALSE(cv::imread(folder.file(name)).empty()) << name;
+  EXPECT_TRUE(std::filesystem::exists(folder.file("fig4_yaw.csv")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("fig3_t_z.png"))) << "no such rows";
+}
+
+TEST(FitRows, TellConditionsAndErrorsOfWhatWasSeen) {
+  const double bearing_rad = std::atan2(0.4, 2.0);
+  StillRow lost = row_at(0.4, 2.0, 0.0, 0.0);
+  lost.pose.reason = PoseReason::TooFewMatches;
+  StillRow after_lost = row_at(0.4, 2.0, bearing_rad + 0.35, -0.70);
+  after_lost.picture = 1;
+  after_lost.surroundings.shirt = "mosaic";
+  StillRow seen = row_at(0.4, 2.0, 0.0, 0.02), tracked = seen;
+  tracked.picture = 1;
+  CameraModel camera{.width_px = 640, .height_px = 480, .fx = 554, .fy = 554, .cx = 320, .cy = 240};
+  const auto rows = report::still_fit_rows(written_and_read({lost, after_lost, seen, tracked}), camera);
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_FALSE(rows[0].found);
+  EXPECT_TRUE(rows[1].conditions.first_look) << "the picture before did not show it";
+  EXPECT_TRUE(rows[1].flipped);
+  EXPECT_TRUE(rows[1].conditions.other_print);
+  EXPECT_FALSE(rows[3].conditions.first_look);
+  EXPECT_FALSE(rows[3].flipped);
+  EXPECT_NEAR(rows[3].conditions.aspect_rad, -bearing_rad, 1e-6);
+  const double bearing_error_rad = std::atan2(0.41, 1.98) - bearing_rad;
+  EXPECT_NEAR(rows[3].bearing_error_rad, bearing_error_rad, 1e-6);
+  EXPECT_NEAR(rows[3].aspect_error_rad, 0.02 - bearing_error_rad, 1e-6);
+  EXPECT_NEAR(rows[3].range_error_share, std::hypot(0.41, 1.98) / std::hypot(0.4, 2.0) - 1.0, 1e-6);
+}
+
+TEST(RunTable, CountsLossesAndHowLongTheyLasted) {
+  sim::MetricsCollector run;
+  for (int i = 0; i <= 100; ++i) {
+    sim::MotionSample sample;
+    sample.t_s = 0.1 * i;
+    sample.has_person = true;
+    sample.person = {0.05 * i, 0.0, 0.0};
+    sample.robot = {0.05 * i - 2.0, 0.0, 0.0};
+    sample.person_speed_m_s = 0.5;
+    sample.back_in_view = i < 40 || i > 44;
+    run.add(sample);
+    sim::PoseSample pose;
+    pose.t_s = 0.1 * i;
+    pose.found = (i < 40 || i > 46) && i != 70;
+    pose.has_truth = pose.found;
+    pose.true_z_m = pose.z_m = 2.0;
+    pose.yaw_rad = i == 80 ? 0.5 : 0.0;
+    run.add(pose);
+  }
+  const report::RunLine line = report::run_line("made up", run);
+  EXPECT_EQ(line.frames, 101U);
+  EXPECT_EQ(line.found, 93U);
+  EXPECT_EQ(line.visible, 96U);
+  EXPECT_EQ(line.wrong, 1U);
+  ASSERT_EQ(line.gaps_s.size(), 2U);
+  EXPECT_NEAR(line.gaps_s[0], 0.8, 1e-9);
+  EXPECT_NEAR(line.gaps_s[1], 0.2, 1e-9);
+  EXPECT_THAT(report::run_table({line}), HasSubstr("| 2 | 0.50 s, 0.80 s |"));
+  EXPECT_EQ(report::worlds_table({line}, {}), "");
+  EXPECT_THAT(report::worlds_table({line}, {line}), HasSubstr("| made up | 0.000, 0.000 m | 2.00, 2.00 m |"));
+}
+
+TEST(ExperimentReport, AMissingPictureOfAHardCaseIsNamed) {
+  const TemporaryFolder folder;
+  StillRow row = row_at(0, 2, 0, 0);
+  row.picture = 1;
+  experiment::write_stills({row}, folder.file("hard.csv"));
+  try {
+    report::hard_figure(folder.path().string());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("hard/000.png: cannot read (expected the picture of"));
+  }
+}
+
+}  // namespace
+}  // namespace heel

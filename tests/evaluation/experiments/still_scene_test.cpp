@@ -1,0 +1,105 @@
+// Still experiments: the pictured person is where it was commanded, and the shirt is found there.
+#include "evaluation/experiments/still_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "evaluation/experiments/board.h"
+#include "evaluation/experiments/still_cases.h"
+#include "heel/error.h"
+#include "sim/lockstep/lockstep.h"
+
+namespace heel::experiment {
+namespace {
+
+sim::Scenario small_base() {
+  sim::Scenario base;
+  base.camera.model = sim::default_camera_model();
+  base.room.objects = 5;
+  return base;
+}
+
+TEST(StillScene, TheRobotStandsSoThatTheBackIsWhereItWasCommanded) {
+  sim::Scenario base = small_base();
+  base.camera.mount_y_m = 0.07;
+  sim::World world(still_scenario(base, {}));
+  const Eigen::Vector3d back_m = world.truth({}, 0.0).back_m;
+  for (const StillView& view :
+       {StillView{.x_m = 0.0, .z_m = 2.0}, StillView{.x_m = -0.7, .z_m = 1.4, .yaw_rad = 0.9},
+        StillView{.x_m = 0.4, .z_m = 5.0, .yaw_rad = -1.3}}) {
+    const sim::Truth truth = world.truth(robot_for(base.camera, back_m, view), 0.0);
+    EXPECT_NEAR(truth.back_in_camera_m.x(), view.x_m, 1e-9);
+    EXPECT_NEAR(truth.back_in_camera_m.z(), view.z_m, 1e-9);
+    EXPECT_NEAR(truth.yaw_rad, view.yaw_rad, 1e-9);
+  }
+}
+
+TEST(StillScene, BlurIsTheCommandedLengthInTheMiddleOfThePicture) {
+  const sim::Scenario base = small_base();
+  const sim::RobotMotion robot = robot_for(base.camera, {0, 0, 1.2}, {.z_m = 2.0, .blur_px = 6.0});
+  const double turned_rad = robot.yaw_rate_rad_s * 1e-3 * base.camera.sensor.exposure_ms;
+  EXPECT_NEAR(base.camera.model.fx * turned_rad, 6.0, 1e-9);
+}
+
+TEST(StillScene, TheShirtIsFoundAndTrackedNearTheTruth) {
+  const sim::Scenario base = small_base();
+  const ShirtTemplate shirt = sim::teach_from_world(still_scenario(base, {}), 1.5);
+  VisionConfig vision;
+  vision.ransac_budget_ms = 0.0;
+  StillScene scene(base, {}, shirt, vision);
+  const auto rows = scene.look("near", {.x_m = 0.2, .z_m = 1.8, .yaw_rad = 0.2});
+  EXPECT_FALSE(rows[0].pose.tracked) << "nothing was seen before";
+  EXPECT_TRUE(rows[1].pose.tracked);
+  for (const StillRow& row : rows) {
+    ASSERT_TRUE(row.pose.found()) << to_string(row.pose.reason);
+    EXPECT_NEAR(row.pose.yaw_rad, row.true_yaw_rad, 0.1);
+    EXPECT_NEAR(row.pose.position_m[0], row.true_x_m, 0.02);
+    EXPECT_NEAR(row.pose.position_m[2], row.true_z_m, 0.05);
+    // t follows from R: what the yaw is off by, times the template's distance, it is off sideways.
+    EXPECT_NEAR(row.t_m[0] - row.true_t_m.x(), -1.5 * (row.pose.yaw_rad - row.true_yaw_rad), 0.03);
+    EXPECT_NEAR(row.t_m[2], row.true_t_m.z(), 0.06);
+  }
+  // Another pose, far from the first: searched anew, not expected where the last one was.
+  EXPECT_FALSE(scene.look("elsewhere", {.x_m = -0.4, .z_m = 2.0})[0].pose.tracked);
+}
+
+TEST(Board, HidesTheCommandedShareOfTheBack) {
+  const CameraModel camera = sim::default_camera_model();
+  sim::Truth truth;
+  truth.back_in_camera_m = {0.0, 0.0, 2.0};
+  truth.back_px = {320.0, 240.0};
+  const double half_px = camera.fx * kBackHalfWidthM / 2.0;
+  const auto covered = [&](double share) {
+    std::vector<std::uint8_t> grey(640 * 480, 0);
+    draw_board(truth, camera, share, 5, 1.0, grey);
+    int hidden = 0;
+    const int first = static_cast<int>(std::lround(320 - half_px)),
+              last = static_cast<int>(std::lround(320 + half_px));
+    for (int x = first; x < last; ++x) hidden += grey[240UL * 640 + static_cast<std::size_t>(x)] > 0;
+    return hidden / static_cast<double>(last - first);
+  };
+  EXPECT_NEAR(covered(0.3), 0.3, 0.02);
+  EXPECT_NEAR(covered(-0.6), 0.6, 0.02);
+  EXPECT_NEAR(covered(1.0), 1.0, 0.02);
+}
+
+TEST(StillCases, CoverWhatTheirNamesSay) {
+  for (const StillExperiment& experiment : still_experiments()) {
+    const auto cases = experiment.cases(experiment.repeats);
+    EXPECT_GE(cases.size(), 12U) << experiment.name;
+    std::set<std::uint64_t> seeds;
+    for (const StillCase& one : cases) {
+      seeds.insert(one.surroundings.seed);
+      EXPECT_EQ(one.name.find(','), std::string::npos) << "names stand in CSV";
+      EXPECT_NO_THROW(sim::shirt_design(one.surroundings.shirt));
+      EXPECT_LT(std::hypot(one.view.x_m, one.view.z_m), 6.1);
+    }
+    EXPECT_EQ(seeds.size(), static_cast<std::size_t>(kMostSeeds)) << experiment.name;
+  }
+}
+
+}  // namespace
+}  // namespace heel::experiment

@@ -1,0 +1,204 @@
+// Camera files as ROS and OpenCV write them, and one refusal for each thing that can be wrong.
+#include "files/camera_info.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "heel/camera_model.h"
+#include "heel/error.h"
+#include "support/temporary_folder.h"
+
+namespace heel {
+namespace {
+
+using test::TemporaryFolder;
+using test::write_text;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr char kRos[] = R"(image_width: 640
+image_height: 480
+camera_name: narrow_stereo
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [700.5, 0, 320.25, 0, 701.5, 240.75, 0, 0, 1]
+distortion_model: plumb_bob
+distortion_coefficients:
+  rows: 1
+  cols: 5
+  data: [-0.25, 0.125, 0.001, -0.002, 0.03]
+rectification_matrix:
+  rows: 3
+  cols: 3
+  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]
+)";
+
+constexpr char kOpenCv[] = R"(%YAML:1.0
+---
+calibration_time: "Sat 21 Nov 2026"
+image_width: 1280
+image_height: 720
+flags: 0
+camera_matrix: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 9.0025e+02, 0., 640., 0., 9.0075e+02, 3.6050e+02, 0., 0., 1. ]
+distortion_coefficients: !!opencv-matrix
+   rows: 5
+   cols: 1
+   dt: d
+   data: [ -2.5e-01, .125, 0., 1.0000000000000000e-03, 0. ]
+avg_reprojection_error: 2.1e-01
+)";
+
+constexpr char kOpenCvJson[] = R"({
+    "image_width": 1280, "image_height": 720,
+    "camera_matrix": { "type_id": "opencv-matrix", "rows": 3, "cols": 3, "dt": "d",
+        "data": [ 900.25, 0.0, 640.0, 0.0, 900.75, 360.5, 0.0, 0.0, 1.0 ] },
+    "distortion_coefficients": { "type_id": "opencv-matrix", "rows": 4, "cols": 1, "dt": "d",
+        "data": [ -0.25, 0.125, 0.0, 1e-3 ] }
+})";
+
+class CameraFile : public ::testing::Test {
+ protected:
+  CameraModel read(const std::string& text) { return read_camera_model(write_text(path, text)); }
+  std::string refusal_of(const std::string& text) {
+    try {
+      read(text);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  TemporaryFolder folder;
+  std::string path = folder.file("camera.yaml");
+};
+
+TEST_F(CameraFile, ReadsRosCameraInfo) {
+  const CameraModel camera = read(kRos);
+  EXPECT_EQ(camera.width_px, 640);
+  EXPECT_EQ(camera.height_px, 480);
+  EXPECT_EQ(camera.fx, 700.5);
+  EXPECT_EQ(camera.fy, 701.5);
+  EXPECT_EQ(camera.cx, 320.25);
+  EXPECT_EQ(camera.cy, 240.75);
+  EXPECT_EQ(camera.k1, -0.25);
+  EXPECT_EQ(camera.k2, 0.125);
+  EXPECT_EQ(camera.p1, 0.001);
+  EXPECT_EQ(camera.p2, -0.002);
+  EXPECT_EQ(camera.k3, 0.03);
+}
+
+TEST_F(CameraFile, ReadsOpenCvFileStorageInYamlAndJson) {
+  for (const char* text : {kOpenCv, kOpenCvJson}) {
+    const CameraModel camera = read(text);
+    EXPECT_EQ(camera.width_px, 1280);
+    EXPECT_EQ(camera.height_px, 720);
+    EXPECT_EQ(camera.fx, 900.25);
+    EXPECT_EQ(camera.fy, 900.75);
+    EXPECT_EQ(camera.cx, 640.0);
+    EXPECT_EQ(camera.cy, 360.5);
+    EXPECT_EQ(camera.k1, -0.25);
+    EXPECT_EQ(camera.k2, 0.125);
+    EXPECT_EQ(camera.p1, 0.0);
+    EXPECT_EQ(camera.p2, 0.001);
+    EXPECT_EQ(camera.k3, 0.0);
+  }
+}
+
+TEST_F(CameraFile, ComesBackToTheBit) {
+  const CameraModel written{.width_px = 768,
+                            .height_px = 432,
+                            .fx = 700.0 / 3.0,
+                            .fy = 699.9,
+                            .cx = 383.5,
+                            .cy = 215.5,
+                            .k1 = 0.1,
+                            .k2 = -1.0 / 7.0,
+                            .p1 = 1e-7,
+                            .p2 = -3e-5,
+                            .k3 = 0.2};
+  write_camera_model(written, path);
+  const CameraModel camera = read_camera_model(path);
+  EXPECT_EQ(camera.width_px, written.width_px);
+  EXPECT_EQ(camera.height_px, written.height_px);
+  EXPECT_EQ(camera.fx, written.fx);
+  EXPECT_EQ(camera.fy, written.fy);
+  EXPECT_EQ(camera.cx, written.cx);
+  EXPECT_EQ(camera.cy, written.cy);
+  EXPECT_EQ(camera.k1, written.k1);
+  EXPECT_EQ(camera.k2, written.k2);
+  EXPECT_EQ(camera.p1, written.p1);
+  EXPECT_EQ(camera.p2, written.p2);
+  EXPECT_EQ(camera.k3, written.k3);
+}
+
+TEST(CameraExamples, AreReadable) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(HEEL_SOURCE_DIR "/config/camera")) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++files;
+    const CameraModel camera = read_camera_model(entry.path().string());
+    EXPECT_GT(camera.fx, 0.3 * camera.width_px) << entry.path();
+    EXPECT_NEAR(camera.cx, 0.5 * camera.width_px, 0.1 * camera.width_px) << entry.path();
+    EXPECT_NEAR(camera.cy, 0.5 * camera.height_px, 0.1 * camera.height_px) << entry.path();
+  }
+  EXPECT_GE(files, 1);
+}
+
+struct WrongFile {
+  const char* from;  ///< in the ROS file
+  const char* to;
+  const char* key;       ///< named by the refusal …
+  const char* expected;  ///< … with what was expected
+};
+
+TEST_F(CameraFile, RefusesNamingFileKeyAndWhatWasExpected) {
+  const WrongFile rows[] = {
+      {"image_width: 640", "", "image_width: missing", "pixels"},
+      {"image_width: 640", "image_width: 640.5", "image_width: '640.5'", "whole number of pixels"},
+      {"image_width: 640", "image_width: 0", "image_width", "1…32768"},
+      {"image_height: 480", "image_height: [480]", "image_height: not a number", "pixels"},
+      {"camera_matrix", "camera_matrlx", "camera_matrix: missing", "fx 0 cx"},
+      {"700.5, 0,", "700.5,", "camera_matrix: 8 numbers", "rows × cols"},
+      {"700.5, 0,", "700.5, 0.5,", "skew", "0"},
+      {"700.5, 0,", "-700.5, 0,", "fx -700.5", "above 0"},
+      {"700.5, 0,", "seven, 0,", "camera_matrix.data[0]: 'seven'", "finite number"},
+      {"700.5, 0,", ".nan, 0,", "camera_matrix.data[0]: '.nan'", "finite number"},
+      {"0, 0, 1]", "0, 1, 1]", "camera_matrix.data", "row by row"},
+      {"plumb_bob", "equidistant", "distortion_model: 'equidistant'", "plumb_bob"},
+      {"plumb_bob", "rational_polynomial", "distortion_model: 'rational_polynomial'", "plumb_bob"},
+      {"distortion_coefficients", "distortion_coefficient", "distortion_coefficients: missing", "k1 k2"},
+      {"cols: 5\n  data: [-0.25,", "cols: 8\n  data: [0, 0, 0, -0.25,", "8 numbers: the rational model",
+       "4 or 5"},
+      {"cols: 5\n  data: [-0.25, 0.125, 0.001, -0.002, 0.03]", "cols: 0\n  data: []", "0 numbers", "4 or 5"},
+      {"image_width: 640", "<?xml version=\"1.0\"?>", "XML", "camera_info YAML"},
+      {"image_width: 640", "image_width: [640", "not YAML", "camera_info"},
+  };
+  for (const WrongFile& row : rows) {
+    std::string text = kRos;
+    const std::size_t at = text.find(row.from);
+    ASSERT_NE(at, std::string::npos) << row.from;
+    text.replace(at, std::string(row.from).size(), row.to);
+    EXPECT_THAT(refusal_of(text),
+                AllOf(HasSubstr(path), HasSubstr(row.key), HasSubstr(row.expected), Not(HasSubstr("\n"))))
+        << row.to;
+  }
+}
+
+TEST_F(CameraFile, RefusesWhatIsNoMap) {
+  EXPECT_THAT(refusal_of(""), HasSubstr("not a camera file"));
+  EXPECT_THAT(refusal_of("just words\n"), HasSubstr("not a camera file"));
+  EXPECT_THAT(refusal_of("%YAML:1.0"), HasSubstr("not a camera file"));
+  EXPECT_THROW(read_camera_model(folder.file("absent.yaml")), Error);
+}
+
+}  // namespace
+}  // namespace heel

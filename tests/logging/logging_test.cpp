@@ -1,0 +1,116 @@
+// Logging: levels, the journal's fields, and that it is only used when standard error is the journal.
+#include "logging/logging.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <mutex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "heel/error.h"
+#include "logging/journal_sink.h"
+
+namespace heel {
+namespace {
+
+std::string written(std::unique_ptr<spdlog::formatter> formatter, spdlog::level::level_enum level,
+                    const std::string& text) {
+  std::ostringstream out;
+  auto sink = std::make_shared<spdlog::sinks::ostream_sink_st>(out);
+  sink->set_formatter(std::move(formatter));
+  spdlog::logger logger("test", sink);
+  logger.set_level(spdlog::level::trace);
+  logger.log(level, text);
+  return out.str();
+}
+
+std::vector<std::string> fields_of(spdlog::level::level_enum level, const spdlog::source_loc& source = {}) {
+  return journal_fields(spdlog::details::log_msg(source, "test", level, "text"));
+}
+
+TEST(Logging, JournalMessagesCarryTheSyslogPriority) {
+  using testing::Contains;
+  EXPECT_THAT(fields_of(spdlog::level::debug), Contains("PRIORITY=7"));
+  EXPECT_THAT(fields_of(spdlog::level::info), Contains("PRIORITY=6"));
+  EXPECT_THAT(fields_of(spdlog::level::warn), Contains("PRIORITY=4"));
+  EXPECT_THAT(fields_of(spdlog::level::err), Contains("PRIORITY=3"));
+  EXPECT_THAT(fields_of(spdlog::level::critical), Contains("PRIORITY=2"));
+}
+
+TEST(Logging, JournalMessagesSayWhatTheyAreAbout) {
+  EXPECT_THAT(fields_of(spdlog::level::info),
+              testing::ElementsAre("MESSAGE=text", "PRIORITY=6", "SYSLOG_IDENTIFIER=heeld"));
+
+  class Kept : public spdlog::sinks::base_sink<std::mutex> {
+   public:
+    std::vector<std::string> fields;
+    void sink_it_(const spdlog::details::log_msg& message) override { fields = journal_fields(message); }
+    void flush_() override {}
+  };
+  const auto kept = std::make_shared<Kept>();
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>("test", kept));
+  log_event({.part = "camera", .event = "camera lost"}, spdlog::level::warn, "camera lost: {} unplugged");
+  spdlog::set_default_logger(before);
+  EXPECT_THAT(kept->fields,
+              testing::ElementsAre("MESSAGE=camera lost: {} unplugged", "PRIORITY=4",
+                                   "SYSLOG_IDENTIFIER=heeld", "HEEL_PART=camera", "HEEL_EVENT=camera lost"));
+}
+
+TEST(Logging, TerminalLinesCarryTimeAndLevel) {
+  EXPECT_THAT(written(make_terminal_formatter(), spdlog::level::warn, "text"),
+              testing::MatchesRegex("[0-9][0-9]:[0-9][0-9]:[0-9][0-9]\\.[0-9]+ warning text\n"));
+}
+
+TEST(Logging, TheJournalIsRecognisedByDeviceAndInodeOfStandardError) {
+  struct stat file {};
+  ASSERT_EQ(fstat(STDERR_FILENO, &file), 0);
+  unsetenv("JOURNAL_STREAM");
+  EXPECT_FALSE(stderr_is_journal());
+  setenv("JOURNAL_STREAM", "1:2", 1);
+  EXPECT_FALSE(stderr_is_journal()) << "inherited from elsewhere";
+  setenv("JOURNAL_STREAM", (std::to_string(file.st_dev) + ":" + std::to_string(file.st_ino)).c_str(), 1);
+  EXPECT_TRUE(stderr_is_journal());
+  unsetenv("JOURNAL_STREAM");
+}
+
+TEST(Logging, UnknownLevelsAreRefusedAndChangeNothing) {
+  start_logging("warn");
+  try {
+    set_log_level("loud");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("'loud'"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("expected trace"));
+  }
+  EXPECT_EQ(spdlog::get_level(), spdlog::level::warn);
+  set_log_level("error");
+  EXPECT_EQ(spdlog::get_level(), spdlog::level::err);
+  stop_logging();
+  EXPECT_THROW(start_logging(""), Error);
+}
+
+TEST(Logging, WhatWasLoggedIsWrittenBeforeStopAndLateMessagesStillFindALogger) {
+  testing::internal::CaptureStderr();
+  start_logging("info");
+  for (int i = 0; i < 100; ++i) spdlog::info("message {}", i);
+  spdlog::debug("not this one");
+  stop_logging();
+  spdlog::info("late");
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(text, testing::HasSubstr("message 0\n"));
+  EXPECT_THAT(text, testing::HasSubstr("message 99\n"));
+  EXPECT_THAT(text, testing::HasSubstr("late\n"));
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("not this one")));
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,291 @@
+// heel-sim over a real pty and a real TCP port, against a client of other make.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include "loopback/heel-sim/raw_client.h"
+#include "support/process.h"
+#include "support/temporary_folder.h"
+
+namespace heel::test {
+namespace {
+
+constexpr int kOpen = 1, kClose = 2, kEnable = 4, kVel = 11, kConfig = 18, kHostBaud = 50;
+const std::vector<int> kSip{0x32, 0x33};
+
+bool motors_on(const Bytes& sip) {
+  return (sip.at(16) & 1) != 0;
+}
+
+/// A running heel-sim; `address` is what it announced.
+struct Sim {
+  Sim(const std::string& robot, std::vector<std::string> options = {}) : process(arguments(robot, options)) {
+    if (!process.says("\n")) return;
+    const std::string line = process.output();
+    const std::size_t start = line.find("ready at ");
+    if (start != std::string::npos) address = line.substr(start + 9, line.find('\n', start) - start - 9);
+  }
+  static std::vector<std::string> arguments(const std::string& robot, std::vector<std::string> options) {
+    options.insert(options.begin(), {HEEL_SIM_PROGRAM, "--robot", robot});
+    return options;
+  }
+
+  Process process;
+  std::string address;
+};
+
+/// Both lines. "pty" stands for a fresh symlink.
+class AnyLine : public testing::TestWithParam<const char*> {
+ protected:
+  std::string robot() const {
+    return std::string(GetParam()) == "pty" ? "pty:" + folder.file("robot") : "tcp:0";
+  }
+  TemporaryFolder folder;
+};
+INSTANTIATE_TEST_SUITE_P(Lines, AnyLine, testing::Values("pty", "tcp"));
+
+TEST_P(AnyLine, SyncsOpensMovesStopsByWatchdogResumesAndCloses) {
+  Sim sim(robot());
+  RawClient client = RawClient::at(sim.address);
+  ASSERT_TRUE(client.sync()) << sim.process.output();
+  const std::string echo(client.packets.back().begin() + 1, client.packets.back().end());
+  EXPECT_NE(echo.find(std::string("Pioneer\0p3at-sh", 15)), std::string::npos);
+
+  client.listen(0.3);
+  EXPECT_EQ(client.packets.size(), 3u) << "packets before OPEN";
+  client.send(kOpen, 1);
+  const Bytes first_sip = client.wait_for(kSip);
+  ASSERT_FALSE(first_sip.empty());
+  EXPECT_FALSE(motors_on(first_sip));
+  client.send(kEnable, 1);
+  client.send(kVel, 200);
+  client.listen(1.2);
+  const Bytes moving = client.wait_for(kSip);
+  ASSERT_FALSE(moving.empty());
+  EXPECT_EQ(moving[0], 0x33);
+  EXPECT_TRUE(motors_on(moving));
+  EXPECT_EQ(i16_at(moving, 7), 200);
+  EXPECT_GT(i16_at(moving, 1), 100) << "XPOS, mm";
+
+  EXPECT_TRUE(sim.process.says("watchdog stop"));
+  client.listen(1.5);
+  EXPECT_EQ(client.wait_for(kSip)[0], 0x32);
+  client.send(0);  // PULSE
+  client.listen(1.2);
+  EXPECT_EQ(i16_at(client.wait_for(kSip), 7), 200) << "the old motion resumes";
+
+  client.send(kClose);
+  EXPECT_TRUE(sim.process.says("closed"));
+  client.listen(0.2);
+  const std::size_t before = client.packets.size();
+  client.listen(0.5);
+  EXPECT_EQ(client.packets.size(), before);
+  for (const char* event : {"client connected", "synced", "opened", "enabled", "watchdog over"}) {
+    EXPECT_NE(sim.process.output().find(event), std::string::npos) << event;
+  }
+}
+
+TEST_P(AnyLine, AClientMayGoAndAnotherFindsTheRobotStillOpen) {
+  Sim sim(robot());
+  {
+    RawClient first = RawClient::at(sim.address);
+    ASSERT_TRUE(first.sync());
+    first.send(kOpen);
+    ASSERT_FALSE(first.wait_for(kSip).empty());
+  }
+  ASSERT_TRUE(sim.process.says("client gone"));
+  sleep_s(1.5);
+  RawClient second = RawClient::at(sim.address);
+  second.listen(0.06);
+  EXPECT_LE(second.raw.size(), 400u) << "what was sent while nobody listened came late";
+  ASSERT_FALSE(second.wait_for(kSip).empty());
+  second.send(kClose);
+  second.listen(0.3);
+  EXPECT_TRUE(second.sync());
+}
+
+TEST_P(AnyLine, AHalfMadeHandshakeIsForgottenWhenItsClientGoes) {
+  Sim sim(robot());
+  for (int i = 0; i < 3; ++i) {
+    RawClient client = RawClient::at(sim.address);
+    EXPECT_TRUE(client.sync()) << "client " << i;
+    client.hang_up();
+    sleep_s(0.1);
+  }
+}
+
+TEST_P(AnyLine, PacketsTakeTheirLineTime) {
+  Sim sim(robot());
+  RawClient client = RawClient::at(sim.address);
+  ASSERT_TRUE(client.sync());
+  const double start_s = monotonic_s();
+  client.send(kConfig, 1);
+  const Bytes config = client.wait_for({0x20});
+  ASSERT_FALSE(config.empty());
+  const double line_s = (9.0 + static_cast<double>(config.size()) + 5.0) / 960.0;
+  EXPECT_GT(monotonic_s() - start_s, line_s - 0.005);
+  EXPECT_LT(monotonic_s() - start_s, line_s + 0.5);
+}
+
+TEST_P(AnyLine, FaultsComeFromTheCommandLine) {
+  Sim sim(robot(), {"--fault", "left_open@0", "--fault", "bumper@0.2=4"});
+  ASSERT_TRUE(sim.process.says("fault bumper"));
+  RawClient client = RawClient::at(sim.address);
+  client.wait_for(kSip);
+  EXPECT_EQ(client.wait_for(kSip).at(13), 4 << 1) << "front bumpers in the high byte";
+}
+
+TEST_P(AnyLine, TruthHasARowEvery20Ms) {
+  const std::string path = folder.file("truth.csv");
+  Sim sim(robot(), {"--truth", path, "--duration", "2.5", "--exact", "--fault", "left_open@0=300"});
+  ASSERT_NE(sim.address, "");
+  {
+    RawClient client = RawClient::at(sim.address);
+    client.send(0);
+    EXPECT_EQ(sim.process.wait(), 0);
+  }
+  std::istringstream lines(heel::test::read_text(path));
+  std::string line;
+  std::getline(lines, line);
+  std::map<std::string, std::size_t> column;
+  std::istringstream header(line);
+  for (std::string name; std::getline(header, name, ',');) column.emplace(name, column.size());
+  ASSERT_TRUE(column.contains("t_s") && column.contains("robot_x_m") && column.contains("odom_x_m") &&
+              column.contains("motors_enabled") && column.contains("watchdog_stopped"));
+  std::vector<std::vector<double>> rows;
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
+    ASSERT_EQ(rows.back().size(), column.size());
+    EXPECT_NEAR(rows.back()[column["t_s"]], 0.02 * static_cast<double>(rows.size() - 1), 1e-6);
+  }
+  EXPECT_GE(rows.size(), 125u);
+  EXPECT_GT(rows.back()[column["robot_x_m"]], 0.1);
+  EXPECT_EQ(rows.back()[column["robot_x_m"]], rows.back()[column["odom_x_m"]]);
+}
+
+TEST(Pty, KeepsItsRateAndAWrongOneIsGarbageBothWays) {
+  TemporaryFolder folder;
+  Sim sim("pty:" + folder.file("robot"));
+  RawClient client = RawClient::at(sim.address);
+  client.set_rate(B38400);
+  for (int i = 0; i < 3; ++i) {
+    client.send(0);
+    client.listen(0.2);
+  }
+  EXPECT_TRUE(client.packets.empty());
+  client.set_rate(B9600);
+  client.listen(0.4);
+  EXPECT_TRUE(client.sync());
+  client.send(kOpen);
+  ASSERT_FALSE(client.wait_for(kSip).empty());
+  client.set_rate(B115200);
+  client.listen(0.1);
+  client.packets.clear();
+  const std::size_t raw_before = client.raw.size();
+  client.listen(0.5);
+  EXPECT_TRUE(client.packets.empty());
+  EXPECT_GT(client.raw.size(), raw_before) << "garbage is heard, not silence";
+}
+
+TEST(Pty, HostBaudAsTheAriaClientDoesIt) {
+  TemporaryFolder folder;
+  Sim sim("pty:" + folder.file("robot"));
+  RawClient client = RawClient::at(sim.address);
+  client.set_rate(B9600);
+  ASSERT_TRUE(client.sync());
+  client.send(kOpen, 1);
+  ASSERT_FALSE(client.wait_for(kSip).empty());
+  client.send(kHostBaud, 2);
+  sleep_s(0.01);
+  client.set_rate(B38400);
+  sleep_s(0.01);
+  client.send(0);
+  EXPECT_FALSE(client.wait_for(kSip, 0.9).empty());
+  EXPECT_TRUE(sim.process.says("baud 38400"));
+  client.packets.clear();
+  client.listen(1.0);
+  EXPECT_GE(client.packets.size(), 8u);
+}
+
+TEST(Pty, TheSymlinkGoesWithTheProcessAndAStaleOneIsReplaced) {
+  TemporaryFolder folder;
+  const std::string path = folder.file("robot");
+  for (const int number : {SIGTERM, SIGINT, SIGHUP}) {
+    Sim sim("pty:" + path);
+    EXPECT_TRUE(std::filesystem::is_symlink(path));
+    sim.process.signal(number);
+    EXPECT_EQ(sim.process.wait(), 0);
+    EXPECT_FALSE(std::filesystem::is_symlink(path));
+  }
+  {
+    Sim killed("pty:" + path);
+    killed.process.signal(SIGKILL);
+    killed.process.wait();
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(path)) << "nobody could remove it";
+  Sim again("pty:" + path);
+  RawClient client = RawClient::at(again.address);
+  EXPECT_TRUE(client.sync());
+}
+
+TEST(Pty, AnotherProcessesLinkIsLeftAlone) {
+  TemporaryFolder folder;
+  const std::string path = folder.file("robot");
+  Sim older("pty:" + path);
+  Sim newer("pty:" + path);
+  ASSERT_NE(newer.address, "");
+  older.process.signal(SIGTERM);
+  EXPECT_EQ(older.process.wait(), 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(path));
+  RawClient client = RawClient::at(newer.address);
+  EXPECT_TRUE(client.sync());
+}
+
+TEST(Tcp, ASecondClientWaitsUntilTheFirstHasGone) {
+  Sim sim("tcp:0");
+  RawClient first = RawClient::at(sim.address);
+  ASSERT_TRUE(first.sync());
+  RawClient second = RawClient::at(sim.address);
+  second.send(0);
+  second.listen(0.3);
+  EXPECT_TRUE(second.raw.empty());
+  first.hang_up();
+  EXPECT_TRUE(second.sync());
+}
+
+struct BadOption {
+  std::vector<std::string> arguments;
+  std::string complaint;
+};
+class BadOptions : public testing::TestWithParam<BadOption> {};
+
+TEST_P(BadOptions, AreRefusedByNameAndExpectation) {
+  std::vector<std::string> argv = GetParam().arguments;
+  argv.insert(argv.begin(), HEEL_SIM_PROGRAM);
+  Process process(argv);
+  EXPECT_GT(process.wait(), 0);
+  EXPECT_NE(process.output().find(GetParam().complaint), std::string::npos) << process.output();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Lines, BadOptions,
+    testing::Values(BadOption{{}, "--robot"},
+                    BadOption{{"--robot", "usb:1"}, "--robot usb:1: not an address (expected pty:PATH"},
+                    BadOption{{"--robot", "pty:"}, "not an address (expected pty:PATH"},
+                    BadOption{{"--robot", "tcp:seven"}, "'seven' is not a port (expected 0…65535)"},
+                    BadOption{{"--robot", "tcp:70000"}, "'70000' is not a port"},
+                    BadOption{{"--robot", "pty:/proc/version"}, "exists and is not a symlink"},
+                    BadOption{{"--robot", "pty:/no-such-folder/robot"}, "cannot make the symlink"},
+                    BadOption{{"--robot", "tcp:0", "--boot-baud", "1200"}, "--boot-baud"},
+                    BadOption{{"--robot", "tcp:0", "--fault", "drop"}, "fault 'drop': no start"},
+                    BadOption{{"--robot", "tcp:0", "--fualt", "drop@1"}, "--fualt"},
+                    BadOption{{"--robot", "tcp:0", "--truth", "/no-such-folder/t.csv"}, "cannot write"}));
+
+}  // namespace
+}  // namespace heel::test

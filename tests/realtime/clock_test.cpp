@@ -1,0 +1,56 @@
+// Absolute deadlines: lateness, overruns, no drift.
+#include "realtime/clock.h"
+
+#include <gtest/gtest.h>
+
+namespace heel {
+namespace {
+
+TEST(Clock, SleepsToAnAbsoluteTimeAndNotAtAllWhenPast) {
+  const TimeNs start_ns = monotonic_now_ns();
+  sleep_until_ns(start_ns + 5 * kNsPerMs);
+  EXPECT_GE(monotonic_now_ns(), start_ns + 5 * kNsPerMs);
+  const TimeNs past_ns = monotonic_now_ns();
+  sleep_until_ns(past_ns - kNsPerS);
+  EXPECT_LT(monotonic_now_ns() - past_ns, kNsPerS);
+}
+
+TEST(PeriodicDeadline, StaysOnTheGridHoweverLateItWakes) {
+  PeriodicDeadline deadline(20, 1000);
+  EXPECT_EQ(deadline.next_ns(), 1020);
+  EXPECT_EQ(deadline.advance(1020), 0);
+  EXPECT_EQ(deadline.advance(1047), 7);
+  EXPECT_EQ(deadline.next_ns(), 1060);
+  EXPECT_EQ(deadline.overruns(), 0u);
+}
+
+TEST(PeriodicDeadline, SkipsAndCountsWhatPassedAltogether) {
+  PeriodicDeadline deadline(20, 0);
+  EXPECT_EQ(deadline.advance(20 + 45), 45);  // 40 and 60 have passed as well
+  EXPECT_EQ(deadline.overruns(), 2u);
+  EXPECT_EQ(deadline.next_ns(), 80);
+  EXPECT_EQ(deadline.advance(100), 20);  // exactly one period late: the deadline at 100 is missed too
+  EXPECT_EQ(deadline.overruns(), 3u);
+  EXPECT_EQ(deadline.next_ns(), 120);
+}
+
+TEST(PeriodicDeadline, WakingEarlyCountsAsOnTime) {
+  PeriodicDeadline deadline(20, 0);
+  EXPECT_EQ(deadline.advance(19), 0);
+  EXPECT_EQ(deadline.next_ns(), 40);
+}
+
+TEST(PeriodicDeadline, WaitSleepsToTheGrid) {
+  const TimeNs start_ns = monotonic_now_ns();
+  PeriodicDeadline deadline(2 * kNsPerMs, start_ns);
+  for (int i = 0; i < 5; ++i) {
+    const TimeNs due_ns = deadline.next_ns();
+    const TimeNs lateness_ns = deadline.wait();
+    EXPECT_GE(lateness_ns, 0);
+    EXPECT_GE(monotonic_now_ns(), due_ns + lateness_ns);
+    EXPECT_EQ((deadline.next_ns() - start_ns) % (2 * kNsPerMs), 0);
+  }
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,71 @@
+// A session and a scripted robot in virtual time, 50 ticks a second.
+#pragma once
+
+#include <vector>
+
+#include "robot/arcos_session.h"
+#include "robot/scripted_robot.h"
+
+namespace heel::test {
+
+inline constexpr TimeNs kTickNs = 20 * kNsPerMs;
+
+inline RobotConfig bench_config(const char* address = "pty:/dev/pts/0") {
+  RobotConfig config;
+  config.address = address;
+  return config;
+}
+
+class SessionBench {
+ public:
+  explicit SessionBench(const RobotConfig& config = bench_config()) : session(config) {
+    session.line_opened(now_ns);
+  }
+
+  /// One tick; the robot hears what was written, and what it says is heard at the next tick.
+  void tick() {
+    now_ns += kTickNs;
+    const Bytes said = robot.speak(now_ns);
+    const bool understood = robot.baud == 0 || robot.baud == session.wanted_baud();
+    if (understood && line_up) session.receive(said, now_ns);
+    VelocityCommand command;
+    command.t_issued_ns = now_ns;
+    command.t_expires_ns = now_ns + command_lifetime_ns;
+    command.v_m_s = v_m_s;
+    command.yaw_rate_rad_s = yaw_rate_rad_s;
+    const int baud = session.wanted_baud();
+    const auto bytes = session.tick(command, now_ns);
+    if (line_up) robot.receive(bytes, baud, now_ns);
+    SessionEvent event;
+    while (session.next_event(event)) events.push_back(event);
+  }
+
+  void run(double seconds) {
+    for (TimeNs end_ns = now_ns + ns_from_seconds(seconds); now_ns < end_ns;) tick();
+  }
+  /// False when `seconds` pass without it.
+  bool run_until(LinkPhase phase, double seconds = 20.0) {
+    for (TimeNs end_ns = now_ns + ns_from_seconds(seconds); now_ns < end_ns;) {
+      tick();
+      if (session.state().phase == phase) return true;
+    }
+    return false;
+  }
+
+  int count(SessionEventKind kind) const {
+    int n = 0;
+    for (const SessionEvent& event : events) n += event.kind == kind ? 1 : 0;
+    return n;
+  }
+
+  TimeNs now_ns = 1000 * kNsPerS;
+  ScriptedRobot robot;
+  ArcosSession session;
+  std::vector<SessionEvent> events;
+  bool line_up = true;
+  double v_m_s = 0.0;
+  double yaw_rate_rad_s = 0.0;
+  TimeNs command_lifetime_ns = 200 * kNsPerMs;
+};
+
+}  // namespace heel::test

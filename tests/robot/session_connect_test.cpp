@@ -1,0 +1,231 @@
+// The session from the first byte to motors enabled, on robots in every mood.
+#include <gtest/gtest.h>
+
+#include "robot/session_bench.h"
+
+namespace heel {
+namespace {
+
+using arcos::CommandId;
+using test::bench_config;
+using test::Received;
+using test::SessionBench;
+using Kind = SessionEventKind;
+
+TEST(SessionConnect, WholeScriptInOrder) {
+  SessionBench bench;
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+  struct Expected {
+    CommandId id;
+    bool has_value;
+    int value;
+  };
+  const Expected script[] = {
+      {CommandId::Sync0, false, 0},  {CommandId::Sync1, false, 0},  {CommandId::Sync2, false, 0},
+      {CommandId::Open, true, 1},    {CommandId::Stop, false, 0},   {CommandId::Config, true, 1},
+      {CommandId::SetV, true, 750},  {CommandId::SetA, true, 600},  {CommandId::SetA, true, -1500},
+      {CommandId::SetRv, true, 100}, {CommandId::SetRa, true, 180}, {CommandId::SetRa, true, -180},
+      {CommandId::Sonar, true, 1},   {CommandId::Vel, true, 0},     {CommandId::RVel, true, 0},
+      {CommandId::Enable, true, 1},
+  };
+  ASSERT_GE(bench.robot.log.size(), std::size(script));
+  for (std::size_t i = 0; i < std::size(script); ++i) {
+    const Received& got = bench.robot.log[i];
+    EXPECT_TRUE(got.is(script[i].id)) << i << ": " << got.id;
+    EXPECT_EQ(got.has_value, script[i].has_value) << i;
+    EXPECT_EQ(got.value, script[i].value) << i;
+  }
+  EXPECT_EQ(bench.session.identity().subclass.view(), "p3at-sh");
+  EXPECT_TRUE(bench.session.state().motors_enabled);
+  EXPECT_EQ(bench.count(Kind::ConfigReceived), 1);
+}
+
+TEST(SessionConnect, PhasesInOrder) {
+  SessionBench bench;
+  EXPECT_EQ(bench.session.state().phase, LinkPhase::Syncing);
+  EXPECT_TRUE(bench.run_until(LinkPhase::Opening));
+  EXPECT_FALSE(bench.session.state().has_sip);
+  bench.robot.enables_to_ignore = 1;
+  EXPECT_TRUE(bench.run_until(LinkPhase::Enabling));
+  EXPECT_TRUE(bench.session.state().has_sip);
+  EXPECT_TRUE(bench.run_until(LinkPhase::Running));
+}
+
+TEST(SessionConnect, SaysNothingBeforeItHasListened) {
+  SessionBench bench;
+  bench.run(0.28);
+  EXPECT_EQ(bench.robot.bytes_received, 0u);
+}
+
+TEST(SessionConnect, JunkBeforeTheFirstEcho) {
+  SessionBench bench;
+  bench.robot.junk = "WMS2\r";
+  EXPECT_TRUE(bench.run_until(LinkPhase::Running));
+  EXPECT_EQ(bench.session.state().bytes_discarded, 5u);
+}
+
+TEST(SessionConnect, RobotThatAnswersLate) {
+  SessionBench bench;
+  bench.robot.mute = true;
+  bench.run(1.0);
+  bench.robot.mute = false;
+  EXPECT_TRUE(bench.run_until(LinkPhase::Running));
+}
+
+TEST(SessionConnect, LastEchoLost) {
+  SessionBench bench;
+  bench.robot.last_echoes_to_swallow = 1;
+  EXPECT_TRUE(bench.run_until(LinkPhase::Running));
+}
+
+TEST(SessionConnect, RobotLeftOpenIsStoppedAndClosedBeforeAnyPulse) {
+  SessionBench bench;
+  bench.robot.open = true;
+  bench.robot.set_flag(arcos::kFlagMotorsEnabled, true);
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+  EXPECT_EQ(bench.count(Kind::FoundOpen), 1);
+  ASSERT_GE(bench.robot.log.size(), 3u);
+  EXPECT_TRUE(bench.robot.log[0].is(CommandId::Stop));   // zero first …
+  EXPECT_TRUE(bench.robot.log[1].is(CommandId::Close));  // … and SYNC0 is no PULSE any more
+  EXPECT_TRUE(bench.robot.log[2].is(CommandId::Sync0));
+}
+
+TEST(SessionConnect, MotorsAlreadyOnAreNotDrivenBeforeZeroHasGoneOut) {
+  SessionBench bench;
+  bench.robot.set_flag(arcos::kFlagMotorsEnabled, true);
+  bench.v_m_s = 0.5;
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+  bench.run(0.5);
+  const auto speeds = bench.robot.received(CommandId::Vel);
+  ASSERT_GT(speeds.size(), 3u);
+  EXPECT_EQ(speeds[0].value, 0);
+  EXPECT_LT(bench.robot.find(CommandId::Vel), bench.robot.find(CommandId::Enable));
+  EXPECT_EQ(speeds.back().value, 500);
+}
+
+TEST(SessionBaud, FindsTheRateTheRobotWasLeftAt) {
+  for (const int baud : kRobotBauds) {
+    SessionBench bench(bench_config("serial:/dev/ttyUSB0@38400"));
+    bench.robot.baud = baud;
+    EXPECT_EQ(bench.session.wanted_baud(), 38400);
+    ASSERT_TRUE(bench.run_until(LinkPhase::Running, 30.0)) << baud;
+    EXPECT_EQ(bench.session.wanted_baud(), baud);
+
+    bench.session.line_lost(bench.now_ns);
+    bench.session.line_opened(bench.now_ns);
+    EXPECT_EQ(bench.session.wanted_baud(), baud);  // the last good one comes first
+    ASSERT_TRUE(bench.run_until(LinkPhase::Running, 4.0)) << baud;
+  }
+}
+
+TEST(SessionBaud, OpenAtAnotherRateIsHeardAndClosed) {
+  SessionBench bench(bench_config("serial:/dev/ttyUSB0@115200"));
+  bench.robot.baud = 9600;
+  bench.robot.open = true;
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running, 30.0));
+  EXPECT_TRUE(bench.robot.log[0].is(CommandId::Stop));
+}
+
+TEST(SessionBaud, AWholeSweepWithoutAnswerAsksForTheDeviceAnew) {
+  SessionBench bench(bench_config("serial:/dev/ttyUSB0@38400"));
+  bench.robot.mute = true;
+  bench.run(5 * 2.0);
+  EXPECT_FALSE(bench.session.line_exhausted());
+  bench.run(2.0);
+  EXPECT_TRUE(bench.session.line_exhausted());
+  EXPECT_EQ(bench.count(Kind::NoAnswer), 5);
+  bench.session.line_opened(bench.now_ns);
+  EXPECT_FALSE(bench.session.line_exhausted());
+}
+
+TEST(SessionBaud, APtyIsSweptAsASerialLineIs) {
+  SessionBench bench(bench_config("pty:/dev/pts/0"));
+  bench.robot.baud = 9600;
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running, 30.0));
+  EXPECT_EQ(bench.session.wanted_baud(), 9600);
+}
+
+TEST(SessionBaud, NothingToTuneOverTcp) {
+  SessionBench bench(bench_config("tcp:robot:8101"));
+  bench.robot.mute = true;
+  const int baud = bench.session.wanted_baud();
+  bench.run(3.0);
+  EXPECT_EQ(bench.session.wanted_baud(), baud);
+  EXPECT_TRUE(bench.session.line_exhausted());
+}
+
+TEST(SessionConfig, MissingOrDamagedIsDoneWithout) {
+  for (const bool damaged : {false, true}) {
+    SessionBench bench;
+    bench.robot.answers_config = damaged;
+    bench.robot.config_damaged = damaged;
+    ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+    EXPECT_EQ(bench.count(Kind::ConfigMissing), 1);
+    EXPECT_EQ(bench.session.state().checksum_errors, damaged ? 1u : 0u);
+    EXPECT_TRUE(bench.robot.log[bench.robot.find(CommandId::SetV)].is(CommandId::SetV, 750));
+  }
+}
+
+TEST(SessionConfig, ControllersOwnLimitsAreNotExceeded) {
+  SessionBench bench;
+  bench.robot.config.trans_vel_top = 500;
+  bench.robot.config.trans_acc_top = 1000;
+  bench.robot.config.rot_vel_top = 90;
+  bench.robot.config.rot_acc_top = 0;  // not told
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+  const auto sent = [&](CommandId id, std::size_t i) { return bench.robot.received(id).at(i).value; };
+  EXPECT_EQ(sent(CommandId::SetV, 0), 500);
+  EXPECT_EQ(sent(CommandId::SetA, 0), 600);
+  EXPECT_EQ(sent(CommandId::SetA, 1), -1000);
+  EXPECT_EQ(sent(CommandId::SetRv, 0), 90);
+  EXPECT_EQ(sent(CommandId::SetRa, 0), 180);
+}
+
+TEST(SessionConfig, NotAskedWhenNotWanted) {
+  RobotConfig config = bench_config();
+  config.request_config = false;
+  SessionBench bench(config);
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+  EXPECT_TRUE(bench.robot.received(CommandId::Config).empty());
+  EXPECT_EQ(bench.count(Kind::ConfigMissing), 0);
+}
+
+TEST(SessionConfig, SonarsAreOnOrOffAsConfigured) {
+  for (const bool on : {true, false}) {
+    RobotConfig config = bench_config();
+    config.sonar = on;
+    SessionBench bench(config);
+    ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+    EXPECT_EQ(bench.robot.received(CommandId::Sonar).at(0).value, on ? 1 : 0);
+  }
+}
+
+TEST(SessionEnable, AskedAgainUntilTheFlagConfirms) {
+  SessionBench bench;
+  bench.robot.enables_to_ignore = 2;
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+  const auto enables = bench.robot.received(CommandId::Enable);
+  ASSERT_EQ(enables.size(), 3u);
+  EXPECT_EQ(bench.count(Kind::EnableRepeated), 2);
+}
+
+TEST(SessionEnable, FailureIsNamedAndLeavesTheMotorsAlone) {
+  SessionBench bench;
+  bench.robot.enables_to_ignore = 1000;
+  bench.v_m_s = 0.5;
+  ASSERT_TRUE(bench.run_until(LinkPhase::Disabled));
+  EXPECT_EQ(bench.count(Kind::EnableFailed), 1);
+  bench.run(5.0);
+  EXPECT_EQ(bench.robot.received(CommandId::Enable).size(), 3u);
+  for (const Received& speed : bench.robot.received(CommandId::Vel)) ASSERT_EQ(speed.value, 0);
+}
+
+TEST(SessionEnable, ButtonHeldFromTheBeginning) {
+  SessionBench bench;
+  bench.robot.set_flag(arcos::kFlagStopButton, true);
+  ASSERT_TRUE(bench.run_until(LinkPhase::Disabled));
+  EXPECT_EQ(bench.count(Kind::StopButton), 1);
+}
+
+}  // namespace
+}  // namespace heel

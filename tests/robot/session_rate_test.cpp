@@ -1,0 +1,137 @@
+// A slow line made faster before the motors run, and what becomes of it when that fails.
+#include <gtest/gtest.h>
+
+#include "robot/session_bench.h"
+
+namespace heel {
+namespace {
+
+using arcos::CommandId;
+using test::bench_config;
+using test::SessionBench;
+using Kind = SessionEventKind;
+
+/// At 9600 baud, where 38400 is wanted.
+struct SlowBench : SessionBench {
+  explicit SlowBench(const char* address = "serial:/dev/ttyS0@38400") : SessionBench(bench_config(address)) {
+    robot.baud = 9600;
+    robot.config.autobaud = std::uint8_t{2};
+  }
+  bool run_until_asked() {
+    for (int i = 0; i < 1000 && robot.received(CommandId::HostBaud).empty(); ++i) tick();
+    return !robot.received(CommandId::HostBaud).empty();
+  }
+};
+
+TEST(SessionRate, IsRaisedBeforeLimitsAndMotors) {
+  SlowBench bench;
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+  EXPECT_EQ(bench.robot.baud, 38400);
+  EXPECT_EQ(bench.session.wanted_baud(), 38400);
+  EXPECT_EQ(bench.count(Kind::RateRaised), 1);
+  const auto& log = bench.robot.log;
+  const std::size_t asked = bench.robot.find(CommandId::HostBaud);
+  ASSERT_LT(asked, log.size());
+  EXPECT_TRUE(log[asked].is(CommandId::HostBaud, 2));
+  const std::size_t pulse = bench.robot.find(CommandId::Pulse, asked);
+  EXPECT_EQ(pulse, asked + 1);
+  EXPECT_GE(log.at(pulse).t_ns - log[asked].t_ns, 20 * kNsPerMs);
+  EXPECT_LT(pulse, bench.robot.find(CommandId::SetV));
+  EXPECT_LT(pulse, bench.robot.find(CommandId::Enable));
+  EXPECT_EQ(bench.robot.received(CommandId::HostBaud).size(), 1u);
+  EXPECT_EQ(bench.count(Kind::Synchronised), 1);
+}
+
+TEST(SessionRate, IsKeptOverAReconnectionAndRaisedAgainAfterARestart) {
+  SlowBench bench;
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+  bench.session.line_lost(bench.now_ns);
+  bench.session.line_opened(bench.now_ns);
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running, 4.0));
+  EXPECT_EQ(bench.count(Kind::RateRaised), 1);
+
+  bench.session.line_lost(bench.now_ns);
+  bench.robot.open = false;
+  bench.robot.baud = 9600;
+  bench.session.line_opened(bench.now_ns);
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running, 30.0));
+  EXPECT_EQ(bench.count(Kind::RateRaised), 2);
+  EXPECT_EQ(bench.robot.baud, 38400);
+}
+
+TEST(SessionRate, IsNotTouchedWhereTheRobotCannotOrNobodyWantsIt) {
+  for (const int autobaud : {-1, 0, 1}) {
+    SlowBench bench;
+    bench.robot.config.autobaud.reset();
+    if (autobaud >= 0) bench.robot.config.autobaud = static_cast<std::uint8_t>(autobaud);
+    ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+    EXPECT_TRUE(bench.robot.received(CommandId::HostBaud).empty()) << autobaud;
+    EXPECT_EQ(bench.session.wanted_baud(), 9600);
+  }
+  for (const char* address : {"serial:/dev/ttyS0@9600", "tcp:robot:8101"}) {
+    SlowBench bench(address);
+    if (address[0] == 't') bench.robot.baud = 0;
+    ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+    EXPECT_TRUE(bench.robot.received(CommandId::HostBaud).empty()) << address;
+  }
+  SlowBench faster;
+  faster.robot.baud = 115200;
+  ASSERT_TRUE(faster.run_until(LinkPhase::Running, 30.0));
+  EXPECT_TRUE(faster.robot.received(CommandId::HostBaud).empty());
+}
+
+TEST(SessionRate, ARobotThatDoesNotFollowIsMetAtTheOldRateAndNotAskedAgain) {
+  SlowBench bench;
+  bench.robot.host_bauds_to_follow = 0;
+  ASSERT_TRUE(bench.run_until_asked());
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running, 2.0));
+  EXPECT_EQ(bench.session.wanted_baud(), 9600);
+  EXPECT_EQ(bench.count(Kind::RateRefused), 1);
+  EXPECT_EQ(bench.count(Kind::SipSilence), 0);
+
+  bench.session.line_lost(bench.now_ns);
+  bench.session.line_opened(bench.now_ns);
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running, 4.0));
+  EXPECT_EQ(bench.robot.received(CommandId::HostBaud).size(), 1u);
+}
+
+TEST(SessionRate, ARobotThatFollowsUnheardIsCalledBack) {
+  SlowBench bench;
+  bench.robot.unheard_at = 38400;
+  ASSERT_TRUE(bench.run_until_asked());
+  EXPECT_EQ(bench.robot.baud, 38400);
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running, 2.0));
+  EXPECT_EQ(bench.robot.baud, 9600);
+  EXPECT_EQ(bench.session.wanted_baud(), 9600);
+  EXPECT_EQ(bench.count(Kind::Synchronised), 1);  // it never was away
+}
+
+TEST(SessionRate, LostAllTheSameItIsFoundByTheSweep) {
+  SlowBench bench;
+  bench.robot.host_bauds_to_follow = 1;  // it follows once, and not back
+  bench.robot.unheard_at = 38400;
+  ASSERT_TRUE(bench.run_until_asked());
+  bench.run(2.0);
+  EXPECT_EQ(bench.session.wanted_baud(), 9600);
+  EXPECT_EQ(bench.robot.baud, 38400);
+  EXPECT_TRUE(bench.robot.received(CommandId::Enable).empty());
+  bench.robot.unheard_at = 0;
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running, 30.0));
+  EXPECT_EQ(bench.session.wanted_baud(), 38400);
+  EXPECT_EQ(bench.robot.received(CommandId::HostBaud).size(), 2u);
+}
+
+TEST(SessionRate, LineLostWhileTheNewRateIsTried) {
+  SlowBench bench;
+  ASSERT_TRUE(bench.run_until_asked());
+  for (int i = 0; i < 10 && bench.session.wanted_baud() == 9600; ++i) bench.tick();
+  ASSERT_EQ(bench.session.wanted_baud(), 38400);
+  bench.session.line_lost(bench.now_ns);
+  bench.session.line_opened(bench.now_ns);
+  EXPECT_EQ(bench.session.wanted_baud(), 9600);  // the last at which it was heard
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running, 30.0));
+  EXPECT_EQ(bench.session.wanted_baud(), 38400);
+}
+
+}  // namespace
+}  // namespace heel

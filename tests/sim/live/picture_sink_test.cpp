@@ -1,0 +1,53 @@
+// "file:PICTURE.pgm": the newest frame as a file, never half of one.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "heel/error.h"
+#include "sim/live/frame_sink.h"
+#include "support/temporary_folder.h"
+
+namespace heel::sim {
+namespace {
+
+FrameHeader of_four_by_two() {
+  FrameHeader header;
+  header.width_px = 4;
+  header.height_px = 2;
+  return header;
+}
+
+TEST(PictureSink, TheFileIsTheNewestFrame) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("now.pgm");
+  const auto sink = open_frame_sink("file:" + path, 4, 2, 30.0);
+  EXPECT_FALSE(std::filesystem::exists(path)) << "nothing to see before the first frame";
+  for (const std::uint8_t level : {std::uint8_t{10}, std::uint8_t{200}}) {
+    sink->put(of_four_by_two(), std::vector<std::uint8_t>(8, level));
+    EXPECT_EQ(test::read_text(path).substr(0, 2), "P5") << "a binary PGM, which anybody reads";
+    const cv::Mat read = cv::imread(path, cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(read.type(), CV_8UC1);
+    ASSERT_EQ(read.size(), cv::Size(4, 2));
+    EXPECT_EQ(cv::countNonZero(read != level), 0);
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1)
+      << "nothing is left beside it";
+}
+
+TEST(PictureSink, SaysWhatItCannotDo) {
+  const auto complaint = [](const std::string& address) -> std::string {
+    try {
+      open_frame_sink(address, 4, 2, 30.0)->put(of_four_by_two(), std::vector<std::uint8_t>(8));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint("file:now.png"), "--camera file:now.png (expected file:PICTURE.pgm)");
+  EXPECT_NE(complaint("file:/nowhere/now.pgm").find("/nowhere/now.pgm"), std::string::npos);
+  EXPECT_NE(complaint("libcamera:x").find("expected sim:NAME"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace heel::sim

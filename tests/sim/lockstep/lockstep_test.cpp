@@ -1,0 +1,170 @@
+// Lock step: the daemon's stages follow the simulated person, and a run repeats to the bit.
+#include "sim/lockstep/lockstep.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "evaluation/experiments/run_record.h"
+#include "evaluation/metrics/metrics.h"
+#include "heel/error.h"
+#include "support/sanitized.h"
+
+namespace heel::sim {
+namespace {
+
+/// Under a sanitizer a picture takes twenty times as long.
+constexpr const char* kSmallPicture =
+    "[camera]\nwidth_px = 320\nheight_px = 240\nfocal_px = [415.0, 415.0]\ncentre_px = [161.0, 118.0]\n";
+
+LockstepSettings short_walk() {
+  LockstepSettings settings;
+  settings.scenario = parse_scenario(R"(
+seed = 3
+duration_s = 8.0
+[person]
+walk_after_s = 1.0
+[[person.path]]
+step = "straight"
+length_m = 3.0
+[robot]
+x_m = -1.8
+[room]
+objects = 15
+)" + std::string(test::kSanitized ? kSmallPicture : ""),
+                                     "short.toml");
+  apply_scenario(settings.scenario, settings.config);
+  settings.shirt = teach_from_world(settings.scenario, 1.5);
+  return settings;
+}
+
+/// Everything observable, as bytes.
+class Transcript : public LockstepObserver {
+ public:
+  void on_tick(const TickRecord& tick, const TruthMoment& truth) override {
+    append(tick.command.v_m_s);
+    append(tick.target.yaw_rad);
+    append(truth.robot.pose.x_m);
+    append(truth.world.back_m.x());
+  }
+  void on_pose(const FrameView& frame, const PoseEstimate& pose, const TruthMoment& /*truth*/) override {
+    frames.append(reinterpret_cast<const char*>(frame.grey), 320UL * 240UL);
+    append(pose.yaw_rad);
+    append(pose.certainty);
+  }
+  void on_bytes_to_robot(std::span<const std::uint8_t> bytes, TimeNs t_ns) override {
+    append(static_cast<double>(t_ns));
+    wire.append(bytes.begin(), bytes.end());
+  }
+  std::string numbers, frames, wire;
+
+ private:
+  void append(double value) { numbers.append(reinterpret_cast<const char*>(&value), sizeof value); }
+};
+
+/// The short walk with everything that could make a run depend on more than its seed.
+LockstepSettings troubled_walk() {
+  LockstepSettings settings = short_walk();
+  Scenario& scenario = settings.scenario;
+  scenario.passers_by.emplace_back();
+  scenario.passers_by[0].start = {.x_m = 1.0, .y_m = 1.5, .heading_rad = -1.57};
+  scenario.passers_by[0].path = {WalkItem{.length_m = 3.0}};
+  scenario.obstacles.emplace_back();
+  scenario.obstacles[0].y_m = -1.0;
+  scenario.camera.readout_ms = 20.0;
+  scenario.camera.jpeg_quality = 70;
+  scenario.camera.sensor.glare = 0.1;
+  scenario.camera.exposure.automatic = true;
+  scenario.camera.timing = {.drop_share = 0.1, .late_share = 0.2, .late_ms = 90.0, .jitter_ms = 2.0};
+  scenario.light.changes = {{1.5, 0.3}};
+  scenario.room.bump_m = 0.002;
+  return settings;
+}
+
+TEST(Lockstep, RepeatsToTheBit) {
+  LockstepSettings settings = troubled_walk();
+  settings.scenario.duration_s = test::kSanitized ? 1.0 : 2.5;
+  Transcript first, second, other;
+  run_lockstep(settings, first);
+  run_lockstep(settings, second);
+  settings.scenario.seed = 4;
+  run_lockstep(settings, other);
+  EXPECT_GT(first.wire.size(), 200U);
+  EXPECT_EQ(first.wire, second.wire);
+  EXPECT_EQ(first.numbers, second.numbers);
+  EXPECT_EQ(first.frames, second.frames);
+  EXPECT_NE(first.frames, other.frames);
+}
+
+TEST(Lockstep, FollowsAWalkingPerson) {
+  if (test::kThreadSanitizer) GTEST_SKIP() << "RepeatsToTheBit runs the same threads for a shorter time";
+  const LockstepSettings settings = short_walk();
+  RunRecord record("", settings);
+  const LockstepCounts counts = run_lockstep(settings, record);
+  const FollowMetrics metrics = record.metrics().evaluate();
+  EXPECT_EQ(counts.ticks, 401U);  // 50 Hz for 8 s, and the one that shuts down
+  EXPECT_NEAR(static_cast<double>(counts.frames), 239.0, 1.0);
+  EXPECT_GT(metrics.robot_path_m, 1.0);
+  EXPECT_LT(metrics.out_of_view_longest_s, 0.5);
+  EXPECT_LT(metrics.lateral_m.rms, 0.15);
+  EXPECT_LT(std::abs(metrics.yaw_error_rad.mean), 0.05);
+  EXPECT_LT(metrics.z_error_m.rms, 0.06);
+  EXPECT_GT(metrics.separation_m.lowest, 1.2);
+}
+
+TEST(Lockstep, SlowVisionLosesFramesButNotThePerson) {
+  if (test::kThreadSanitizer) GTEST_SKIP() << "RepeatsToTheBit runs the same threads for a shorter time";
+  LockstepSettings settings = short_walk();
+  settings.scenario.duration_s = 5.0;
+  settings.scenario.vision_latency_ms = 80.0;  // every third frame can be looked at
+  RunRecord record("", settings);
+  const LockstepCounts counts = run_lockstep(settings, record);
+  EXPECT_GT(counts.frames_overtaken, counts.frames / 3);
+  EXPECT_GT(record.metrics().evaluate().robot_path_m, 0.3);
+}
+
+/// Keeps what the poses' times say.
+class PoseTimes : public LockstepObserver {
+ public:
+  void on_pose(const FrameView& frame, const PoseEstimate& pose, const TruthMoment& truth) override {
+    stamp_error_s.push_back(seconds_from_ns(frame.header.t_capture_ns - truth.t_ns));
+    latency_s.push_back(seconds_from_ns(pose.t_done_ns - truth.t_ns));
+  }
+  std::vector<double> stamp_error_s, latency_s;
+};
+
+TEST(Lockstep, FramesAreDroppedLateAndIllStamped) {
+  if (test::kThreadSanitizer) GTEST_SKIP() << "RepeatsToTheBit runs the same threads for a shorter time";
+  LockstepSettings settings = short_walk();
+  settings.scenario.duration_s = test::kSanitized ? 2.0 : 6.0;
+  settings.scenario.camera.timing = {
+      .drop_share = 0.2, .late_share = 0.2, .late_ms = 100.0, .jitter_ms = 3.0};
+  PoseTimes times;
+  const LockstepCounts counts = run_lockstep(settings, times);
+  EXPECT_NEAR(static_cast<double>(counts.frames_dropped), 0.2 * static_cast<double>(counts.frames), 15.0);
+  // What came was seen, but for what was overtaken (the last may still be waiting).
+  EXPECT_NEAR(static_cast<double>(times.latency_s.size()),
+              static_cast<double>(counts.frames - counts.frames_dropped - counts.frames_overtaken), 1.0);
+  double worst_stamp = 0, longest = 0, shortest = 1;
+  for (std::size_t i = 0; i < times.latency_s.size(); ++i) {
+    worst_stamp = std::max(worst_stamp, std::abs(times.stamp_error_s[i]));
+    longest = std::max(longest, times.latency_s[i]);
+    shortest = std::min(shortest, times.latency_s[i]);
+  }
+  EXPECT_GT(worst_stamp, 0.003);
+  EXPECT_LE(worst_stamp, 0.009 + 1e-9);
+  EXPECT_NEAR(shortest, 0.029, 1e-6);  // half the exposure and vision's 25 ms
+  EXPECT_GT(longest, 0.029 + 0.05);
+}
+
+TEST(Lockstep, PlainShirtIsRefusedWithTheReason) {
+  Scenario scenario = short_walk().scenario;
+  scenario.person.shirt = ShirtDesign::Plain;
+  EXPECT_THROW(teach_from_world(scenario, 1.5), Error);
+}
+
+}  // namespace
+}  // namespace heel::sim

@@ -1,0 +1,362 @@
+// What the standard information packet says: position and its wrap, flags, bumpers, stalls, sonars, the tail.
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "sim/robot/virtual_client.h"
+
+namespace heel::sim::test {
+namespace {
+
+using arcos::CommandId;
+
+arcos::Sip sip_after(VirtualClient& client, int ms = 250) {
+  client.run_fed_ms(ms);
+  return client.last_sip();
+}
+
+TEST(SipMotion, IdTellsStandingFromMoving) {
+  VirtualClient client(fast_exact_settings());
+  client.open_and_enable();
+  EXPECT_EQ(sip_after(client).id, 0x32);
+  client.command(CommandId::Vel, 200);
+  const arcos::Sip moving = sip_after(client, 1500);
+  EXPECT_EQ(moving.id, 0x33);
+  EXPECT_EQ(moving.left_mm_s, 200);
+  EXPECT_EQ(moving.right_mm_s, 200);
+  client.command(CommandId::Stop);
+  EXPECT_EQ(sip_after(client, 1500).id, 0x32);
+}
+
+TEST(SipMotion, TurningShowsInWheelsAndRotationalVelocity) {
+  VirtualClient client(fast_exact_settings());
+  client.open_and_enable();
+  client.command(CommandId::RVel, 20);
+  const arcos::Sip sip = sip_after(client, 1500);
+  const double wheel_mm_s = 20.0 * std::numbers::pi / 180.0 * 588.0 / 2.0;
+  EXPECT_NEAR(sip.right_mm_s, wheel_mm_s, 1.0);
+  EXPECT_NEAR(sip.left_mm_s, -wheel_mm_s, 1.0);
+  EXPECT_EQ(sip.rotation_ddeg_s, 200);
+}
+
+class PositionUnits : public testing::TestWithParam<double> {};
+
+TEST_P(PositionUnits, WrapNaturallyIn16Bits) {
+  const double mm_per_unit = GetParam();
+  P3AtSettings settings = fast_exact_settings();
+  settings.mm_per_position_unit = mm_per_unit;
+  VirtualClient client(settings);
+  client.open_and_enable();
+  client.command(CommandId::Vel, -500);
+  client.run_fed_ms(6000);  // below zero: just under 65536
+  arcos::Sip sip = client.last_sip();
+  EXPECT_GT(sip.x_pos, 58000);
+  EXPECT_NEAR(static_cast<std::int16_t>(sip.x_pos), client.robot.truth().odometry.x_m * 1000.0 / mm_per_unit,
+              55.0 / mm_per_unit);
+  client.command(CommandId::SetV, 1200);
+  client.command(CommandId::SetA, 1000);
+  client.command(CommandId::Vel, 1200);
+  client.run_fed_ms(62000);  // past 65.5 m
+  sip = client.last_sip();
+  const double units = client.robot.truth().odometry.x_m * 1000.0 / mm_per_unit;
+  ASSERT_GT(units, 65536.0);
+  EXPECT_NEAR(std::remainder(sip.x_pos - units, 65536.0), 0.0, 125.0 / mm_per_unit);
+}
+
+INSTANTIATE_TEST_SUITE_P(Factors, PositionUnits, testing::Values(1.0, 0.465));
+
+TEST(SipHeading, IsSignedOrCountsFromZeroAsConfigured) {
+  for (const bool from_zero : {false, true}) {
+    P3AtSettings settings = fast_exact_settings();
+    settings.heading_from_zero = from_zero;
+    VirtualClient client(settings);
+    client.open_and_enable();
+    client.command(CommandId::Head, -90);
+    const arcos::Sip sip = sip_after(client, 4000);
+    EXPECT_NEAR(sip.th_pos, from_zero ? 3072 : -1024, 1);
+    EXPECT_NEAR(sip.control, from_zero ? 3072 : -1024, 1);
+  }
+}
+
+TEST(SipHeading, CompassCountsClockwiseInTwoDegrees) {
+  P3AtSettings settings = fast_exact_settings();
+  settings.start.heading_rad = std::numbers::pi / 2.0;
+  VirtualClient client(settings);
+  client.open();
+  EXPECT_EQ(sip_after(client).compass_2deg, 135);
+}
+
+TEST(SipTail, HoldsBatteryChargeDigitalAndFaultFlags) {
+  P3AtSettings settings = fast_exact_settings();
+  settings.battery_v = 12.5;
+  settings.charge_state = 3;
+  VirtualClient client(settings);
+  client.open();
+  client.send(arcos::encode_digout(0x0F, 0x05));
+  client.command(CommandId::AdSel, 3);
+  const arcos::Sip sip = sip_after(client);
+  EXPECT_EQ(sip.battery_dv, 125);
+  EXPECT_EQ(sip.battery_long_dv, 125);
+  EXPECT_EQ(sip.charge_state, 3);
+  EXPECT_EQ(sip.digital_out, 5);
+  EXPECT_EQ(sip.ad_port, 3);
+  EXPECT_TRUE(sip.fault_flags.has_value());
+  EXPECT_NE(sip.flags & arcos::kFlagPowerGood, 0);
+
+  client.command(CommandId::BatTest, 110);
+  EXPECT_EQ(sip_after(client).battery_dv, 110);
+
+  settings.sends_fault_flags = false;
+  VirtualClient older(settings);
+  older.open();
+  EXPECT_FALSE(sip_after(older).fault_flags.has_value());
+}
+
+TEST(SipTail, TheBatteryDrains) {
+  P3AtSettings settings = fast_exact_settings();
+  settings.battery_drain_v_per_h = 36.0;
+  VirtualClient client(settings);
+  client.open();
+  EXPECT_NEAR(sip_after(client, 60000).battery_dv, 128 - 6, 1);
+}
+
+// ── bumpers, stalls, buttons ──
+
+TEST(Bumpers, ShowTheirSegmentsFrontHighRearLow) {
+  VirtualClient client(fast_exact_settings());
+  client.open();
+  client.robot.touch_bumper(0b0000101, 0b1000000);
+  const arcos::Sip sip = sip_after(client);
+  EXPECT_EQ(sip.stall_and_bumpers, 0x0A80);
+  EXPECT_EQ(sip.bumpers_front(), 0b0000101);
+  EXPECT_EQ(sip.bumpers_rear(), 0b1000000);
+  client.robot.touch_bumper(0, 0);
+  EXPECT_EQ(sip_after(client).stall_and_bumpers, 0);
+}
+
+struct BumpCase {
+  int bump_stall;
+  int speed_mm_s;
+  bool front;
+  bool stalls;
+};
+class BumpStall : public testing::TestWithParam<BumpCase> {};
+
+TEST_P(BumpStall, StopsTheRobotOnlyInTheDirectionOfTheBumper) {
+  const BumpCase bump = GetParam();
+  VirtualClient client(fast_exact_settings());
+  client.open_and_enable();
+  client.command(CommandId::BumpStall, bump.bump_stall);
+  client.command(CommandId::Vel, bump.speed_mm_s);
+  client.run_fed_ms(1500);
+  client.robot.touch_bumper(bump.front ? 1 : 0, bump.front ? 0 : 1);
+  const arcos::Sip sip = sip_after(client, 400);
+  EXPECT_EQ(sip.stall_left() && sip.stall_right(), bump.stalls);
+  EXPECT_EQ(client.robot.truth().v_m_s == 0.0, bump.stalls);
+  client.robot.touch_bumper(0, 0);
+  client.run_fed_ms(1500);
+  EXPECT_NEAR(client.robot.truth().v_m_s, bump.speed_mm_s * 1e-3, 1e-9) << "it goes on when let go";
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, BumpStall,
+                         testing::Values(BumpCase{0, 300, true, false}, BumpCase{0, -300, false, false},
+                                         BumpCase{1, 300, true, true}, BumpCase{1, -300, false, false},
+                                         BumpCase{1, -300, true, false}, BumpCase{2, 300, true, false},
+                                         BumpCase{2, -300, false, true}, BumpCase{2, 300, false, false},
+                                         BumpCase{3, 300, true, true}, BumpCase{3, -300, false, true}));
+
+TEST(Stall, ABlockedWheelCutsPowerAfterHalfASecondAndTriesAgain) {
+  VirtualClient client(fast_exact_settings());
+  client.open_and_enable();
+  client.command(CommandId::Vel, 300);
+  client.run_fed_ms(1500);
+  client.robot.block_wheels(true, false);
+  client.run_ms(490);
+  EXPECT_FALSE(client.robot.truth().stall_left);
+  EXPECT_GT(client.robot.truth().wheels.right_m_s, 0.2) << "the free wheel goes on";
+  client.run_ms(20);
+  EXPECT_TRUE(client.robot.truth().stall_left);
+  EXPECT_FALSE(client.robot.truth().stall_right);
+  const arcos::Sip sip = sip_after(client, 120);
+  EXPECT_TRUE(sip.stall_left());
+  EXPECT_FALSE(sip.stall_right());
+  client.robot.block_wheels(false, false);
+  client.run_fed_ms(2000);
+  EXPECT_NEAR(client.robot.truth().v_m_s, 0.3, 1e-9);
+  EXPECT_FALSE(client.robot.truth().stall_left);
+}
+
+TEST(Stall, TwoShortPushesAreNotOneLongOne) {
+  VirtualClient client(fast_exact_settings());
+  client.open_and_enable();
+  client.command(CommandId::Vel, 300);
+  client.run_fed_ms(1500);
+  for (int i = 0; i < 4; ++i) {
+    client.robot.block_wheels(true, true);
+    client.run_ms(300);
+    client.robot.block_wheels(false, false);
+    client.run_ms(150);
+  }
+  EXPECT_FALSE(client.happened(RobotEventKind::Stalled));
+}
+
+TEST(Stall, StandingAgainstAWallWithoutPushingIsNone) {
+  VirtualClient client(fast_exact_settings());
+  client.open_and_enable();
+  client.robot.block_wheels(true, true);
+  client.run_fed_ms(3000);
+  EXPECT_FALSE(client.happened(RobotEventKind::Stalled));
+}
+
+TEST(StopButton, SwitchesMotorsOffUntilAnExplicitEnable) {
+  VirtualClient client(fast_exact_settings());
+  client.open_and_enable();
+  client.command(CommandId::Vel, 300);
+  client.run_fed_ms(1500);
+  client.robot.press_stop_button(true);
+  arcos::Sip sip = sip_after(client);
+  EXPECT_EQ(sip.flags & (arcos::kFlagMotorsEnabled | arcos::kFlagStopButton), arcos::kFlagStopButton);
+  EXPECT_EQ(sip.flags & arcos::kFlagEStall, 0);
+  EXPECT_EQ(client.robot.truth().v_m_s, 0.0);
+  client.command(CommandId::Enable, 1);
+  EXPECT_EQ(sip_after(client).flags & arcos::kFlagMotorsEnabled, 0) << "enabled under a held button";
+  client.robot.press_stop_button(false);
+  sip = sip_after(client, 1000);
+  EXPECT_EQ(sip.flags & (arcos::kFlagMotorsEnabled | arcos::kFlagStopButton), 0);
+  EXPECT_EQ(client.robot.truth().v_m_s, 0.0);
+  client.command(CommandId::Enable, 1);
+  EXPECT_EQ(sip_after(client).flags & arcos::kFlagMotorsEnabled, arcos::kFlagMotorsEnabled);
+}
+
+TEST(StopButton, WithEStallItStallsToo) {
+  VirtualClient client(fast_exact_settings());
+  client.open_and_enable();
+  client.command(CommandId::EStall, 1);
+  client.run_ms(50);
+  client.robot.press_stop_button(true);
+  client.run_ms(50);
+  client.robot.press_stop_button(false);
+  arcos::Sip sip = sip_after(client);
+  EXPECT_EQ(sip.flags & (arcos::kFlagMotorsEnabled | arcos::kFlagEStall), arcos::kFlagEStall);
+  EXPECT_TRUE(sip.stall_left() && sip.stall_right());
+  client.command(CommandId::Enable, 1);
+  sip = sip_after(client);
+  EXPECT_EQ(sip.flags & (arcos::kFlagMotorsEnabled | arcos::kFlagEStall), arcos::kFlagMotorsEnabled);
+  EXPECT_FALSE(sip.stall_left() || sip.stall_right());
+}
+
+// ── sonars ──
+
+TEST(Sonar, IsOnAfterOpenAndGivesAFewReadingsASip) {
+  VirtualClient client(fast_exact_settings());
+  client.open();
+  client.run_fed_ms(2050);
+  std::set<int> seen;
+  std::size_t readings = 0;
+  for (const Received& packet : client.sips()) {
+    arcos::Sip sip;
+    ASSERT_EQ(arcos::decode_sip(packet.body, sip), arcos::DecodeResult::Ok);
+    EXPECT_LE(sip.sonar_count, 6) << "two arrays, three discs each, fit in 100 ms";
+    readings += sip.sonar_count;
+    for (int i = 0; i < sip.sonar_count; ++i) {
+      seen.insert(sip.sonars[static_cast<std::size_t>(i)].number);
+      EXPECT_EQ(sip.sonars[static_cast<std::size_t>(i)].range_mm, 5000);
+    }
+  }
+  EXPECT_EQ(seen.size(), 16u);
+  EXPECT_NEAR(static_cast<double>(readings), 5.0 * static_cast<double>(client.sips().size()),
+              4.0);  // 2 arrays / 40 ms
+  EXPECT_EQ(client.last_sip().flags & arcos::kFlagSonarArrays, 0b110);
+}
+
+struct SonarCase {
+  int argument;
+  int flags;
+};
+class SonarCommand : public testing::TestWithParam<SonarCase> {};
+
+TEST_P(SonarCommand, SwitchesArrays) {
+  VirtualClient client(fast_exact_settings());
+  client.open();
+  if ((GetParam().argument & 1) != 0) client.command(CommandId::Sonar, 0);
+  client.command(CommandId::Sonar, GetParam().argument);
+  client.run_ms(150);
+  client.forget();
+  const arcos::Sip sip = sip_after(client, 450);
+  EXPECT_EQ(sip.flags & arcos::kFlagSonarArrays, GetParam().flags);
+  EXPECT_EQ(sip.sonar_count > 0, GetParam().flags != 0);
+  for (int i = 0; i < sip.sonar_count; ++i) {
+    const int array = sip.sonars[static_cast<std::size_t>(i)].number / 8;
+    EXPECT_NE(GetParam().flags & (2 << array), 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Arguments, SonarCommand,
+                         testing::Values(SonarCase{0, 0}, SonarCase{1, 0b110}, SonarCase{3, 0b010},
+                                         SonarCase{5, 0b100}, SonarCase{2, 0b100}, SonarCase{4, 0b010}));
+
+TEST(Sonar, MeasuresFromItsMountInTheWorld) {
+  P3AtSettings settings = fast_exact_settings();
+  settings.start = {1.0, 2.0, std::numbers::pi / 2.0};  // looks along +y
+  VirtualClient client(settings);
+  // A wall at y = 4: only the sensors that look at it hear it.
+  client.robot.set_range_finder([](const Pose2& sensor) {
+    const double s = std::sin(sensor.heading_rad);
+    return s > 0.1 ? (4.0 - sensor.y_m) / s : std::numeric_limits<double>::infinity();
+  });
+  client.open();
+  client.run_fed_ms(1000);
+  std::array<int, 16> range_mm{};
+  for (const Received& packet : client.sips()) {
+    arcos::Sip sip;
+    ASSERT_EQ(arcos::decode_sip(packet.body, sip), arcos::DecodeResult::Ok);
+    for (int i = 0; i < sip.sonar_count; ++i) {
+      const arcos::SonarReading& reading = sip.sonars[static_cast<std::size_t>(i)];
+      range_mm.at(reading.number) = reading.range_mm;
+    }
+  }
+  const double c10 = std::cos(10.0 * std::numbers::pi / 180.0),
+               c50 = std::cos(50.0 * std::numbers::pi / 180.0);
+  EXPECT_NEAR(range_mm[3], (2000 - 245) / c10, 1.0);
+  EXPECT_NEAR(range_mm[4], (2000 - 245) / c10, 1.0);
+  EXPECT_NEAR(range_mm[1], (2000 - 193) / c50, 1.0);
+  EXPECT_NEAR(range_mm[6], (2000 - 193) / c50, 1.0);
+  EXPECT_EQ(range_mm[11], 5000);
+  EXPECT_EQ(range_mm[12], 5000);
+}
+
+TEST(Sonar, PollingChoosesOrderAndSensorsFromOne) {
+  VirtualClient client(fast_exact_settings());
+  client.open();
+  client.send(arcos::encode_text(CommandId::Polling, std::string_view("\x04\x05\x04", 3)));
+  client.run_ms(150);
+  client.forget();
+  client.run_fed_ms(1000);
+  std::vector<int> numbers;
+  for (const Received& packet : client.sips()) {
+    arcos::Sip sip;
+    ASSERT_EQ(arcos::decode_sip(packet.body, sip), arcos::DecodeResult::Ok);
+    for (int i = 0; i < sip.sonar_count; ++i)
+      numbers.push_back(sip.sonars[static_cast<std::size_t>(i)].number);
+  }
+  ASSERT_GT(numbers.size(), 15u);
+  for (std::size_t i = 3; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], numbers[i - 3]);
+  EXPECT_EQ((std::set<int>(numbers.begin(), numbers.end())), (std::set<int>{3, 4}));
+}
+
+TEST(Sonar, MountsAreTheReferencesTable) {
+  const double expected[16][3] = {{147, 136, 90},    {193, 119, 50},     {227, 79, 30},     {245, 27, 10},
+                                  {245, -27, -10},   {227, -79, -30},    {193, -119, -50},  {147, -136, -90},
+                                  {-144, -136, -90}, {-189, -119, -130}, {-223, -79, -150}, {-241, -27, -170},
+                                  {-241, 27, 170},   {-223, 79, 150},    {-189, 119, 130},  {-144, 136, 90}};
+  for (int number = 0; number < 16; ++number) {
+    const Pose2 mount = sonar_mount(number);
+    EXPECT_NEAR(mount.x_m * 1000, expected[number][0], 1e-9) << number;
+    EXPECT_NEAR(mount.y_m * 1000, expected[number][1], 1e-9) << number;
+    EXPECT_NEAR(mount.heading_rad * 180 / std::numbers::pi, expected[number][2], 1e-9) << number;
+  }
+}
+
+}  // namespace
+}  // namespace heel::sim::test

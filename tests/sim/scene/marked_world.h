@@ -1,0 +1,83 @@
+// A person in the shirt with the dots, and whether a picture shows the dots where the truth says.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "sim/scene/shirts.h"
+#include "sim/scene/world.h"
+
+namespace heel::sim::test {
+
+inline Scenario marked_scenario() {
+  Scenario scenario;
+  scenario.person.shirt = ShirtDesign::Marked;
+  scenario.camera.model = default_camera_model();
+  scenario.camera.sensor.exposure_ms = 0.0;
+  scenario.room.objects = 10;
+  WalkItem ahead;
+  ahead.length_m = 10;
+  scenario.path = {ahead};
+  return scenario;
+}
+
+/// Centre of what is bright about `around`, weighted by how bright; NaN when nothing is.
+inline Eigen::Vector2d bright_centre(const std::vector<std::uint8_t>& grey, int width,
+                                     const Eigen::Vector2d& around) {
+  Eigen::Vector2d sum(0, 0);
+  double weight = 0;
+  constexpr int kRadius = 11;
+  const int cx = static_cast<int>(std::lround(around.x()));
+  const int cy = static_cast<int>(std::lround(around.y()));
+  for (int y = cy - kRadius; y <= cy + kRadius; ++y)
+    for (int x = cx - kRadius; x <= cx + kRadius; ++x) {
+      const double w = std::max(0.0, grey[static_cast<std::size_t>(y) * width + x] - 120.0);
+      sum += w * Eigen::Vector2d(x, y);
+      weight += w;
+    }
+  return sum / weight;
+}
+
+struct View {
+  double t_s;
+  RobotMotion robot;
+};
+
+/// Where the picture must show a dot of the shirt, by the world's own truth of it.
+inline bool mark_px(const World& world, const View& view, int mark, Eigen::Vector2d& px) {
+  const ShirtMark at = shirt_mark(mark);
+  return world.seen_px(
+      view.robot, view.t_s,
+      [&](double t_s) -> Eigen::Vector3d {
+        const PersonPose person = world.person_pose(t_s);
+        return person.world_from_part[kTorso] *
+               world.person().shirt_point_m(at.s_texel, at.t_texel, person.cloth);
+      },
+      px);
+}
+
+/// Every dot in every view within `tolerance_px` of where the truth puts it.
+inline void expect_marks_at_truth(const Scenario& scenario, const std::vector<View>& views,
+                                  double tolerance_px) {
+  World world(scenario);
+  world.start_walk(0.0);
+  std::vector<std::uint8_t> grey;
+  int seen = 0;
+  for (const View& view : views) {
+    world.render(view.robot, view.t_s, 0, grey);
+    for (int i = 0; i < kShirtMarks; ++i) {
+      Eigen::Vector2d px;
+      if (!mark_px(world, view, i, px)) continue;
+      if (px.x() < 20 || px.y() < 20 || px.x() > 620 || px.y() > 460) continue;
+      const Eigen::Vector2d found = bright_centre(grey, 640, px);
+      EXPECT_LT((found - px).norm(), tolerance_px)
+          << "mark " << i << " at t " << view.t_s << ": " << found.transpose() << " for " << px.transpose();
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, kShirtMarks * static_cast<int>(views.size()) * 2 / 3);
+}
+
+}  // namespace heel::sim::test

@@ -1,0 +1,21 @@
+// Runs a test's body on every instruction set.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "vision/features/simd_target.h"
+
+namespace heel::test {
+
+/// Runs `body` once for each instruction set heel is compiled for and this processor has, alone.
+template <typename Body>
+void for_each_simd_target(Body body) {
+  for (const std::string_view target : available_simd_targets()) {
+    SCOPED_TRACE(target);
+    ASSERT_TRUE(use_simd_target(target));
+    body();
+    use_best_simd_target();
+  }
+}
+
+}  // namespace heel::test

@@ -1,0 +1,127 @@
+#include "support/process.h"
+
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+namespace heel::test {
+
+void sleep_s(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+double monotonic_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string content_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+Process::Process(const std::vector<std::string>& argv, const std::string& log_path,
+                 const std::map<std::string, std::string>& environment)
+    : log_path_(log_path), log_is_ours_(log_path.empty()) {
+  std::vector<char*> arguments;
+  for (const auto& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  if (log_is_ours_) log_path_ = std::filesystem::temp_directory_path() / "heel-test-XXXXXX";
+  const int log = log_is_ours_ ? mkostemp(log_path_.data(), O_CLOEXEC)
+                               : open(log_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (log < 0) throw std::runtime_error("cannot write " + log_path_);
+  pid_ = fork();
+  if (pid_ == 0) {
+    dup2(log, STDOUT_FILENO);
+    dup2(log, STDERR_FILENO);
+    unsetenv("NOTIFY_SOCKET");
+    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  close(log);
+}
+
+Process::~Process() {
+  if (running()) signal(SIGKILL);
+  wait(5.0);
+  if (log_is_ours_) unlink(log_path_.c_str());
+}
+
+void Process::signal(int number) const {
+  if (!ended_) kill(pid_, number);
+}
+
+bool Process::running() {
+  if (!ended_ && waitpid(pid_, &status_, WNOHANG) == pid_) ended_ = true;
+  return !ended_;
+}
+
+int Process::wait(double timeout_s) {
+  if (!eventually([this] { return !running(); }, timeout_s)) return -1000;
+  return WIFEXITED(status_) ? WEXITSTATUS(status_) : -WTERMSIG(status_);
+}
+
+std::string Process::output() const {
+  return content_of(log_path_);
+}
+
+bool Process::says(const std::string& text, double timeout_s) {
+  bool found = false;
+  eventually(
+      [&] {
+        const bool ended = !running();  // asked first: what it wrote before its end is then in the output
+        found = output().find(text) != std::string::npos;
+        return found || ended;
+      },
+      timeout_s);
+  return found;
+}
+
+NotifySocket::NotifySocket(const std::string& path) : path_(path) {
+  fd_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::strncpy(address.sun_path, path.c_str(), sizeof address.sun_path - 1);
+  if (bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    throw std::runtime_error("cannot bind " + path);
+  }
+}
+
+NotifySocket::~NotifySocket() {
+  close(fd_);
+}
+
+const std::vector<std::string>& NotifySocket::messages() {
+  char text[4096];
+  for (ssize_t size; (size = recv(fd_, text, sizeof text, 0)) > 0;) {
+    messages_.emplace_back(text, static_cast<std::size_t>(size));
+  }
+  return messages_;
+}
+
+bool NotifySocket::receives(const std::string& text, double timeout_s) {
+  return eventually(
+      [&] {
+        for (const auto& message : messages()) {
+          if (message.find(text) != std::string::npos) return true;
+        }
+        return false;
+      },
+      timeout_s);
+}
+
+}  // namespace heel::test

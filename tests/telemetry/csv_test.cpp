@@ -1,0 +1,210 @@
+// Lines and columns of the recording.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/temporary_folder.h"
+#include "telemetry/csv_columns.h"
+
+namespace heel {
+namespace {
+
+std::vector<std::string> split(std::string text) {
+  if (!text.empty() && text.back() == '\n') text.pop_back();
+  std::vector<std::string> cells;
+  std::istringstream in(text);
+  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+template <typename Record>
+std::map<std::string, std::string> row_of(std::span<const CsvColumn<Record>> columns, const Record& record) {
+  CsvLine line;
+  const std::vector<std::string> names = split(csv_header(columns));
+  const std::vector<std::string> cells = split(std::string(csv_row(line, columns, record)));
+  EXPECT_EQ(names.size(), cells.size());
+  std::map<std::string, std::string> row;
+  for (std::size_t i = 0; i < std::min(names.size(), cells.size()); ++i) row[names[i]] = cells[i];
+  return row;
+}
+
+TEST(CsvLine, NumbersReadBackAsTheSameValue) {
+  for (const double value : {0.0, -0.1, 1.0 / 3.0, 6.02e23, -4.9e-324, 1.7976931348623157e308}) {
+    CsvLine line;
+    line.number(value);
+    EXPECT_EQ(std::strtod(std::string(line.finish()).c_str(), nullptr), value);
+  }
+  CsvLine line;
+  line.number(std::numeric_limits<double>::quiet_NaN());
+  line.number(-std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(line.finish(), "nan,nan\n");
+}
+
+TEST(CsvLine, SecondsAreExactToTheNanosecond) {
+  CsvLine line;
+  line.seconds(0);
+  line.seconds(1);
+  line.seconds(123'456'789'012'345'678);
+  line.seconds(-1'500'000'000);
+  EXPECT_EQ(line.finish(), "0.000000000,0.000000001,123456789.012345678,-1.500000000\n");
+}
+
+TEST(CsvLine, TextCannotBreakTheLineAndTooMuchIsCut) {
+  CsvLine line;
+  line.text("a,b\n\"c\"");
+  line.integer(std::int64_t{-7});
+  line.flag(true);
+  EXPECT_EQ(line.finish(), "a b  c ,-7,1\n");
+  line.text(std::string(100'000, 'x'));
+  line.text(std::string(100'000, 'y'));
+  const std::string_view cut = line.finish();
+  EXPECT_LE(cut.size(), 4096u);
+  EXPECT_EQ(cut.back(), '\n');
+}
+
+TEST(CsvColumns, ATickLandsUnderItsNames) {
+  TickRecord tick;
+  tick.tick = 17;
+  tick.t_ns = 2'500'000'000;
+  tick.lateness_ns = 12'500;
+  tick.stop_reason = StopReason::Bumper;
+  tick.robot.phase = LinkPhase::Running;
+  tick.robot.has_sip = true;
+  tick.robot.odometry = {2'400'000'000, 1.5, -2.5, 7.25, 0.125, -0.5};
+  tick.robot.bumpers_front = 5;
+  tick.robot.battery_v = 12.25;
+  tick.target.known = true;
+  tick.target.x_m = 2.0;
+  tick.target.yaw_rad = -0.75;
+  tick.target.goal_y_m = 0.0625;
+  tick.wanted.v_m_s = 0.75;
+  tick.command.v_m_s = 0.5;
+  tick.command.yaw_rate_rad_s = 0.25;
+  tick.command.t_expires_ns = 2'700'000'000;
+  tick.command.limited_by = kGateSpeed | kGateAge;
+  const auto row = row_of(tick_columns(), tick);
+  const std::map<std::string, std::string> expected{
+      {"t_s", "2.500000000"},
+      {"tick", "17"},
+      {"lateness_us", "12.5"},
+      {"stop_reason", "bumper pressed"},
+      {"link_phase", "running"},
+      {"odom_t_s", "2.400000000"},
+      {"odom_x_m", "1.5"},
+      {"odom_y_m", "-2.5"},
+      {"odom_heading_rad", "7.25"},
+      {"odom_v_m_s", "0.125"},
+      {"odom_yaw_rate_rad_s", "-0.5"},
+      {"bumpers_front", "5"},
+      {"battery_v", "12.25"},
+      {"target_x_m", "2"},
+      {"target_yaw_rad", "-0.75"},
+      {"goal_y_m", "0.0625"},
+      {"wanted_v_m_s", "0.75"},
+      {"command_v_m_s", "0.5"},
+      {"command_expires_s", "2.700000000"},
+      {"command_yaw_rate_rad_s", "0.25"},
+      {"limited_by", "5"},
+  };
+  for (const auto& [name, value] : expected) EXPECT_EQ(row.at(name), value) << name;
+}
+
+TEST(CsvColumns, WhatIsNotKnownIsNan) {
+  const auto tick = row_of(tick_columns(), TickRecord{});
+  for (const char* name : {"odom_x_m", "battery_v", "target_x_m", "target_yaw_rad", "goal_x_m"}) {
+    EXPECT_EQ(tick.at(name), "nan") << name;
+  }
+  PoseEstimate estimate;
+  estimate.reason = PoseReason::Found;
+  EXPECT_EQ(row_of(pose_columns(), estimate).at("position_m_0"), "nan") << "the distance is not known";
+  estimate.reason = PoseReason::TooFewMatches;
+  const auto pose = row_of(pose_columns(), estimate);
+  EXPECT_EQ(pose.at("reason"), "too few matches");
+  for (const char* name : {"yaw_rad", "t_over_d_2", "H_cur_from_ref_8", "R_cur_from_ref_0"}) {
+    EXPECT_EQ(pose.at(name), "nan") << name;
+  }
+}
+
+TEST(CsvColumns, APoseLandsUnderItsNames) {
+  PoseEstimate estimate;
+  estimate.reason = PoseReason::Found;
+  estimate.frame_sequence = 99;
+  estimate.t_capture_ns = 1'000'000'000;
+  estimate.t_done_ns = 1'020'000'000;
+  estimate.tracked = true;
+  estimate.certainty = 0.375;
+  estimate.has_distance = true;
+  for (std::size_t i = 0; i < 9; ++i) {
+    const double value = 0.5 + static_cast<double>(i);
+    estimate.R_cur_from_ref[i] = 30.0 + value;
+    estimate.H_cur_from_ref[i] = 40.0 + value;
+    if (i >= 3) continue;
+    estimate.t_over_d[i] = value;
+    estimate.position_m[i] = 10.0 + value;
+    estimate.t_over_d_sigma[i] = 20.0 + value;
+  }
+  const auto row = row_of(pose_columns(), estimate);
+  EXPECT_EQ(row.at("t_s"), "1.000000000");
+  EXPECT_EQ(row.at("done_s"), "1.020000000");
+  EXPECT_EQ(row.at("frame"), "99");
+  EXPECT_EQ(row.at("found"), "1");
+  EXPECT_EQ(row.at("tracked"), "1");
+  EXPECT_EQ(row.at("certainty"), "0.375");
+  for (int i = 0; i < 9; ++i) {
+    const std::string n = "_" + std::to_string(i);
+    const std::string value = std::to_string(i) + ".5";
+    EXPECT_EQ(row.at("R_cur_from_ref" + n), "3" + value);
+    EXPECT_EQ(row.at("H_cur_from_ref" + n), "4" + value);
+    if (i >= 3) continue;
+    EXPECT_EQ(row.at("t_over_d" + n), value);
+    EXPECT_EQ(row.at("position_m" + n), "1" + value);
+    EXPECT_EQ(row.at("t_over_d_sigma" + n), "2" + value);
+  }
+}
+
+TEST(CsvColumns, CountsOfTheFramePathLandUnderTheirNames) {
+  const CaptureCounters counts{
+      .t_ns = 1'250'000'000, .captured = 7, .dropped_by_driver = 5, .dropped_in_ring = 3, .reopened = 2};
+  const auto row = row_of(capture_columns(), counts);
+  EXPECT_EQ(row.at("t_s"), "1.250000000");
+  EXPECT_EQ(row.at("captured"), "7");
+  EXPECT_EQ(row.at("dropped_by_driver"), "5");
+  EXPECT_EQ(row.at("dropped_in_ring"), "3");
+  EXPECT_EQ(row.at("reopened"), "2");
+}
+
+// Arrays are documented by their first and last column.
+bool in_the_middle_of_an_array(const std::string& name, const std::set<std::string>& names) {
+  const std::size_t bar = name.rfind('_');
+  if (bar + 2 != name.size() || name.back() < '1' || name.back() > '9') return false;
+  std::string next = name;
+  ++next.back();
+  return names.contains(next);
+}
+
+TEST(CsvColumns, EveryColumnIsInTheReadmeAndDistinct) {
+  const std::string readme = test::read_text(HEEL_SOURCE_DIR "/src/telemetry/README.md");
+  ASSERT_FALSE(readme.empty());
+  for (const std::string& header :
+       {csv_header(tick_columns()), csv_header(pose_columns()), csv_header(capture_columns())}) {
+    const std::vector<std::string> names = split(header);
+    const std::set<std::string> distinct(names.begin(), names.end());
+    EXPECT_EQ(distinct.size(), names.size());
+    EXPECT_EQ(names.front(), "t_s");
+    for (const std::string& name : names) {
+      if (in_the_middle_of_an_array(name, distinct)) continue;
+      EXPECT_NE(readme.find("`" + name + "`"), std::string::npos) << name << " is not in the README";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace heel

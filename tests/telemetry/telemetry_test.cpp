@@ -1,0 +1,137 @@
+// The telemetry thread: everything arrives, changes are told once, floods are not, losses are.
+#include "telemetry/telemetry.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <thread>
+
+#include "support/temporary_folder.h"
+#include "telemetry/collected_log.h"
+#include "telemetry/event_text.h"
+
+namespace heel {
+namespace {
+
+using testing::HasSubstr;
+
+Event event_of(EventKind kind, TimeNs t_ns, const char* text = "") {
+  Event event;
+  event.t_ns = t_ns;
+  event.kind = kind;
+  std::strncpy(event.text.data(), text, event.text.size() - 1);
+  return event;
+}
+
+class TelemetryTest : public testing::Test {
+ protected:
+  TelemetryFeeds feeds_;
+  test::CollectedLog log_;
+};
+
+TEST_F(TelemetryTest, ChangesOfStopReasonAndLinkAreToldOnce) {
+  Telemetry telemetry(feeds_, {});
+  TickRecord tick;
+  for (const StopReason reason : {StopReason::NoTargetYet, StopReason::NoTargetYet, StopReason::None,
+                                  StopReason::None, StopReason::TargetLost, StopReason::None}) {
+    tick.stop_reason = reason;
+    tick.robot.phase = LinkPhase::Running;
+    ++tick.tick;
+    feeds_.ticks.push(tick);
+  }
+  tick.robot.phase = LinkPhase::Lost;
+  feeds_.ticks.push(tick);
+  telemetry.drain(kNsPerS);
+  EXPECT_EQ(log_.told("at rest: no target seen yet"), 1);
+  EXPECT_EQ(log_.told("at rest: target lost"), 1);
+  EXPECT_EQ(log_.told("following"), 2);
+  EXPECT_EQ(log_.told("link to the robot: running"), 1);
+  EXPECT_EQ(log_.told("[warning] link to the robot: lost"), 1);
+  EXPECT_EQ(telemetry.snapshot().ticks, 7u);
+  EXPECT_EQ(telemetry.snapshot().tick.tick, 6u);
+}
+
+TEST_F(TelemetryTest, EventsOfEveryThreadAreToldFloodsAtMostOnceASecond) {
+  Telemetry telemetry(feeds_, {});
+  feeds_.capture_events.push(event_of(EventKind::CameraLost, 1, "sim:yard: gone"));
+  feeds_.vision_events.push(event_of(EventKind::Note, 2, "from vision"));
+  feeds_.control_events.push(event_of(EventKind::Warning, 3, "from control"));
+  for (int i = 0; i < 50; ++i) {
+    feeds_.capture_events.push(event_of(EventKind::FrameCorrupt, kNsPerS + i * 50 * kNsPerMs, "bad"));
+  }
+  telemetry.drain(4 * kNsPerS);
+  EXPECT_EQ(log_.told("[warning] camera lost: sim:yard: gone"), 1);
+  EXPECT_EQ(log_.told("[info] from vision"), 1);
+  EXPECT_EQ(log_.told("[warning] from control"), 1);
+  EXPECT_EQ(log_.told("frame corrupt"), 3) << "2.5 s of them";
+  EXPECT_EQ(telemetry.snapshot().events, 53u);
+}
+
+TEST_F(TelemetryTest, LostRecordsAreCountedAndTold) {
+  Telemetry telemetry(feeds_, {});
+  const std::size_t capacity = feeds_.ticks.capacity();
+  for (std::size_t i = 0; i < capacity + 9; ++i) feeds_.ticks.push(TickRecord{});
+  telemetry.drain(10 * kNsPerS);
+  telemetry.drain(20 * kNsPerS);
+  EXPECT_EQ(log_.told("9 records lost"), 1);
+  EXPECT_EQ(telemetry.snapshot().records_lost, 9u);
+  EXPECT_EQ(telemetry.snapshot().ticks, capacity);
+}
+
+// As in the daemon: hot threads push, the telemetry thread records; after stop nothing is missing.
+TEST_F(TelemetryTest, EverythingPushedIsInTheRecordingAfterStop) {
+  const test::TemporaryFolder folder;
+  Telemetry telemetry(feeds_, {.directory = folder.path()});
+  constexpr int kRecords = 500;
+  std::jthread reader([&] { telemetry.run(); });
+  std::jthread control([&] {
+    TickRecord tick;
+    for (tick.tick = 1; tick.tick <= kRecords; ++tick.tick) {
+      while (!feeds_.ticks.push(tick)) std::this_thread::yield();
+    }
+  });
+  std::jthread vision([&] {
+    PoseEstimate pose;
+    for (pose.frame_sequence = 1; pose.frame_sequence <= kRecords; ++pose.frame_sequence) {
+      while (!feeds_.poses.push(pose)) std::this_thread::yield();
+    }
+  });
+  std::jthread capture([&] {
+    for (CaptureCounters counts{.captured = 1}; counts.captured <= kRecords; ++counts.captured) {
+      while (!feeds_.captures.push(counts)) std::this_thread::yield();
+    }
+  });
+  for (TelemetrySnapshot seen; seen.ticks == 0;) seen = telemetry.snapshot();  // asked from a third thread
+  control.join();
+  vision.join();
+  capture.join();
+  telemetry.stop();
+  reader.join();
+  for (const char* name : {"ticks.csv", "poses.csv", "capture.csv"}) {
+    const std::string text = test::read_text(folder.file(name));
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), kRecords + 1) << name;
+  }
+  EXPECT_THAT(test::read_text(folder.file("events.log")), HasSubstr("at rest: no target seen yet"));
+  EXPECT_EQ(telemetry.snapshot().tick.tick, std::uint64_t{kRecords});
+  EXPECT_EQ(telemetry.snapshot().pose.frame_sequence, std::uint64_t{kRecords});
+  EXPECT_EQ(telemetry.snapshot().capture.captured, std::uint64_t{kRecords});
+}
+
+TEST(EventText, SaysWhatHappenedWithItsNumbers) {
+  EXPECT_EQ(event_text(event_of(EventKind::CameraOpened, 0, "sim:yard: 640x480")),
+            "camera opened: sim:yard: 640x480");
+  Event late = event_of(EventKind::Overrun, 0);
+  late.a = 3;
+  late.b = 45'500'000;
+  EXPECT_EQ(event_text(late), "deadline missed: 45.500 ms late, 3 periods missed so far");
+  EXPECT_EQ(event_text(event_of(EventKind::Note, 0, "just so")), "just so");
+  Event full = event_of(EventKind::Note, 0);
+  full.text.fill('x');  // no zero at the end
+  EXPECT_EQ(event_text(full).size(), full.text.size());
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,184 @@
+// heel calibrate against truth: views of a chessboard rendered through a known, distorted camera.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "files/camera_info.h"
+#include "heel/camera_model.h"
+#include "tools/heel/run_heel.h"
+
+namespace heel {
+namespace {
+
+using test::Outcome;
+using test::run_heel;
+using test::TemporaryFolder;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr int kWidth_px = 640;
+constexpr int kHeight_px = 480;
+constexpr double kSquare_m = 0.03;
+const cv::Size kInnerCorners(9, 6);
+const cv::Matx33d kTrueK(610.0, 0, 325.0, 0, 605.0, 236.0, 0, 0, 1);
+const std::vector<double> kTrueDistortion = {-0.22, 0.08, 0.0008, -0.0011};
+
+struct BoardPose {
+  double pitch_deg, yaw_deg, roll_deg;
+  double x_m, y_m, z_m;  ///< centre of the board in the camera frame
+};
+
+const std::vector<BoardPose> kGoodPoses = {
+    {30, 0, 3, -0.05, 0.02, 0.45},  {-30, 5, -4, 0.05, -0.02, 0.45},  {0, 35, 8, -0.08, 0.0, 0.50},
+    {5, -35, -8, 0.08, 0.03, 0.50}, {25, 25, 15, 0.0, 0.05, 0.55},    {-25, 20, -15, -0.04, -0.05, 0.40},
+    {0, 0, 0, 0.07, 0.05, 0.42},    {20, -28, 20, 0.02, -0.04, 0.48},
+};
+
+/// Brightness of the board at a point of its plane, metres from its first inner corner: squares, a white
+/// margin of one square, grey beyond.
+double board_brightness(double x_m, double y_m) {
+  const double column = x_m / kSquare_m + 1.0;
+  const double row = y_m / kSquare_m + 1.0;
+  if (column < -1 || row < -1 || column > kInnerCorners.width + 2 || row > kInnerCorners.height + 2)
+    return 90.0;
+  if (column < 0 || row < 0 || column > kInnerCorners.width + 1 || row > kInnerCorners.height + 1)
+    return 235.0;
+  const bool dark = (static_cast<int>(column) + static_cast<int>(row)) % 2 == 0;
+  return dark ? 25.0 : 235.0;
+}
+
+/// Every pixel is the mean of 3 × 3 rays.
+cv::Mat render_board(const BoardPose& pose) {
+  const double rad = CV_PI / 180.0;
+  cv::Matx33d Rx, Ry, Rz;
+  cv::Rodrigues(cv::Vec3d(pose.pitch_deg * rad, 0, 0), Rx);
+  cv::Rodrigues(cv::Vec3d(0, pose.yaw_deg * rad, 0), Ry);
+  cv::Rodrigues(cv::Vec3d(0, 0, pose.roll_deg * rad), Rz);
+  const cv::Matx33d R = Rz * Ry * Rx;  // camera from board
+  const cv::Vec3d centre_on_board_m((kInnerCorners.width - 1) * kSquare_m / 2,
+                                    (kInnerCorners.height - 1) * kSquare_m / 2, 0);
+  const cv::Vec3d t = cv::Vec3d(pose.x_m, pose.y_m, pose.z_m) - R * centre_on_board_m;
+  const cv::Vec3d normal = R * cv::Vec3d(0, 0, 1);
+
+  constexpr int kRays = 3;
+  cv::Mat image(kHeight_px, kWidth_px, CV_8UC1);
+  for (int v = 0; v < kHeight_px; ++v) {
+    std::vector<cv::Point2d> rays_px;
+    for (int u = 0; u < kWidth_px; ++u) {
+      for (int i = 0; i < kRays * kRays; ++i) {
+        rays_px.emplace_back(u + (i % kRays + 0.5) / kRays - 0.5, v + (i / kRays + 0.5) / kRays - 0.5);
+      }
+    }
+    std::vector<cv::Point2d> rays;
+    cv::undistortPoints(rays_px, rays, kTrueK, kTrueDistortion);
+    for (int u = 0; u < kWidth_px; ++u) {
+      double sum = 0.0;
+      for (int i = 0; i < kRays * kRays; ++i) {
+        const cv::Point2d& p = rays[static_cast<std::size_t>(u * kRays * kRays + i)];
+        const cv::Vec3d ray(p.x, p.y, 1.0);
+        const cv::Vec3d on_board = R.t() * (ray * (normal.dot(t) / normal.dot(ray)) - t);
+        sum += board_brightness(on_board[0], on_board[1]);
+      }
+      image.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(sum / (kRays * kRays));
+    }
+  }
+  return image;
+}
+
+class Calibrate : public ::testing::Test {
+ protected:
+  std::vector<std::string> write_views(const std::vector<BoardPose>& poses) {
+    std::vector<std::string> images;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      images.push_back(folder.file("view" + std::to_string(i) + ".png"));
+      cv::imwrite(images.back(), render_board(poses[i]));
+    }
+    return images;
+  }
+  Outcome calibrate(std::vector<std::string> images, const std::string& board = "9x6") {
+    std::vector<std::string> arguments = {"calibrate", "--board", board, "--square", "0.03", "-o", output};
+    arguments.insert(arguments.end(), images.begin(), images.end());
+    return run_heel(folder, arguments);
+  }
+
+  TemporaryFolder folder;
+  std::string output = folder.file("camera.yaml");
+};
+
+TEST_F(Calibrate, FindsTheTrueCamera) {
+  const Outcome outcome = calibrate(write_views(kGoodPoses));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("view7.png"), HasSubstr("rms 0.0"), HasSubstr("over 8 views")));
+
+  const CameraModel camera = read_camera_model(output);
+  EXPECT_EQ(camera.width_px, kWidth_px);
+  EXPECT_EQ(camera.height_px, kHeight_px);
+  EXPECT_NEAR(camera.fx, kTrueK(0, 0), 1.0);
+  EXPECT_NEAR(camera.fy, kTrueK(1, 1), 1.0);
+  EXPECT_NEAR(camera.cx, kTrueK(0, 2), 1.0);
+  EXPECT_NEAR(camera.cy, kTrueK(1, 2), 1.0);
+  EXPECT_NEAR(camera.k1, kTrueDistortion[0], 0.01);
+  EXPECT_NEAR(camera.k2, kTrueDistortion[1], 0.05);
+  EXPECT_NEAR(camera.p1, kTrueDistortion[2], 0.001);
+  EXPECT_NEAR(camera.p2, kTrueDistortion[3], 0.001);
+  EXPECT_EQ(camera.k3, 0.0);
+}
+
+TEST_F(Calibrate, RefusesTooFewViewsNamingThoseWithoutABoard) {
+  std::vector<std::string> images = write_views({kGoodPoses.begin(), kGoodPoses.begin() + 3});
+  images.push_back(folder.file("wall.png"));
+  cv::imwrite(images.back(), cv::Mat(kHeight_px, kWidth_px, CV_8UC1, cv::Scalar(128)));
+  const Outcome outcome = calibrate(images);
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("only 3 of 4"), HasSubstr("not seen in"), HasSubstr("wall.png")));
+  EXPECT_FALSE(std::filesystem::exists(output));
+}
+
+TEST_F(Calibrate, RefusesAViewOfAnotherBoardNamingIt) {
+  // A print stretched by 6 %: every corner is found, and fits no camera that fits the others.
+  std::vector<std::string> images = write_views(kGoodPoses);
+  cv::Mat stretched;
+  cv::warpAffine(cv::imread(images[2], cv::IMREAD_GRAYSCALE), stretched,
+                 cv::Matx23d(1.0, 0.15, -30, 0, 0.94, 0), {kWidth_px, kHeight_px}, cv::INTER_LINEAR,
+                 cv::BORDER_REPLICATE);
+  cv::imwrite(images[2], stretched);
+  const Outcome outcome = calibrate(images);
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("poor views"), HasSubstr("view2.png (")));
+  EXPECT_FALSE(std::filesystem::exists(output));
+}
+
+TEST_F(Calibrate, RefusesViewsThatDoNotFixTheFocalLength) {
+  std::vector<BoardPose> square_on;
+  for (int i = 0; i < 6; ++i) square_on.push_back({0, 0, 2.0 * i, 0.01 * i - 0.03, 0.01 * (i % 3), 0.45});
+  const Outcome outcome = calibrate(write_views(square_on));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("focal length")) << outcome.out;
+  EXPECT_FALSE(std::filesystem::exists(output));
+}
+
+TEST_F(Calibrate, RefusesImagesOfDifferentSizesNamingTheOddOne) {
+  std::vector<std::string> images = write_views({kGoodPoses[0], kGoodPoses[1]});
+  cv::imwrite(images[1], cv::Mat(240, 320, CV_8UC1, cv::Scalar(0)));
+  const Outcome outcome = calibrate(images);
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("view1.png: 320x240"), HasSubstr("expected 640x480")));
+}
+
+TEST_F(Calibrate, RefusesABoardThatIsNone) {
+  for (const char* board : {"9", "9x", "x6", "9x6x2", "2x6", "-9x6", "9 by 6", ""}) {
+    const Outcome outcome = calibrate({"unused.png"}, board);
+    EXPECT_EQ(outcome.status, 2) << board;
+    EXPECT_THAT(outcome.err, HasSubstr("--board")) << board;
+  }
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,215 @@
+// heel teach, then heel pose, on pictures whose truth is known; and the words and files between them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "files/camera_info.h"
+#include "files/template_file.h"
+#include "heel/shirt_template.h"
+#include "tools/heel/printed_shirt.h"
+#include "tools/heel/run_heel.h"
+
+namespace heel {
+namespace {
+
+using nlohmann::json;
+using test::Outcome;
+using test::run_heel;
+using test::TrueMotion;
+using ::testing::AllOf;
+using ::testing::ElementsAreArray;
+using ::testing::HasSubstr;
+
+/// How far the region's corners land from where they should, on average.
+double mean_corner_error_px(const json& found, const cv::Matx33d& truth) {
+  cv::Matx33d H;
+  for (int i = 0; i < 9; ++i) H.val[i] = found[static_cast<std::size_t>(i)].get<double>();
+  double sum_px = 0.0;
+  for (const cv::Vec3d& corner :
+       {cv::Vec3d(240, 140, 1), cv::Vec3d(400, 140, 1), cv::Vec3d(400, 340, 1), cv::Vec3d(240, 340, 1)}) {
+    const cv::Vec3d a = H * corner;
+    const cv::Vec3d b = truth * corner;
+    sum_px += std::hypot(a[0] / a[2] - b[0] / b[2], a[1] / a[2] - b[1] / b[2]);
+  }
+  return sum_px / 4;
+}
+
+class TeachAndPose : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_camera_model(test::shirt_camera(), camera);
+    reference = test::printed_plane();
+    cv::imwrite(image, reference);
+  }
+  Outcome teach(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"teach", "--image",       image,  "--roi", test::kRoi, "--distance",
+                                          "1.5",   "--camera-info", camera, "-o",    shirt};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_heel(folder, arguments);
+  }
+  Outcome pose(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"pose", "--template", shirt, "--camera-info", camera};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_heel(folder, arguments);
+  }
+  static std::vector<json> lines_of(const std::string& text) {
+    std::vector<json> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines.push_back(json::parse(line));
+    return lines;
+  }
+
+  test::TemporaryFolder folder;
+  std::string camera = folder.file("camera.yaml");
+  std::string image = folder.file("back.png");
+  std::string shirt = folder.file("shirt.heel");
+  cv::Mat reference;
+};
+
+TEST_F(TeachAndPose, TeachSaysHowGoodItIsAndKeepsWhatItWasTold) {
+  const std::string picture = folder.file("verdict.png");
+  const Outcome outcome = teach({"--picture", picture, "--oriented", "--max", "150"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("150 features in the 160 x 200 px region"),
+                                 HasSubstr("twice the distance"), HasSubstr("wrote " + shirt)));
+  EXPECT_FALSE(cv::imread(picture).empty());
+
+  const ShirtTemplate kept = read_template(shirt);
+  EXPECT_EQ(kept.roi.x_px, 240);
+  EXPECT_EQ(kept.roi.y_px, 140);
+  EXPECT_EQ(kept.roi.width_px, 160);
+  EXPECT_EQ(kept.roi.height_px, 200);
+  EXPECT_EQ(kept.distance_m, 1.5);
+  EXPECT_TRUE(kept.oriented);
+  EXPECT_EQ(kept.max_features, 150);
+  EXPECT_EQ(kept.camera.fx, 610.0);
+  EXPECT_TRUE(std::equal(kept.grey.begin(), kept.grey.end(), reference.datastart, reference.dataend));
+}
+
+TEST_F(TeachAndPose, TeachTakesTheSameViewThroughACameraAddress) {
+  ASSERT_EQ(teach().status, 0);
+  const std::string by_camera = folder.file("camera.heel");
+  const Outcome outcome = run_heel(folder, {"teach", "--camera", "file:" + image, "--roi", test::kRoi,
+                                            "--distance", "1.5", "--camera-info", camera, "-o", by_camera});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(test::read_text(by_camera), test::read_text(shirt));
+}
+
+TEST_F(TeachAndPose, TeachRefusesAPlainShirtWithTheReasonAndStatusOne) {
+  cv::imwrite(image, cv::Mat(test::kHeight_px, test::kWidth_px, CV_8UC1, cv::Scalar(120)));
+  const Outcome outcome = teach();
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("refused: only 0 features: the shirt is too plain"));
+  EXPECT_FALSE(std::filesystem::exists(shirt));
+}
+
+TEST_F(TeachAndPose, PoseFindsTheTruthAndSaysNothingOfWhatItDoesNotFind) {
+  ASSERT_EQ(teach().status, 0);
+  const double rad = CV_PI / 180.0;
+  // Ten frames and more, so that their order by name is not their order by number.
+  const std::vector<TrueMotion> motions = {
+      {0, {0, 0, 0}},
+      {20 * rad, {0, 0, 0.1}},
+      {-20 * rad, {0.05, 0, 0.1}},
+      {35 * rad, {0, 0.05, 0.2}},
+      {-35 * rad, {0, 0, 0}},
+      {0, {0.1, -0.05, 0.5}},
+      {10 * rad, {0, 0, 0.3}},
+      {-10 * rad, {-0.1, 0, 0.3}},
+      {0, {0, 0, -0.2}},
+      {45 * rad, {0.1, 0.0, -0.1}},
+      {-45 * rad, {0, 0, 0}},
+  };
+  const std::filesystem::path frames = folder.path() / "frames";
+  std::filesystem::create_directory(frames);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    cv::imwrite((frames / ("view" + std::to_string(i) + ".png")).string(), motions[i].picture(reference));
+  }
+  cv::imwrite((frames / "view99.png").string(),
+              cv::Mat(test::kHeight_px, test::kWidth_px, CV_8UC1, cv::Scalar(120)));
+
+  const Outcome outcome = pose({frames.string(), "--json", "--rate", "10"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("found in 11 of 12 frames"));
+  const std::vector<json> lines = lines_of(outcome.out);
+  ASSERT_EQ(lines.size(), 12u);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const json& line = lines[i];
+    SCOPED_TRACE(line.dump());
+    ASSERT_TRUE(line["found"].get<bool>());
+    EXPECT_EQ(line["frame"], i);
+    EXPECT_NEAR(line["t_s"].get<double>(), 0.1 * static_cast<double>(i), 1e-9);
+    EXPECT_EQ(line["reason"], "found");
+    EXPECT_GT(line["certainty"].get<double>(), 0.1);
+    EXPECT_GE(line["inliers"].get<int>(), 8);
+    EXPECT_NEAR(line["yaw_rad"].get<double>(), motions[i].yaw_rad, 2.0 * rad);
+    EXPECT_GE(line["yaw_sigma_rad"].get<double>(), 0.0);
+    EXPECT_LT(line["yaw_sigma_rad"].get<double>(), 5.0 * rad);
+    const cv::Vec3d t = motions[i].t_over_d();
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(line["t_over_d"][static_cast<std::size_t>(k)].get<double>(), t[k], 0.05) << k;
+    }
+    EXPECT_EQ(line["position_m"].size(), 3u);
+    EXPECT_NEAR(line["position_m"][2].get<double>(), 1.5 * (1.0 + motions[i].move_over_d[2]), 0.04);
+    ASSERT_EQ(line["H_cur_from_ref"].size(), 9u);
+    EXPECT_LT(mean_corner_error_px(line["H_cur_from_ref"], motions[i].H()), 3.0);
+    EXPECT_GT(line["ms"].get<double>(), 0.0);
+  }
+
+  const json& missed = lines.back();
+  EXPECT_FALSE(missed["found"].get<bool>());
+  EXPECT_EQ(missed["reason"], "too few features");
+  EXPECT_EQ(missed["certainty"], 0.0);
+  for (const char* key : {"yaw_rad", "yaw_sigma_rad", "t_over_d", "position_m", "H_cur_from_ref"}) {
+    EXPECT_TRUE(missed[key].is_null()) << key;
+  }
+}
+
+TEST_F(TeachAndPose, EveryLineHasExactlyTheAgreedKeysInTheirOrder) {
+  ASSERT_EQ(teach().status, 0);
+  const Outcome outcome = pose({image, "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::vector<std::string> keys;
+  const auto line = nlohmann::ordered_json::parse(outcome.out);
+  for (const auto& item : line.items()) keys.push_back(item.key());
+  EXPECT_THAT(keys, ElementsAreArray({"frame", "t_s", "found", "reason", "certainty", "inliers", "yaw_rad",
+                                      "yaw_sigma_rad", "t_over_d", "position_m", "H_cur_from_ref", "ms"}));
+}
+
+TEST_F(TeachAndPose, RepeatsToTheBitButForTheClock) {
+  ASSERT_EQ(teach().status, 0);
+  cv::imwrite(image, TrueMotion{0.3, {0.05, 0, 0.2}}.picture(reference));
+  std::vector<json> first = lines_of(pose({image, "--json"}).out);
+  std::vector<json> second = lines_of(pose({image, "--json"}).out);
+  ASSERT_EQ(first.size(), 1u);
+  ASSERT_TRUE(first[0]["found"].get<bool>());
+  first[0].erase("ms");
+  second[0].erase("ms");
+  EXPECT_EQ(first, second);
+}
+
+TEST_F(TeachAndPose, LooksAtTheFramesAskedForAndDrawsThem) {
+  ASSERT_EQ(teach().status, 0);
+  const std::string pictures = folder.file("pictures/of/this");
+  const Outcome outcome =
+      pose({image, image, image, image, "--first", "1", "--last", "2", "--picture-dir", pictures});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("found in 2 of 2 frames (100.0 %)"));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("yaw_deg"), HasSubstr("\n      1 "), HasSubstr("\n      2 ")));
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(pictures))
+    names.push_back(entry.path().filename());
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("frame_000001.png", "frame_000002.png"));
+  EXPECT_EQ(cv::imread(pictures + "/frame_000001.png").cols, test::kWidth_px);
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,102 @@
+#include "heel/camera_model.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <limits>
+#include <opencv2/calib3d.hpp>
+
+#include "vision/pose/scene.h"
+
+namespace {
+
+using heel::CameraModel;
+using heel::test::plain_camera;
+using heel::test::Random;
+
+CameraModel random_lens(Random& random) {
+  CameraModel camera = plain_camera();
+  camera.k1 = random.uniform(-0.35, 0.35);
+  camera.k2 = random.uniform(0.0, 0.15);
+  camera.k3 = random.uniform(-0.02, 0.02);
+  camera.p1 = random.uniform(-0.003, 0.003);
+  camera.p2 = random.uniform(-0.003, 0.003);
+  return camera;
+}
+
+TEST(CameraModel, KHoldsTheIntrinsics) {
+  const Eigen::Matrix3d K = plain_camera().K();
+  const Eigen::Vector3d pixel = K * Eigen::Vector3d(0.1, -0.2, 1.0);
+  EXPECT_DOUBLE_EQ(pixel.x(), 600.0 * 0.1 + 322.5);
+  EXPECT_DOUBLE_EQ(pixel.y(), 605.0 * -0.2 + 238.0);
+  EXPECT_DOUBLE_EQ(pixel.z(), 1.0);
+}
+
+TEST(CameraModel, WithoutDistortionPixelsStay) {
+  const CameraModel camera = plain_camera();
+  const Eigen::Vector2d pixel(12.25, 400.5);
+  EXPECT_EQ(camera.undistort_px(pixel), pixel);
+  EXPECT_EQ(camera.distort_px(pixel), pixel);
+}
+
+RC_GTEST_PROP(CameraModel, RoundTripWithin1e9Px, (std::uint64_t seed)) {
+  Random random(seed);
+  const CameraModel camera = random_lens(random);
+  const Eigen::Vector2d undistorted(random.uniform(0, 640), random.uniform(0, 480));
+  const Eigen::Vector2d distorted = camera.distort_px(undistorted);
+  RC_ASSERT((camera.undistort_px(distorted) - undistorted).norm() < 1e-9);
+}
+
+TEST(CameraModel, AgreesWithOpenCvBothWays) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Random random(seed);
+    const CameraModel camera = random_lens(random);
+    const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+    const cv::Vec<double, 5> D(camera.k1, camera.k2, camera.p1, camera.p2, camera.k3);
+    std::vector<cv::Point2d> distorted, undistorted;
+    for (int i = 0; i < 20; ++i) distorted.emplace_back(random.uniform(0, 640), random.uniform(0, 480));
+    cv::undistortPoints(distorted, undistorted, K, D, cv::noArray(), K,
+                        cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 500, 1e-13));
+    std::vector<cv::Point3d> rays;
+    for (const cv::Point2d& p : undistorted)
+      rays.emplace_back((p.x - camera.cx) / camera.fx, (p.y - camera.cy) / camera.fy, 1.0);
+    std::vector<cv::Point2d> again;
+    cv::projectPoints(rays, cv::Vec3d(), cv::Vec3d(), K, D, again);
+    for (std::size_t i = 0; i < distorted.size(); ++i) {
+      const Eigen::Vector2d ours = camera.undistort_px({distorted[i].x, distorted[i].y});
+      const Eigen::Vector2d ours_again = camera.distort_px({undistorted[i].x, undistorted[i].y});
+      EXPECT_NEAR(ours_again.x(), again[i].x, 1e-9) << "seed " << seed;
+      EXPECT_NEAR(ours_again.y(), again[i].y, 1e-9) << "seed " << seed;
+      // OpenCV's fixed point does not always get there; where it did, it must be the same place.
+      if (cv::norm(again[i] - distorted[i]) > 1e-9) continue;
+      EXPECT_NEAR(ours.x(), undistorted[i].x, 1e-7) << "seed " << seed;
+      EXPECT_NEAR(ours.y(), undistorted[i].y, 1e-7) << "seed " << seed;
+    }
+  }
+}
+
+// A pixel no direction maps to (beyond the fold of a strong barrel), and things that are no pixels at all.
+RC_GTEST_PROP(CameraModel, UndistortIsTotal, (std::uint64_t seed)) {
+  Random random(seed);
+  CameraModel camera = plain_camera();
+  camera.k1 = random.uniform(-2.0, 2.0);
+  camera.k2 = random.uniform(-2.0, 2.0);
+  camera.k3 = random.uniform(-2.0, 2.0);
+  camera.p1 = random.uniform(-0.1, 0.1);
+  camera.p2 = random.uniform(-0.1, 0.1);
+  const Eigen::Vector2d pixel(random.uniform(-2000, 3000), random.uniform(-2000, 3000));
+  const Eigen::Vector2d result = camera.undistort_px(pixel);
+  RC_ASSERT(result.allFinite());
+  // Never farther off than having done nothing, or the principal point.
+  const double error = (camera.distort_px(result) - pixel).norm();
+  const double from_centre = (Eigen::Vector2d(camera.cx, camera.cy) - pixel).norm();
+  RC_ASSERT(error <= std::max((camera.distort_px(pixel) - pixel).norm(), from_centre * 1.02) + 1e-9);
+}
+
+TEST(CameraModel, NotANumberStaysOne) {
+  CameraModel camera = plain_camera();
+  camera.k1 = -0.2;
+  EXPECT_FALSE(camera.undistort_px({std::numeric_limits<double>::quiet_NaN(), 3.0}).allFinite());
+}
+
+}  // namespace

@@ -1,0 +1,90 @@
+// A curved back before a camera: what is seen of it, and the problem it poses.
+#pragma once
+
+#include <Eigen/LU>
+#include <vector>
+
+#include "vision/pose/back_surface.h"
+#include "vision/pose/motion_refine.h"
+#include "vision/pose/scene.h"
+
+namespace heel::test::curved {
+
+using heel::BackSurface;
+using heel::FrontalMotion;
+using heel::FrontalPose;
+using heel::FrontalPoseEstimator;
+using heel::FrontalProblem;
+using heel::PlaneMotion;
+using heel::PointPair;
+
+inline const Eigen::Matrix3d K = plain_camera().K();
+inline const Eigen::Matrix3d K_inverse = K.inverse();
+inline const Eigen::Vector2d kCentrePx(320.0, 240.0);  // of the region in which heel::test::inlier_pairs lie
+
+inline constexpr double kDistanceM = 1.5;
+
+/// A back at kDistanceM with the given curvature κ, which departs from its curve by `shape_sigma_m`.
+inline BackSurface back(double curvature_1_m, double shape_sigma_m = 0.0) {
+  BackSurface surface;
+  surface.bend = curvature_1_m * kDistanceM;
+  surface.axis_x = (K_inverse * kCentrePx.homogeneous()).x();
+  surface.axis_y = (K_inverse * kCentrePx.homogeneous()).y();
+  surface.half_size = {100.0 / 600.0, 150.0 / 605.0};
+  surface.shape_sigma = shape_sigma_m / kDistanceM;
+  return surface;
+}
+
+/// Points of the region of `surface` seen in both views; `departures` times its five shapes added to it.
+inline std::vector<PointPair> pairs_on(const BackSurface& surface, Random& random, const View& view,
+                                       int count, double noise_px,
+                                       const heel::Vector5d& departures = heel::Vector5d::Zero()) {
+  std::vector<PointPair> pairs;
+  while (static_cast<int>(pairs.size()) < count) {
+    const Eigen::Vector2d ref(random.uniform(220.0, 420.0), random.uniform(90.0, 390.0));
+    const Eigen::Vector3d ray = K_inverse * ref.homogeneous();
+    const Eigen::Matrix3d KR = K * view.R;
+    // The far side of a turned back is not seen.
+    if (heel::image_derivative(surface, K_inverse, KR, K * view.t_over_d, ray).determinant() <= 0.0) continue;
+    const Eigen::Vector3d point =
+        surface.point(ray) + departures.dot(surface.departures(ray)) * Eigen::Vector3d::UnitZ();
+    pairs.push_back({ref + random.normal2(noise_px),
+                     (KR * point + K * view.t_over_d).hnormalized() + random.normal2(noise_px)});
+  }
+  return pairs;
+}
+
+inline heel::Vector5d drawn_departures(Random& random) {
+  heel::Vector5d a;
+  for (int i = 0; i < 5; ++i) a(i) = random.normal(1.0);
+  return a;
+}
+
+inline FrontalProblem problem_of(const std::vector<PointPair>& pairs, const View& view,
+                                 const BackSurface& surface) {
+  return {pairs, K, K, view.H, kCentrePx, surface};
+}
+
+inline PlaneMotion motion_of(const View& view) {
+  PlaneMotion motion;
+  motion.R_cur_from_ref = view.R;
+  motion.t_over_d = view.t_over_d;
+  return motion;
+}
+
+inline PlaneMotion mirrored(const View& view) {
+  FrontalMotion motion;
+  motion.R_cur_from_ref = view.R;
+  motion.t_over_d = view.t_over_d;
+  return heel::mirrored_motion(problem_of({}, view, {}), motion);
+}
+
+inline View view_at(double yaw_rad, double depth) {
+  View view;
+  view.R = heel::test::rotation(yaw_rad, 0.0, 0.0);
+  view.t_over_d = Eigen::Vector3d(0, 0, depth) - view.R.col(2);
+  view.H = heel::test::homography_of(K, K, view.R, view.t_over_d);
+  return view;
+}
+
+}  // namespace heel::test::curved

@@ -1,0 +1,197 @@
+// Tracking costs no detection and no accuracy: what it finds in the expected view, a search of everything
+// finds too.
+#include "heel/pose_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "support/allocation_count.h"
+#include "vision/pose/rendered_shirt.h"
+
+namespace {
+
+using heel::kNsPerS;
+using heel::PoseEstimate;
+using heel::PoseEstimator;
+using heel::PoseTracker;
+using heel::ShirtTemplate;
+using heel::TimeNs;
+using heel::test::homography;
+using heel::test::lock_step_config;
+using heel::test::render;
+using heel::test::robot_camera;
+using heel::test::shirt;
+using heel::test::t_over_d_for;
+using heel::test::texture;
+
+constexpr TimeNs kFramePeriod_ns = kNsPerS / 30;
+
+heel::FrameView frame_at(const cv::Mat& image, int number) {
+  heel::FrameView view = heel::test::view_of(image);
+  view.header.t_capture_ns = number * kFramePeriod_ns;
+  return view;
+}
+
+/// A view of the back at `x` template distances to the side.
+cv::Mat seen(const ShirtTemplate& taught, double yaw_rad, double x, double depth, std::uint64_t clutter = 5) {
+  const Eigen::Matrix3d R = heel::test::rotation(yaw_rad, 0.02, 0.0);
+  return render(taught, homography(R, t_over_d_for(R, x, depth)), clutter);
+}
+
+Eigen::Matrix3d homography_of(const PoseEstimate& pose) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.H_cur_from_ref.data());
+}
+
+TEST(PoseTracker, FollowsTheBackAcrossTheViewAsWellAsASearchOfEverything) {
+  const ShirtTemplate taught = shirt();
+  PoseTracker tracker(taught, robot_camera(), lock_step_config());
+  PoseEstimator everywhere(taught, robot_camera(), lock_step_config());
+  double tracked_error_px = 0.0, whole_error_px = 0.0;
+  int frames = 0;
+  for (; frames < 24; ++frames) {
+    // To the side at 0.9 rad/s of the view, turning and going away as it does.
+    const double share = frames / 24.0;
+    const double x = -0.35 + 0.7 * share, yaw_rad = 0.6 * std::sin(6.0 * share), depth = 0.9 + 0.5 * share;
+    const Eigen::Matrix3d R = heel::test::rotation(yaw_rad, 0.02, 0.0);
+    const Eigen::Matrix3d truth = homography(R, t_over_d_for(R, x, depth));
+    const cv::Mat image = render(taught, truth, 40);
+    const PoseEstimate pose = tracker.estimate(frame_at(image, frames));
+    const PoseEstimate whole = everywhere.estimate(frame_at(image, frames));
+    ASSERT_TRUE(pose.found()) << "frame " << frames;
+    ASSERT_TRUE(whole.found()) << "frame " << frames;
+    EXPECT_EQ(pose.tracked, frames > 0) << "frame " << frames;
+    EXPECT_FALSE(whole.tracked);
+    EXPECT_GE(pose.certainty, 0.9 * whole.certainty) << "frame " << frames;
+    tracked_error_px += heel::test::corner_error_px(homography_of(pose), truth);
+    whole_error_px += heel::test::corner_error_px(homography_of(whole), truth);
+  }
+  std::cout << "corner error tracked " << tracked_error_px / frames << " px, searching everything "
+            << whole_error_px / frames << " px\n";
+  EXPECT_LT(tracked_error_px, 1.2 * whole_error_px);
+}
+
+// From three times as far as it was taught, where few of the template's features reach the smallest filter.
+TEST(PoseTracker, LooksCloselyAtAShirtFarAway) {
+  ShirtTemplate taught = shirt();
+  taught.distance_m = 1.5;
+  PoseTracker tracker(taught, robot_camera(), lock_step_config());
+  PoseEstimator from_afar(taught, robot_camera(), lock_step_config());
+  for (int number = 0; number < 5; ++number) {
+    const double yaw_rad = 0.15 * (number - 2);
+    const Eigen::Matrix3d R = heel::test::rotation(yaw_rad, 0.02, 0.0);
+    const Eigen::Matrix3d truth = homography(R, t_over_d_for(R, 0.1, 3.0));
+    const cv::Mat image = seen(taught, yaw_rad, 0.1, 3.0);
+    const heel::FrameView frame = frame_at(image, 20 * number);
+    const PoseEstimate far = from_afar.estimate(frame), searched = tracker.estimate(frame);
+    ASSERT_TRUE(searched.found()) << number;
+    EXPECT_FALSE(searched.tracked);
+    EXPECT_GT(searched.certainty, 2.0 * far.certainty) << number;
+    EXPECT_LT(heel::test::corner_error_px(homography_of(searched), truth), 1.0) << number;
+    heel::FrameView next = frame;
+    next.header.t_capture_ns += kFramePeriod_ns;
+    const PoseEstimate tracked = tracker.estimate(next);
+    ASSERT_TRUE(tracked.tracked) << number;
+    EXPECT_GT(tracked.certainty, 2.0 * far.certainty) << number;
+    EXPECT_NEAR(tracked.yaw_rad, yaw_rad, 0.05) << number;
+  }
+}
+
+TEST(PoseTracker, AJumpIsFoundInTheSameFrame) {
+  const ShirtTemplate taught = shirt();
+  PoseTracker tracker(taught, robot_camera(), lock_step_config());
+  EXPECT_TRUE(tracker.estimate(frame_at(seen(taught, 0.0, -0.3, 1.2), 0)).found());
+  const PoseEstimate jumped = tracker.estimate(frame_at(seen(taught, 0.2, 0.35, 1.2), 1));
+  ASSERT_TRUE(jumped.found());
+  EXPECT_FALSE(jumped.tracked);
+  EXPECT_NEAR(jumped.yaw_rad, 0.2, 0.04);
+  EXPECT_TRUE(tracker.estimate(frame_at(seen(taught, 0.2, 0.35, 1.2), 2)).tracked);
+}
+
+TEST(PoseTracker, LostAndForgottenItIsLookedForEverywhere) {
+  const ShirtTemplate taught = shirt();
+  PoseTracker tracker(taught, robot_camera(), lock_step_config());
+  const cv::Mat view = seen(taught, 0.1, 0.0, 1.2), clutter = texture(9, 640, 480);
+  EXPECT_TRUE(tracker.estimate(frame_at(view, 0)).found());
+  EXPECT_FALSE(tracker.estimate(frame_at(clutter, 1)).found());
+  EXPECT_TRUE(tracker.estimate(frame_at(view, 2)).tracked) << "a blink is not forgetting";
+  const PoseEstimate later = tracker.estimate(frame_at(view, 2 + 16));
+  EXPECT_TRUE(later.found());
+  EXPECT_FALSE(later.tracked) << "after more than half a second";
+}
+
+TEST(PoseTracker, AFilmThatBeginsAgainIsSearchedWhole) {
+  const ShirtTemplate taught = shirt();
+  PoseTracker tracker(taught, robot_camera(), lock_step_config());
+  const cv::Mat view = seen(taught, 0.1, 0.0, 1.2);
+  EXPECT_TRUE(tracker.estimate(frame_at(view, 100)).found());
+  const PoseEstimate again = tracker.estimate(frame_at(view, 0));
+  EXPECT_TRUE(again.found());
+  EXPECT_FALSE(again.tracked);
+}
+
+TEST(PoseTracker, StaysWithItsPersonWhenAnotherWearsTheSameShirt) {
+  const ShirtTemplate taught = shirt();
+  const cv::Mat ours = seen(taught, 0.0, -0.28, 1.6), other = seen(taught, 0.0, 0.28, 1.6);
+  cv::Mat both = ours.clone();
+  other(cv::Rect(320, 0, 320, 480)).copyTo(both(cv::Rect(320, 0, 320, 480)));
+  for (const cv::Mat& first : {ours, other}) {
+    PoseTracker tracker(taught, robot_camera(), lock_step_config());
+    const PoseEstimate alone = tracker.estimate(frame_at(first, 0));
+    ASSERT_TRUE(alone.found());
+    for (int number = 1; number < 5; ++number) {
+      const PoseEstimate pose = tracker.estimate(frame_at(both, number));
+      ASSERT_TRUE(pose.tracked);
+      EXPECT_NEAR(pose.position_m[0], alone.position_m[0], 0.05);
+    }
+  }
+}
+
+TEST(PoseTracker, WithoutTrackingItIsTheEstimator) {
+  const ShirtTemplate taught = shirt();
+  heel::VisionConfig config = lock_step_config();
+  config.tracking = false;
+  PoseTracker tracker(taught, robot_camera(), config);
+  PoseEstimator estimator(taught, robot_camera(), config);
+  for (int number = 0; number < 3; ++number) {
+    const cv::Mat view = seen(taught, 0.1 * number, 0.0, 1.0);  // near enough not to be looked at twice
+    const PoseEstimate tracked = tracker.estimate(frame_at(view, number));
+    const PoseEstimate whole = estimator.estimate(frame_at(view, number));
+    EXPECT_FALSE(tracked.tracked);
+    EXPECT_EQ(tracked.H_cur_from_ref, whole.H_cur_from_ref);
+    EXPECT_EQ(tracked.frame_features, whole.frame_features);
+  }
+}
+
+TEST(PoseTracker, ExpectedViewGrowsWithTimeAndHoldsTheBack) {
+  const ShirtTemplate taught = shirt();
+  PoseEstimator estimator(taught, robot_camera(), lock_step_config());
+  const PoseEstimate pose = estimator.estimate(frame_at(seen(taught, 0.3, 0.2, 1.0), 0));
+  ASSERT_TRUE(pose.found());
+  const heel::ExpectedView soon = estimator.expected_view(pose, kFramePeriod_ns);
+  const heel::ExpectedView late = estimator.expected_view(pose, 10 * kFramePeriod_ns);
+  EXPECT_LT(late.region.x_px, soon.region.x_px);
+  EXPECT_GT(late.region.height_px, soon.region.height_px);
+  EXPECT_LT(late.sigma_min_px, soon.sigma_min_px);
+  EXPECT_GT(late.sigma_max_px, soon.sigma_max_px);
+  const Eigen::Vector2d centre = robot_camera().distort_px(
+      (homography_of(pose) * taught.camera.undistort_px({319.5, 239.5}).homogeneous()).hnormalized());
+  EXPECT_NEAR(soon.region.x_px + 0.5 * soon.region.width_px, centre.x(), 0.15 * soon.region.width_px);
+  EXPECT_NEAR(soon.region.y_px + 0.5 * soon.region.height_px, centre.y(), 0.15 * soon.region.height_px);
+}
+
+TEST(PoseTracker, AllocatesNothingAfterConstruction) {
+  if (!heel::test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  const ShirtTemplate taught = shirt();
+  PoseTracker tracker(taught, robot_camera(), heel::VisionConfig{});
+  const cv::Mat view = seen(taught, 0.3, 0.0, 1.2), clutter = texture(9, 640, 480);
+  const std::uint64_t before = heel::test::allocations_of_this_thread();
+  tracker.estimate(frame_at(view, 0));
+  const bool tracked = tracker.estimate(frame_at(view, 1)).tracked;
+  tracker.estimate(frame_at(clutter, 2));
+  EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
+  EXPECT_TRUE(tracked);
+}
+
+}  // namespace

@@ -1,0 +1,121 @@
+// Real pictures with known truth: the Oxford sets' homographies, and a person filmed from behind.
+// Skipped where the data are absent (HEEL_TEST_DATA, else ../shared/data beside the source).
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <string>
+
+#include "heel/pose_estimator.h"
+#include "support/oxford_pairs.h"
+#include "support/sanitized.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using heel::PoseEstimate;
+using heel::ShirtTemplate;
+using heel::test::view_of;
+
+/// The camera is not known: any focal length gives the same homography.
+ShirtTemplate taught_from(const cv::Mat& image, const heel::Region& roi, bool oriented) {
+  ShirtTemplate shirt;
+  shirt.grey.assign(image.data, image.data + image.total());
+  shirt.camera.width_px = image.cols;
+  shirt.camera.height_px = image.rows;
+  shirt.camera.fx = shirt.camera.fy = image.cols;
+  shirt.camera.cx = 0.5 * (image.cols - 1);
+  shirt.camera.cy = 0.5 * (image.rows - 1);
+  shirt.roi = roi;
+  shirt.oriented = oriented;
+  return shirt;
+}
+
+Eigen::Matrix3d homography_of(const PoseEstimate& pose) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.H_cur_from_ref.data());
+}
+
+heel::VisionConfig lock_step_config() {
+  heel::VisionConfig config;
+  config.ransac_budget_ms = 0.0;
+  return config;
+}
+
+struct Pair {
+  const char* set;
+  int to;
+  bool oriented;
+};
+
+std::string pair_name(const testing::TestParamInfo<Pair>& tested) {
+  return tested.param.set + std::to_string(tested.param.to);
+}
+
+class OxfordPairTest : public testing::TestWithParam<Pair> {};
+
+TEST_P(OxfordPairTest, CornerErrorBelowThreePixels) {
+  const auto [set, to, oriented] = GetParam();
+  if (!heel::test::has_oxford_set(set)) GTEST_SKIP() << "no test data at " << heel::test::data_folder();
+  const heel::test::OxfordPair pair = heel::test::load_oxford_pair(set, to);
+  ASSERT_EQ(pair.reference.size(), pair.current.size());
+
+  const ShirtTemplate whole =
+      taught_from(pair.reference, {0, 0, pair.reference.cols, pair.reference.rows}, oriented);
+  const PoseEstimate pose =
+      heel::PoseEstimator(whole, whole.camera, lock_step_config()).estimate(view_of(pair.current));
+  ASSERT_TRUE(pose.found()) << to_string(pose.reason);
+  const double error_px = heel::test::mean_corner_error_px(pair, homography_of(pose));
+  RecordProperty("corner_error_px", std::to_string(error_px));
+  std::cout << pair.name() << ": corner error " << error_px << " px, " << pose.inliers << " inliers\n";
+  EXPECT_LT(error_px, 3.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Real, OxfordPairTest,
+                         testing::Values(Pair{"graf", 2, false}, Pair{"graf", 3, false},
+                                         Pair{"boat", 2, true}, Pair{"boat", 3, true}, Pair{"boat", 4, true},
+                                         Pair{"boat", 5, true}, Pair{"leuven", 2, false},
+                                         Pair{"leuven", 3, false}, Pair{"leuven", 4, false},
+                                         Pair{"leuven", 5, false}, Pair{"leuven", 6, false}),
+                         pair_name);
+
+// The knit back of frame 1000. Looking at the frames: it comes into view whole at about 925, walks away and
+// stands until 1175, and turns away until about 1185; nobody else in the film wears it.
+TEST(PersonFromBehind, FoundWhereSheIsAndNowhereElse) {
+  const fs::path path = heel::test::data_folder() / "person" / "one-by-one.mp4";
+  if (!fs::exists(path)) GTEST_SKIP() << "no test data at " << path;
+  std::vector<cv::Mat> frames;
+  cv::VideoCapture video(path.string());
+  for (cv::Mat frame; video.read(frame);) {
+    cv::Mat grey;
+    cv::cvtColor(frame, grey, cv::COLOR_BGR2GRAY);
+    frames.push_back(grey);
+  }
+  ASSERT_EQ(frames.size(), 1394u);
+  const heel::Region back{400, 90, 100, 175};
+  const ShirtTemplate shirt = taught_from(frames[1000], back, false);
+  heel::PoseEstimator estimator(shirt, shirt.camera, lock_step_config());
+
+  const std::size_t step = heel::test::kThreadSanitizer ? 50 : heel::test::kSanitized ? 5 : 1;
+  int looked_at = 0, certain = 0, others = 0, found_in_others = 0;
+  for (std::size_t i = 0; i < frames.size(); i += step) {
+    const bool in_view = i >= 950 && i <= 1170;
+    ++(in_view ? looked_at : others);
+    const PoseEstimate pose = estimator.estimate(view_of(frames[i]));
+    if (!pose.found()) continue;
+    if (in_view) {
+      certain += pose.certainty > 0.1;
+    } else {
+      ++found_in_others;
+    }
+    EXPECT_TRUE(i >= 925 && i <= 1185) << "frame " << i << ": " << pose.inliers << " inliers";
+    const Eigen::Vector2d centre = (homography_of(pose) * Eigen::Vector3d(449.5, 177.0, 1.0)).hnormalized();
+    EXPECT_TRUE(centre.x() > 400 && centre.x() < 490 && centre.y() > 140 && centre.y() < 340)
+        << "frame " << i << ": the middle of the back at " << centre.transpose();
+  }
+  std::cout << looked_at + others << " frames: certain in " << certain << " of " << looked_at << ", found in "
+            << found_in_others << " of " << others << " others\n";
+  EXPECT_GE(certain, 0.95 * looked_at);
+}
+
+}  // namespace
