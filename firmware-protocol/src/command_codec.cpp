@@ -26,9 +26,9 @@ Frame encode_signed_word(CommandId id, std::int16_t value) {
 }
 
 int vel2_steps(int v_mm_s) {
-  const int half = v_mm_s < 0 ? -kVel2StepMmS / 2 : kVel2StepMmS / 2;
-  const int limit_mm_s = kVel2MaxSteps * kVel2StepMmS;
-  return (std::clamp(v_mm_s, -limit_mm_s, limit_mm_s) + half) / kVel2StepMmS;
+  const int half = v_mm_s < 0 ? -kVel2Step_mm_s / 2 : kVel2Step_mm_s / 2;
+  const int limit_mm_s = kVel2MaxSteps * kVel2Step_mm_s;
+  return (std::clamp(v_mm_s, -limit_mm_s, limit_mm_s) + half) / kVel2Step_mm_s;
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ DecodeResult decode_command(std::span<const std::uint8_t> body, Command& out) {
 WheelSpeeds wheel_speeds_of_vel2(const Command& vel2) {
   const auto left = static_cast<std::int8_t>(vel2.word() >> 8);
   const auto right = static_cast<std::int8_t>(vel2.word() & 0xFF);
-  return {left * kVel2StepMmS, right * kVel2StepMmS};
+  return {left * kVel2Step_mm_s, right * kVel2Step_mm_s};
 }
 
 }  // namespace arcos

@@ -34,7 +34,7 @@ struct FeatureSettings {
   bool spread = true;       ///< share max_features among the cells of a grid; false: the strongest only
   /// Look in the picture drawn twice as large: features of half the size, in four times the time. For regions
   /// of at most half the image's width and height; larger ones are looked at as they are.
-  bool closely = false;
+  bool upsample = false;
   float sigma_min_px = 0.f;  ///< features outside [sigma_min, sigma_max] are not looked for
   float sigma_max_px = 1e9f;
 };

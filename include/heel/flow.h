@@ -220,7 +220,7 @@ struct CaptureCounters {
   TimeNs t_ns = 0;  ///< when they stood so
   std::uint64_t captured = 0;
   std::uint64_t dropped_by_driver = 0;  ///< gaps in the driver's sequence, buffers with the error flag
-  std::uint64_t dropped_in_ring = 0;    ///< overtaken by a fresher frame
+  std::uint64_t dropped_unread = 0;     ///< overtaken by a fresher frame
   std::uint64_t reopened = 0;           ///< openings of the camera after the first
   bool operator==(const CaptureCounters&) const = default;
 };

@@ -15,7 +15,7 @@ namespace heel {
 struct ExpectedView {
   Region region;  ///< pixels of the frame; may reach beyond it
   double sigma_min_px = 0.0, sigma_max_px = 0.0;
-  bool closely = false;  ///< it is small there: FeatureSettings::closely
+  bool upsample = false;  ///< it is small there: FeatureSettings::upsample
 };
 
 /// Pure but for its preallocated memory: the same frame (and expectation) gives the same estimate.
@@ -39,7 +39,7 @@ class PoseEstimator {
 
   /// True: `pose` of a whole frame, found or not, rests on pairs so few and so small that looking once more,
   /// where they say the shirt is, may find it, or find it better.
-  bool deserves_a_closer_look(const PoseEstimate& pose) const;
+  bool needs_upsampled_pass(const PoseEstimate& pose) const;
 
   /// From now on `times`, which must outlive this, hears of the steps; null: nobody does.
   void measure(StageTimes* times);

@@ -31,8 +31,8 @@ bool held(bool active, bool& ever, TimeNs& t_last_ns, TimeNs now_ns, double hold
 
 }  // namespace
 
-Conditions ConditionMonitor::observe(const ControlInput& input, PoseNews news, const SupervisorConfig& config,
-                                     bool sonar_on) {
+Conditions ConditionMonitor::observe(const ControlInput& input, MeasurementStatus news,
+                                     const SupervisorConfig& config, bool sonar_on) {
   const RobotState& robot = input.robot;
   const TimeNs now_ns = input.now_ns;
   observe_target(input, news, config);
@@ -59,13 +59,13 @@ Conditions ConditionMonitor::observe(const ControlInput& input, PoseNews news, c
   return static_cast<Conditions>(bits);
 }
 
-void ConditionMonitor::observe_target(const ControlInput& input, PoseNews news,
+void ConditionMonitor::observe_target(const ControlInput& input, MeasurementStatus news,
                                       const SupervisorConfig& config) {
   const double needed = following_ ? config.certainty_drop : config.certainty_follow;
-  if (news == PoseNews::Believed && input.pose.certainty >= needed) {
+  if (news == MeasurementStatus::Accepted && input.pose.certainty >= needed) {
     ++good_in_a_row_;
     t_last_good_ns_ = input.pose.t_capture_ns;
-  } else if (news != PoseNews::None) {
+  } else if (news != MeasurementStatus::None) {
     good_in_a_row_ = 0;
   }
   const bool expired = older_than(t_last_good_ns_, input.now_ns, config.target_timeout_s);

@@ -26,10 +26,10 @@ using Conditions = std::uint16_t;
 inline constexpr Conditions kAllConditions = (1 << 12) - 1;
 
 /// What happened to the newest pose this tick.
-enum class PoseNews : std::uint8_t {
+enum class MeasurementStatus : std::uint8_t {
   None,      ///< no new frame
-  Believed,  ///< the estimator took it
-  Refused,   ///< not found, or a wild jump
+  Accepted,  ///< the estimator took it
+  Rejected,  ///< not found, or an outlier
 };
 
 /// Turns inputs into conditions. Following starts after `frames_to_follow` believed frames in a row at
@@ -38,10 +38,11 @@ enum class PoseNews : std::uint8_t {
 class ConditionMonitor {
  public:
   /// `sonar_on`: whether their silence is a fault.
-  Conditions observe(const ControlInput& input, PoseNews news, const SupervisorConfig& config, bool sonar_on);
+  Conditions observe(const ControlInput& input, MeasurementStatus news, const SupervisorConfig& config,
+                     bool sonar_on);
 
  private:
-  void observe_target(const ControlInput& input, PoseNews news, const SupervisorConfig& config);
+  void observe_target(const ControlInput& input, MeasurementStatus news, const SupervisorConfig& config);
 
   bool following_ = false;
   bool ever_followed_ = false;

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "control/conditions.h"
-#include "control/echoes.h"
 #include "control/follow_law.h"
 #include "control/gate.h"
+#include "control/sonar_obstacles.h"
 #include "control/supervisor.h"
 #include "estimate/target_estimator.h"
 
@@ -18,9 +18,9 @@ struct ControlStage::Impl {
 
   void reconfigure(const Config& config);
 
-  void follow_the_robot(const RobotState& robot);
-  PoseNews take_news(const ControlInput& input);
-  double range_ahead(const TargetState& target) const;
+  void update_robot(const RobotState& robot);
+  MeasurementStatus update_target(const ControlInput& input);
+  double person_range_m(const TargetState& target) const;
 
   // Only the parts in use, none of which holds text: taking over a configuration takes no memory.
   ControlConfig control;
@@ -30,7 +30,7 @@ struct ControlStage::Impl {
   bool sonar_on = true;
 
   TargetEstimator estimator;
-  EchoMemory echoes;
+  SonarObstacleMap echoes;
   ConditionMonitor monitor;
   VelocityCommand last_command;
   std::uint64_t ticks = 0;
@@ -50,30 +50,30 @@ void ControlStage::Impl::reconfigure(const Config& config) {
 }
 
 /// After a reconnection odom begins anew, and with it everything expressed in it.
-void ControlStage::Impl::follow_the_robot(const RobotState& robot) {
+void ControlStage::Impl::update_robot(const RobotState& robot) {
   if (robot.reconnects != reconnects) {
     reconnects = robot.reconnects;
     estimator.reset();
     echoes.clear();
   }
   if (!robot.has_sip) return;
-  estimator.see_robot(robot.odometry);
+  estimator.add_odometry(robot.odometry);
   if (sonar_on) echoes.see(robot);
 }
 
-PoseNews ControlStage::Impl::take_news(const ControlInput& input) {
+MeasurementStatus ControlStage::Impl::update_target(const ControlInput& input) {
   // By number and time: a film that begins again, or a single picture, counts from the same number anew.
   const bool seen =
       any_frame && input.pose.frame_sequence == last_frame && input.pose.t_capture_ns == t_last_frame_ns;
-  if (!input.has_pose || seen) return PoseNews::None;
+  if (!input.has_pose || seen) return MeasurementStatus::None;
   any_frame = true;
   last_frame = input.pose.frame_sequence;
   t_last_frame_ns = input.pose.t_capture_ns;
-  return estimator.see_pose(input.pose) ? PoseNews::Believed : PoseNews::Refused;
+  return estimator.update(input.pose) ? MeasurementStatus::Accepted : MeasurementStatus::Rejected;
 }
 
 /// Camera to back, when the person is ahead; nobody there is infinitely far.
-double ControlStage::Impl::range_ahead(const TargetState& target) const {
+double ControlStage::Impl::person_range_m(const TargetState& target) const {
   const double x_m = target.x_m - mount.x_m;
   const double y_m = target.y_m - mount.y_m;
   if (!target.known || x_m <= 0.0) return std::numeric_limits<double>::infinity();
@@ -96,14 +96,14 @@ TickRecord ControlStage::tick(const ControlInput& input) {
   record.t_ns = input.now_ns;
   record.robot = input.robot;
 
-  s.follow_the_robot(input.robot);
-  const PoseNews news = s.take_news(input);
+  s.update_robot(input.robot);
+  const MeasurementStatus news = s.update_target(input);
   record.target = s.estimator.at(input.now_ns);
   const Verdict verdict = supervise(s.monitor.observe(input, news, s.supervisor, s.sonar_on));
   record.stop_reason = verdict.reason;
   record.wanted = follow(record.target, s.control, s.mount, input.now_ns, s.gate.command_lifetime_s);
-  const Surroundings around{s.range_ahead(record.target), s.echoes.at(input.now_ns, input.robot.odometry)};
-  record.command = pass_gate(record.wanted, s.last_command, verdict.style, around, input.now_ns, s.gate);
+  const Clearances around{s.person_range_m(record.target), s.echoes.at(input.now_ns, input.robot.odometry)};
+  record.command = apply_gate(record.wanted, s.last_command, verdict.style, around, input.now_ns, s.gate);
   s.last_command = record.command;
   return record;
 }

@@ -38,7 +38,7 @@
 #pragma once
 
 #include "core/config.h"
-#include "estimate/sighting.h"
+#include "estimate/target_measurement.h"
 #include "heel/flow.h"
 
 namespace heel {

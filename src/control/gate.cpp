@@ -45,8 +45,8 @@ Motion moving_at(const VelocityCommand& previous, TimeNs now_ns, const GateConfi
 
 }  // namespace
 
-VelocityCommand pass_gate(const VelocityCommand& wanted, const VelocityCommand& previous, StopStyle style,
-                          const Surroundings& around, TimeNs now_ns, const GateConfig& limits) {
+VelocityCommand apply_gate(const VelocityCommand& wanted, const VelocityCommand& previous, StopStyle style,
+                           const Clearances& around, TimeNs now_ns, const GateConfig& limits) {
   VelocityCommand out;
   out.t_issued_ns = now_ns;
   out.t_expires_ns = now_ns + ns_from_seconds(limits.command_lifetime_s);
@@ -71,8 +71,8 @@ VelocityCommand pass_gate(const VelocityCommand& wanted, const VelocityCommand& 
               kGateSeparation, limited_by);
   // The way the robot is to take must be free, and so must the way it is on until it has changed over.
   const Motion now = moving_at(previous, now_ns, limits);
-  const double free_m = std::min(around.echoes.free_way_m(aim.v_m_s, aim.yaw_rate_rad_s),
-                                 around.echoes.free_way_m(now.v_m_s, now.yaw_rate_rad_s));
+  const double free_m = std::min(around.echoes.free_distance_m(aim.v_m_s, aim.yaw_rate_rad_s),
+                                 around.echoes.free_distance_m(now.v_m_s, now.yaw_rate_rad_s));
   const double cautious_m_s = approach_limit(free_m, limits.clearance_m, limits);
   aim.v_m_s = bounded(aim.v_m_s, -cautious_m_s, cautious_m_s, kGateObstacle, limited_by);
 

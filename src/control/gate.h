@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "control/echoes.h"
+#include "control/sonar_obstacles.h"
 #include "control/supervisor.h"
 #include "core/config.h"
 #include "heel/flow.h"
@@ -16,12 +16,12 @@ namespace heel {
 inline constexpr TimeNs kLongestSlew_ns = 100 * kNsPerMs;
 
 /// What the robot must keep away from, now.
-struct Surroundings {
+struct Clearances {
   double person_m = std::numeric_limits<double>::infinity();  ///< camera to back, when the person is ahead
-  Echoes echoes;
+  SonarObstacles echoes;
 };
 
-VelocityCommand pass_gate(const VelocityCommand& wanted, const VelocityCommand& previous, StopStyle style,
-                          const Surroundings& around, TimeNs now_ns, const GateConfig& limits);
+VelocityCommand apply_gate(const VelocityCommand& wanted, const VelocityCommand& previous, StopStyle style,
+                           const Clearances& around, TimeNs now_ns, const GateConfig& limits);
 
 }  // namespace heel

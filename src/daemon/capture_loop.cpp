@@ -8,8 +8,8 @@
 
 namespace heel {
 
-CaptureLoop::CaptureLoop(FrameSource& source, FrameRing& ring, RecordQueue<CaptureCounters>& counts,
-                         RecordQueue<Event>& events, const CaptureLoopSettings& settings)
+CaptureLoop::CaptureLoop(FrameSource& source, FrameTripleBuffer& ring, SpscQueue<CaptureCounters>& counts,
+                         SpscQueue<Event>& events, const CaptureLoopSettings& settings)
     : source_(source),
       ring_(ring),
       counts_(counts),
@@ -114,7 +114,7 @@ void CaptureLoop::take_frame() {
 CaptureCounters CaptureLoop::counters() const {
   return {.captured = ring_.captured(),
           .dropped_by_driver = dropped_by_driver_.load(std::memory_order_relaxed),
-          .dropped_in_ring = ring_.dropped(),
+          .dropped_unread = ring_.dropped(),
           .reopened = reopened_.load(std::memory_order_relaxed)};
 }
 

@@ -14,8 +14,8 @@
 #include "capture/factory/frame_source_factory.h"
 #include "capture/frame_source.h"
 #include "heel/flow.h"
-#include "realtime/frame_ring.h"
-#include "realtime/record_queue.h"
+#include "realtime/frame_triple_buffer.h"
+#include "realtime/spsc_queue.h"
 
 namespace heel {
 
@@ -30,8 +30,8 @@ struct CaptureLoopSettings {
 class CaptureLoop {
  public:
   /// Everything is borrowed and must outlive run(). `source` may be open already.
-  CaptureLoop(FrameSource& source, FrameRing& ring, RecordQueue<CaptureCounters>& counts,
-              RecordQueue<Event>& events, const CaptureLoopSettings& settings = {});
+  CaptureLoop(FrameSource& source, FrameTripleBuffer& ring, SpscQueue<CaptureCounters>& counts,
+              SpscQueue<Event>& events, const CaptureLoopSettings& settings = {});
 
   /// Tells the loop that `source` is open already (as open_frame_source leaves it).
   void assume_open() { open_ = true; }
@@ -57,9 +57,9 @@ class CaptureLoop {
   void tell(EventKind kind, std::int64_t a, std::int64_t b, const char* text);
 
   FrameSource& source_;
-  FrameRing& ring_;
-  RecordQueue<CaptureCounters>& counts_;
-  RecordQueue<Event>& events_;
+  FrameTripleBuffer& ring_;
+  SpscQueue<CaptureCounters>& counts_;
+  SpscQueue<Event>& events_;
   CaptureLoopSettings settings_;
 
   bool open_ = false;

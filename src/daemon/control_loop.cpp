@@ -18,7 +18,7 @@ void ControlLoop::run() {
     TickRecord record = stage_.tick(input_);
     record.lateness_ns = lateness_ns;
     link_.exchange(record.command, monotonic_now_ns());
-    tell_of_the_robot();
+    report_robot_events();
     publish(record);
   }
   shut_robot_down();
@@ -26,7 +26,7 @@ void ControlLoop::run() {
 
 void ControlLoop::shut_robot_down() {
   link_.shutdown(monotonic_now_ns());
-  tell_of_the_robot();
+  report_robot_events();
 }
 
 /// Returns how late it is. Until then bytes are stamped as they come.
@@ -71,7 +71,7 @@ void ControlLoop::read_inputs(TimeNs now_ns) {
 }
 
 /// The session's events as they are, copied, not formatted.
-void ControlLoop::tell_of_the_robot() {
+void ControlLoop::report_robot_events() {
   SessionEvent news;
   while (link_.next_event(news)) {
     Event event{.t_ns = news.t_ns, .kind = is_warning(news.kind) ? EventKind::Warning : EventKind::Note};

@@ -40,7 +40,7 @@ class ControlLoop {
   TimeNs sleep_to_the_tick();
   void take_over_configuration();
   void read_inputs(TimeNs now_ns);
-  void tell_of_the_robot();
+  void report_robot_events();
   void publish(const TickRecord& record);
 
   RobotLink link_;

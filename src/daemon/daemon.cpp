@@ -42,12 +42,12 @@ class Daemon {
   void stop();
   void start_thread(std::thread& thread, ThreadRole role, std::function<void()> body);
   void reload();
-  void look_after(TimeNs now_ns);
-  void tell_of_the_line();
+  void service_watchdog(TimeNs now_ns);
+  void log_link_errors();
   bool robot_has_answered() const;
   bool ready_by_now() const;
-  void tell_counts() const;
-  bool at_rest_for_good(TimeNs now_ns);
+  void log_counters() const;
+  bool finished_and_stopped(TimeNs now_ns);
   std::string status_line() const;
 
   LoadedConfig loaded_;
@@ -56,7 +56,7 @@ class Daemon {
   ServiceNotifier notifier_;
 
   TelemetryFeeds feeds_;
-  FrameRing frames_;
+  FrameTripleBuffer frames_;
   Mailbox<PoseEstimate> poses_;
   std::unique_ptr<FrameSource> source_;
   PoseTracker tracker_;
@@ -70,8 +70,8 @@ class Daemon {
   bool ready_ = false;     // and systemd has been told
   bool complete_ = false;  // robot and camera have both been here
   std::uint64_t seen_open_failures_ = 0;
-  std::string told_open_error_;  // empty: none since the robot last answered
-  TimeNs t_ended_ns_ = 0;        // when a file camera's last frame was given; 0: not yet
+  std::string logged_open_error_;  // empty: none since the robot last answered
+  TimeNs t_ended_ns_ = 0;          // when a file camera's last frame was given; 0: not yet
   std::atomic<bool> failed_{false};
 };
 
@@ -111,11 +111,11 @@ int Daemon::run() {
   announce();
   start();
   bool stop_asked = false;
-  while (!stop_asked && !failed_ && !at_rest_for_good(monotonic_now_ns())) {
+  while (!stop_asked && !failed_ && !finished_and_stopped(monotonic_now_ns())) {
     const Signal signal = signals_.wait(kMainPeriod_ns);
     if (signal == Signal::Reload) reload();
     stop_asked = signal == Signal::Stop;
-    look_after(monotonic_now_ns());
+    service_watchdog(monotonic_now_ns());
   }
   if (stop_asked) spdlog::info("asked to stop");
   stop();
@@ -155,7 +155,7 @@ void Daemon::stop() {
   vision_thread_.join();
   telemetry_.stop();
   telemetry_thread_.join();
-  tell_counts();
+  log_counters();
   spdlog::info("stopped; the robot is closed");
 }
 
@@ -186,9 +186,9 @@ void Daemon::reload() {
   if (ready_) notifier_.ready();
 }
 
-void Daemon::look_after(TimeNs now_ns) {
+void Daemon::service_watchdog(TimeNs now_ns) {
   control_.take_status(status_);
-  tell_of_the_line();
+  log_link_errors();
   if (!complete_ && robot_has_answered() && frames_.captured() > 0) {
     complete_ = true;
     spdlog::info("the robot has answered and the first frame is here");
@@ -203,16 +203,16 @@ void Daemon::look_after(TimeNs now_ns) {
   if (capture_.ended() && t_ended_ns_ == 0) t_ended_ns_ = now_ns;
 }
 
-void Daemon::tell_of_the_line() {
-  if (robot_has_answered()) told_open_error_.clear();
+void Daemon::log_link_errors() {
+  if (robot_has_answered()) logged_open_error_.clear();
   const std::uint64_t failures = control_.open_failures();
   if (failures == seen_open_failures_) return;
   seen_open_failures_ = failures;
   // Once for each reason in an outage, not for each attempt.
   std::string error = control_.last_open_error();
-  if (error == told_open_error_) return;
+  if (error == logged_open_error_) return;
   spdlog::warn("{}", error);
-  told_open_error_ = std::move(error);
+  logged_open_error_ = std::move(error);
 }
 
 bool Daemon::robot_has_answered() const {
@@ -226,11 +226,11 @@ bool Daemon::ready_by_now() const {
 }
 
 /// What came over both lines and what was lost on them, once, at the end.
-void Daemon::tell_counts() const {
+void Daemon::log_counters() const {
   const CaptureCounters frames = capture_.counters();
   spdlog::info(
       "camera: {} frames, {} dropped by the driver, {} overtaken by fresher ones; opened again {} times",
-      frames.captured, frames.dropped_by_driver, frames.dropped_in_ring, frames.reopened);
+      frames.captured, frames.dropped_by_driver, frames.dropped_unread, frames.reopened);
   const RobotState robot = telemetry_.snapshot().tick.robot;
   spdlog::info(
       "robot: {} packets, {} with a wrong checksum or length, {} bytes discarded; connected again {} times",
@@ -238,7 +238,7 @@ void Daemon::tell_counts() const {
 }
 
 /// A file camera has ended, and the wheels have been brought to rest.
-bool Daemon::at_rest_for_good(TimeNs now_ns) {
+bool Daemon::finished_and_stopped(TimeNs now_ns) {
   if (t_ended_ns_ == 0) return false;
   const bool resting = status_.stop_reason != StopReason::None && status_.command.v_m_s == 0.0 &&
                        status_.command.yaw_rate_rad_s == 0.0;

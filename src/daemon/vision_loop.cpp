@@ -8,8 +8,8 @@ namespace {
 constexpr TimeNs kLongestWait_ns = 100 * kNsPerMs;  // how soon stop() is seen at the latest
 }
 
-VisionLoop::VisionLoop(FrameRing& frames, PoseTracker& tracker, Mailbox<PoseEstimate>& to_control,
-                       RecordQueue<PoseEstimate>& to_telemetry)
+VisionLoop::VisionLoop(FrameTripleBuffer& frames, PoseTracker& tracker, Mailbox<PoseEstimate>& to_control,
+                       SpscQueue<PoseEstimate>& to_telemetry)
     : frames_(frames), tracker_(tracker), to_control_(to_control), to_telemetry_(to_telemetry) {}
 
 void VisionLoop::run() {

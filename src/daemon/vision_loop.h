@@ -4,17 +4,17 @@
 #include <atomic>
 
 #include "heel/pose_tracker.h"
-#include "realtime/frame_ring.h"
+#include "realtime/frame_triple_buffer.h"
 #include "realtime/mailbox.h"
-#include "realtime/record_queue.h"
+#include "realtime/spsc_queue.h"
 
 namespace heel {
 
 class VisionLoop {
  public:
   /// Everything is borrowed and must outlive run().
-  VisionLoop(FrameRing& frames, PoseTracker& tracker, Mailbox<PoseEstimate>& to_control,
-             RecordQueue<PoseEstimate>& to_telemetry);
+  VisionLoop(FrameTripleBuffer& frames, PoseTracker& tracker, Mailbox<PoseEstimate>& to_control,
+             SpscQueue<PoseEstimate>& to_telemetry);
 
   /// Until stop(). Does not allocate, lock or format.
   void run();
@@ -22,10 +22,10 @@ class VisionLoop {
   void stop();
 
  private:
-  FrameRing& frames_;
+  FrameTripleBuffer& frames_;
   PoseTracker& tracker_;
   Mailbox<PoseEstimate>& to_control_;
-  RecordQueue<PoseEstimate>& to_telemetry_;
+  SpscQueue<PoseEstimate>& to_telemetry_;
   std::atomic<bool> stop_{false};
 };
 

@@ -4,7 +4,7 @@
 
 namespace heel {
 
-Pose2 carried_on(const Odometry& from, double dt_s) {
+Pose2 extrapolated(const Odometry& from, double dt_s) {
   const double turn_rad = from.yaw_rate_rad_s * dt_s;
   const double half = 0.5 * turn_rad;
   const double sinc = std::abs(half) < 1e-6 ? 1.0 : std::sin(half) / half;
@@ -35,7 +35,7 @@ std::optional<Pose2> OdometryHistory::at(TimeNs t_ns) const {
   const Odometry& newest = from_newest(0);
   if (t_ns >= newest.t_ns) {
     if (t_ns - newest.t_ns > kMaxAhead_ns) return std::nullopt;
-    return carried_on(newest, seconds_from_ns(t_ns - newest.t_ns));
+    return extrapolated(newest, seconds_from_ns(t_ns - newest.t_ns));
   }
   for (std::size_t back = 1; back < size_; ++back) {
     const Odometry& older = from_newest(back);

@@ -11,7 +11,7 @@
 namespace heel {
 
 /// Where a robot is `dt_s` later that keeps its speed and yaw rate: the unicycle's arc, by its chord.
-Pose2 carried_on(const Odometry& from, double dt_s);
+Pose2 extrapolated(const Odometry& from, double dt_s);
 
 /// A fixed ring of odometry, newest last. Does not allocate.
 class OdometryHistory {

@@ -50,7 +50,7 @@ void TargetEstimator::reset() {
   outliers_in_a_row_ = 0;
 }
 
-void TargetEstimator::see_robot(const Odometry& odometry) {
+void TargetEstimator::add_odometry(const Odometry& odometry) {
   path_.push(odometry);
 }
 
@@ -63,8 +63,8 @@ void TargetEstimator::start(const Eigen::Vector2d& position_odom_m, double yaw_o
   outliers_in_a_row_ = 0;
 }
 
-bool TargetEstimator::see_pose(const PoseEstimate& pose) {
-  const auto sighting = sighting_from_pose(pose, mount_);
+bool TargetEstimator::update(const PoseEstimate& pose) {
+  const auto sighting = measurement_from_pose(pose, mount_);
   const auto robot = path_.at(pose.t_capture_ns);
   const TimeNs gap_ns = pose.t_capture_ns - t_capture_ns_;
   if (!sighting || !robot || (known_ && gap_ns <= 0)) return false;

@@ -5,7 +5,7 @@
 #include "core/config.h"
 #include "estimate/constant_velocity_filter.h"
 #include "estimate/odometry_history.h"
-#include "estimate/sighting.h"
+#include "estimate/target_measurement.h"
 #include "heel/flow.h"
 
 namespace heel {
@@ -20,9 +20,9 @@ class TargetEstimator {
   /// Forgets the person and the path: odom has begun anew.
   void reset();
 
-  void see_robot(const Odometry& odometry);
+  void add_odometry(const Odometry& odometry);
   /// True when the frame was believed: found, metric, newer than the last, placed in odom, not a wild jump.
-  bool see_pose(const PoseEstimate& pose);
+  bool update(const PoseEstimate& pose);
   /// The person and the pose to take, in the robot frame at `now_ns`.
   TargetState at(TimeNs now_ns) const;
 

@@ -45,7 +45,7 @@ void write_text(const FeatureSet& features, int width_px, int height_px, std::FI
 
 void write_binary(const FeatureSet& features, int width_px, int height_px, std::FILE* file) {
   const std::array<std::int32_t, 8> header{
-      kKpdMagic,          kVersion, static_cast<std::int32_t>(features.features.size()),
+      kKpdMagic,       kVersion, static_cast<std::int32_t>(features.features.size()),
       kDescriptorSize, width_px, height_px,
       width_px,        height_px};
   std::fwrite(header.data(), sizeof header[0], header.size(), file);

@@ -175,7 +175,8 @@ struct Parts {
 };
 
 Parts split(std::string_view file, const std::string& path) {
-  if (!file.starts_with(kTemplateMagic.substr(0, std::min(file.size(), kTemplateMagic.size()))) || file.empty()) {
+  if (!file.starts_with(kTemplateMagic.substr(0, std::min(file.size(), kTemplateMagic.size()))) ||
+      file.empty()) {
     throw Error(path + ": not a template (expected a file made by heel teach)");
   }
   const Error truncated(path + ": truncated at " + std::to_string(file.size()) +

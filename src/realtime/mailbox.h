@@ -6,7 +6,7 @@
 #include <array>
 #include <type_traits>
 
-#include "realtime/slot_exchange.h"
+#include "realtime/triple_buffer.h"
 
 namespace heel {
 
@@ -32,8 +32,8 @@ class Mailbox {
   struct alignas(kCacheLineBytes) Slot {
     T value{};
   };
-  SlotExchange exchange_;
-  std::array<Slot, SlotExchange::kSlots> values_{};
+  TripleBuffer exchange_;
+  std::array<Slot, TripleBuffer::kSlots> values_{};
 };
 
 }  // namespace heel

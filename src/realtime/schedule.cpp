@@ -18,7 +18,7 @@ namespace heel {
 
 namespace {
 
-constexpr double kTelemetryRateHz = 20.0;
+constexpr double kTelemetryRate_Hz = 20.0;
 // Touched on entry; more than any stage's frames need, far less than the 8 MB a thread gets.
 constexpr std::size_t kPrefaultedStackBytes = 256 * 1024;
 
@@ -51,7 +51,7 @@ Schedule make_schedule(const Config& config) {
       {ThreadRole::Capture, "heel-capture", config.camera.rate_hz, rt.priority_capture, frame_ns},
       {ThreadRole::Vision, "heel-vision", config.camera.rate_hz, rt.priority_vision, frame_ns},
       {ThreadRole::Control, "heel-control", config.control.rate_hz, rt.priority_control, tick_ns},
-      {ThreadRole::Telemetry, "heel-telemetry", kTelemetryRateHz, 0, period_ns(kTelemetryRateHz)},
+      {ThreadRole::Telemetry, "heel-telemetry", kTelemetryRate_Hz, 0, period_ns(kTelemetryRate_Hz)},
   }};
 }
 

@@ -15,7 +15,7 @@ using Kind = SessionEventKind;
 ArcosSession::ArcosSession(const RobotConfig& config)
     : config_(config),
       sweep_(parse_robot_address(config.address)),
-      wished_baud_(sweep_.current()),
+      target_baud_(sweep_.current()),
       motion_(config),
       odometry_(config.dist_conv_factor) {
   pacer_.set_baud(sweep_.current());

@@ -109,7 +109,7 @@ class ArcosSession {
 
   RobotConfig config_;
   BaudSweep sweep_;
-  int wished_baud_;  ///< of the address
+  int target_baud_;  ///< of the address
   CommandPacer pacer_;
   MotionSender motion_;
   OdometryTracker odometry_;

@@ -18,9 +18,9 @@ using arcos::CommandId;
 using Kind = SessionEventKind;
 
 constexpr std::uint8_t kAutobaudByItself = 2;
-constexpr TimeNs kSettleNs = 10 * kNsPerMs;
-constexpr TimeNs kConfirmNs = 900 * kNsPerMs;
-constexpr TimeNs kPulseNs = 200 * kNsPerMs;
+constexpr TimeNs kSettle_ns = 10 * kNsPerMs;
+constexpr TimeNs kConfirm_ns = 900 * kNsPerMs;
+constexpr TimeNs kPulse_ns = 200 * kNsPerMs;
 
 arcos::Frame host_baud_command(int baud) {
   const auto at = std::find(kRobotBauds.begin(), kRobotBauds.end(), baud);
@@ -31,7 +31,7 @@ arcos::Frame host_baud_command(int baud) {
 
 bool ArcosSession::rate_can_rise() const {
   return sweep_.sweeps() && !rate_refused_ && config_seen_ && controller_.autobaud == kAutobaudByItself &&
-         wished_baud_ > sweep_.current();
+         target_baud_ > sweep_.current();
 }
 
 void ArcosSession::ask_rate(Step step, int baud, TimeNs now_ns) {
@@ -42,16 +42,16 @@ void ArcosSession::ask_rate(Step step, int baud, TimeNs now_ns) {
 
 /// HOSTBAUD has gone out, and the robot has had time to obey.
 bool ArcosSession::rate_was_asked(TimeNs now_ns) const {
-  return queue_.empty() && now_ns >= pacer_.idle_from_ns() + kSettleNs;
+  return queue_.empty() && now_ns >= pacer_.idle_from_ns() + kSettle_ns;
 }
 
 void ArcosSession::try_rate(TimeNs now_ns) {
   const TimeNs in_step_ns = now_ns - t_step_ns_;
-  if (in_step_ns >= kConfirmNs) {
+  if (in_step_ns >= kConfirm_ns) {
     rate_refused_ = true;
     events_.push(now_ns, Kind::RateRefused, sweep_.current());
     ask_rate(Step::LeavingRate, sweep_.good(), now_ns);
-  } else if (in_step_ns >= kSettleNs + attempts_ * kPulseNs) {
+  } else if (in_step_ns >= kSettle_ns + attempts_ * kPulse_ns) {
     ++attempts_;
     queue_.push(arcos::encode_plain(CommandId::Pulse));
   }

@@ -10,15 +10,15 @@ namespace {
 using arcos::CommandId;
 using Kind = SessionEventKind;
 
-constexpr TimeNs kListenNs = 300 * kNsPerMs;  // three SIP cycles
-constexpr TimeNs kCloseTakesNs = 150 * kNsPerMs;
-constexpr TimeNs kOpenTimeoutNs = 3 * kNsPerS;
-constexpr TimeNs kSipSilenceNs = 2 * kNsPerS;
-constexpr TimeNs kEnableRetryNs = 700 * kNsPerMs;
+constexpr TimeNs kListen_ns = 300 * kNsPerMs;  // three SIP cycles
+constexpr TimeNs kCloseTakes_ns = 150 * kNsPerMs;
+constexpr TimeNs kOpenTimeout_ns = 3 * kNsPerS;
+constexpr TimeNs kSipSilence_ns = 2 * kNsPerS;
+constexpr TimeNs kEnableRetry_ns = 700 * kNsPerMs;
 constexpr int kEnableAttempts = 3;
 constexpr int kSyncAttemptsPerBaud = 2;
 // The longest packet takes 0.27 s at 9600 baud: what is older and still incomplete has lost bytes.
-constexpr TimeNs kPartialPacketNs = 300 * kNsPerMs;
+constexpr TimeNs kPartialPacket_ns = 300 * kNsPerMs;
 
 /// A limit of ours, no larger than the controller's own (0: not told).
 std::int16_t limited(int ours, int controllers_top) {
@@ -33,7 +33,7 @@ std::int16_t limited(int ours, int controllers_top) {
 std::span<const std::uint8_t> ArcosSession::tick(const VelocityCommand& command, TimeNs now_ns) {
   out_.clear();
   if (step_ == Step::NoLine) return out_.bytes();
-  parser_.give_up_before(now_ns - kPartialPacketNs,
+  parser_.give_up_before(now_ns - kPartialPacket_ns,
                          [this](const arcos::Packet& packet) { on_packet(packet); });
   advance_steps(now_ns);
   flush_queue(now_ns);
@@ -51,7 +51,7 @@ void ArcosSession::advance_steps(TimeNs now_ns) {
     case Step::NoLine:
       return;
     case Step::Listening:
-      if (in_step_ns >= kListenNs) ask_sync(Step::Sync0, now_ns);
+      if (in_step_ns >= kListen_ns) ask_sync(Step::Sync0, now_ns);
       return;
     case Step::Sync0:
     case Step::Sync1:
@@ -59,13 +59,13 @@ void ArcosSession::advance_steps(TimeNs now_ns) {
       if (in_step_ns >= ns_from_seconds(config_.sync_retry_s)) retry_sync(now_ns);
       return;
     case Step::Closing:
-      if (in_step_ns >= kCloseTakesNs && queue_.empty()) enter(Step::Listening, now_ns);
+      if (in_step_ns >= kCloseTakes_ns && queue_.empty()) enter(Step::Listening, now_ns);
       return;
     case Step::Opening:
       return finish_opening(now_ns);
     case Step::AskingRate:
       if (!rate_was_asked(now_ns)) return;
-      change_rate(wished_baud_);
+      change_rate(target_baud_);
       return enter(Step::TryingRate, now_ns);
     case Step::TryingRate:
       return try_rate(now_ns);
@@ -74,11 +74,11 @@ void ArcosSession::advance_steps(TimeNs now_ns) {
       change_rate(sweep_.good());
       return enter(Step::Opening, now_ns);
     case Step::Enabling:
-      if (in_step_ns >= kEnableRetryNs) retry_enable(now_ns);
+      if (in_step_ns >= kEnableRetry_ns) retry_enable(now_ns);
       [[fallthrough]];
     case Step::Running:
     case Step::Disabled:
-      if (now_ns - t_sip_ns_ >= kSipSilenceNs) give_up_silent(now_ns);
+      if (now_ns - t_sip_ns_ >= kSipSilence_ns) give_up_silent(now_ns);
       return;
     case Step::Silent:
       if (in_step_ns >= ns_from_seconds(config_.reconnect_s) && queue_.empty())
@@ -119,13 +119,13 @@ void ArcosSession::retry_sync(TimeNs now_ns) {
 void ArcosSession::finish_opening(TimeNs now_ns) {
   const TimeNs in_step_ns = now_ns - t_step_ns_;
   if (!sip_seen_ || t_sip_ns_ < t_step_ns_) {  // one that came at this rate
-    if (in_step_ns >= kOpenTimeoutNs) give_up_silent(now_ns);
+    if (in_step_ns >= kOpenTimeout_ns) give_up_silent(now_ns);
     return;
   }
   const bool waited = in_step_ns >= ns_from_seconds(config_.config_wait_s);
   if (config_.request_config && !config_seen_ && !waited) return;
   if (config_.request_config && !config_seen_) events_.push(now_ns, Kind::ConfigMissing);
-  if (rate_can_rise()) return ask_rate(Step::AskingRate, wished_baud_, now_ns);
+  if (rate_can_rise()) return ask_rate(Step::AskingRate, target_baud_, now_ns);
   queue_limits();
   if (hold_disabled_) {
     enter(Step::Disabled, now_ns);

@@ -7,7 +7,7 @@ namespace heel {
 namespace {
 
 // Longer without a motion command than this is a gap: the robot may resume an old motion, or have stopped.
-constexpr TimeNs kGapNs = 250 * kNsPerMs;
+constexpr TimeNs kGap_ns = 250 * kNsPerMs;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ arcos::Frame MotionSender::next_frame(const VelocityCommand& command, bool zero)
 
 void MotionSender::send(const VelocityCommand& command, TimeNs now_ns, CommandPacer& pacer,
                         OutgoingBytes& out) {
-  if (now_ns - t_last_sent_ns_ > kGapNs) begin_with_zero();
+  if (now_ns - t_last_sent_ns_ > kGap_ns) begin_with_zero();
   const bool expired = now_ns > command.t_expires_ns;
   for (int i = 0; i < 2 && pacer.may_repeat(now_ns); ++i) {
     const arcos::Frame frame = next_frame(command, expired || zeros_to_send_ > 0);

@@ -12,15 +12,15 @@ namespace {
 using wire::wrapped_difference;
 
 // What a P3-AT can do, with room for late stamps; beyond it a counter has been damaged or zeroed.
-constexpr double kSpeedMaxMS = 2.0;
-constexpr double kTurnMaxRadS = 6.0;
-constexpr double kDistanceSlackM = 0.10;
-constexpr double kTurnSlackRad = 0.35;
-constexpr double kReachMaxS = 2.5;  // after a longer gap the robot has stood: its watchdog saw to that
+constexpr double kSpeedMax_m_s = 2.0;
+constexpr double kTurnMax_rad_s = 6.0;
+constexpr double kDistanceSlack_m = 0.10;
+constexpr double kTurnSlack_rad = 0.35;
+constexpr double kReachMax_s = 2.5;  // after a longer gap the robot has stood: its watchdog saw to that
 
 // Counters this near to zero after an interruption have been zeroed.
-constexpr double kZeroedWithinM = 0.05;
-constexpr double kZeroedWithinRad = 0.05;
+constexpr double kZeroedWithin_m = 0.05;
+constexpr double kZeroedWithin_rad = 0.05;
 
 }  // namespace
 
@@ -28,13 +28,13 @@ OdometryTracker::OdometryTracker(double dist_conv_factor)
     : metres_per_unit_(dist_conv_factor * wire::kMetresPerMm) {}
 
 bool OdometryTracker::reachable(const Counters& from, const Counters& to) const {
-  const double elapsed_s = std::clamp(seconds_from_ns(to.t_ns - from.t_ns), 0.0, kReachMaxS);
+  const double elapsed_s = std::clamp(seconds_from_ns(to.t_ns - from.t_ns), 0.0, kReachMax_s);
   const double dx_m = wrapped_difference(to.x, from.x, wire::kPositionUnitsPerWrap) * metres_per_unit_;
   const double dy_m = wrapped_difference(to.y, from.y, wire::kPositionUnitsPerWrap) * metres_per_unit_;
   const double turn_rad =
       wrapped_difference(to.heading, from.heading, wire::kHeadingUnitsPerTurn) * wire::kRadPerHeadingUnit;
-  return std::hypot(dx_m, dy_m) <= kSpeedMaxMS * elapsed_s + kDistanceSlackM &&
-         std::abs(turn_rad) <= kTurnMaxRadS * elapsed_s + kTurnSlackRad;
+  return std::hypot(dx_m, dy_m) <= kSpeedMax_m_s * elapsed_s + kDistanceSlack_m &&
+         std::abs(turn_rad) <= kTurnMax_rad_s * elapsed_s + kTurnSlack_rad;
 }
 
 bool OdometryTracker::zeroed_meanwhile(const Counters& now) const {
@@ -44,7 +44,7 @@ bool OdometryTracker::zeroed_meanwhile(const Counters& now) const {
     const double y_m = wrapped_difference(c.y, zero.y, wire::kPositionUnitsPerWrap) * metres_per_unit_;
     const double heading_rad =
         wrapped_difference(c.heading, zero.heading, wire::kHeadingUnitsPerTurn) * wire::kRadPerHeadingUnit;
-    return std::hypot(x_m, y_m) < kZeroedWithinM && std::abs(heading_rad) < kZeroedWithinRad;
+    return std::hypot(x_m, y_m) < kZeroedWithin_m && std::abs(heading_rad) < kZeroedWithin_rad;
   };
   return near_zero(now) && !near_zero(last_);
 }
@@ -97,7 +97,7 @@ OdometryTracker::Step OdometryTracker::update(const arcos::Sip& sip, TimeNs t_ns
   const double left_m_s = sip.left_mm_s * wire::kMetresPerMm;
   const double right_m_s = sip.right_mm_s * wire::kMetresPerMm;
   pose_.v_m_s = 0.5 * (left_m_s + right_m_s);
-  pose_.yaw_rate_rad_s = (right_m_s - left_m_s) / wire::kEffectiveTrackM;
+  pose_.yaw_rate_rad_s = (right_m_s - left_m_s) / wire::kEffectiveTrack_m;
   return step;
 }
 

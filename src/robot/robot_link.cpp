@@ -11,9 +11,9 @@ namespace {
 // More than this waiting in the driver means nobody takes it: adding would only make the robot obey old
 // commands when the line moves again.
 constexpr std::size_t kBacklogBytes = 200;
-constexpr TimeNs kStuckNs = kNsPerS;
-constexpr TimeNs kShutdownNs = 250 * kNsPerMs;
-constexpr TimeNs kAdapterNs = 20 * kNsPerMs;  // a USB adapter's own buffering
+constexpr TimeNs kStuck_ns = kNsPerS;
+constexpr TimeNs kShutdown_ns = 250 * kNsPerMs;
+constexpr TimeNs kAdapter_ns = 20 * kNsPerMs;  // a USB adapter's own buffering
 
 }  // namespace
 
@@ -90,7 +90,7 @@ const RobotState& RobotLink::exchange(const VelocityCommand& command, TimeNs now
     pending_begin_ = 0;
     pending_end_ = bytes.size();
     write_pending(now_ns);
-  } else if (now_ns - t_progress_ns_ >= kStuckNs) {
+  } else if (now_ns - t_progress_ns_ >= kStuck_ns) {
     lose_line(now_ns);
   }
   if (session_.line_exhausted() && usable_line(now_ns) != nullptr) lose_line(now_ns);
@@ -119,7 +119,7 @@ void RobotLink::shutdown(TimeNs now_ns) {
   if (line == nullptr) return;
 
   const TimeNs begin_ns = monotonic_now_ns();
-  const auto left_ns = [&] { return std::max<TimeNs>(0, kShutdownNs - (monotonic_now_ns() - begin_ns)); };
+  const auto left_ns = [&] { return std::max<TimeNs>(0, kShutdown_ns - (monotonic_now_ns() - begin_ns)); };
   // First the rest of a packet that was begun, or the robot would take STOP for its tail.
   for (auto rest :
        {std::span<const std::uint8_t>(pending_).subspan(pending_begin_, pending_end_ - pending_begin_),
@@ -134,7 +134,7 @@ void RobotLink::shutdown(TimeNs now_ns) {
   line->drain(left_ns());
   // A driver counts as sent what it has handed to the adapter, and closing the line throws that away.
   const TimeNs on_the_wire_ns = static_cast<TimeNs>(last_words.size()) * 10 * kNsPerS / line_baud_;
-  sleep_until_ns(monotonic_now_ns() + std::min(left_ns(), on_the_wire_ns + kAdapterNs));
+  sleep_until_ns(monotonic_now_ns() + std::min(left_ns(), on_the_wire_ns + kAdapter_ns));
 }
 
 }  // namespace heel

@@ -10,7 +10,7 @@
 #include "core/config.h"
 #include "heel/flow.h"
 #include "robot/arcos_session.h"
-#include "robot/line_keeper.h"
+#include "robot/link_connector.h"
 
 namespace heel {
 
@@ -53,7 +53,7 @@ class RobotLink {
   void lose_line(TimeNs now_ns);
 
   ArcosSession session_;
-  LineKeeper keeper_;
+  LinkConnector keeper_;
   bool line_up_ = false;  ///< the session has been told of it
   bool finished_ = false;
   int line_baud_;

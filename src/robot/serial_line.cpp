@@ -23,7 +23,7 @@
 namespace heel {
 namespace {
 
-constexpr TimeNs kHangUpNs = 2 * kNsPerS;  // from the first failure of a port until the kernel hangs it up
+constexpr TimeNs kHangUp_ns = 2 * kNsPerS;  // from the first failure of a port until the kernel hangs it up
 
 /// poll with a timeout in nanoseconds. True when any of `events`, or a hang-up, is there.
 bool poll_one(int fd, short events, TimeNs timeout_ns, short* seen = nullptr) {
@@ -138,7 +138,7 @@ void SerialLine::close() {
       // USB adapters' drivers drop nothing. One that has been pulled out fails before the kernel hangs the
       // port up; closed in between, it holds up the kernel as well, and plugged in again it stays unknown so
       // long.
-      if (unsent_bytes() > 0) poll_one(fd_, 0, kHangUpNs);
+      if (unsent_bytes() > 0) poll_one(fd_, 0, kHangUp_ns);
       sp_close(port_);
     }
     sp_free_port(port_);
@@ -183,9 +183,9 @@ std::size_t SerialLine::unsent_bytes() const {
 }
 
 bool SerialLine::drain(TimeNs timeout_ns) const {
-  constexpr TimeNs kStepNs = 2 * kNsPerMs;
-  const timespec step{0, kStepNs};
-  for (TimeNs waited_ns = 0; unsent_bytes() > 0; waited_ns += kStepNs) {
+  constexpr TimeNs kStep_ns = 2 * kNsPerMs;
+  const timespec step{0, kStep_ns};
+  for (TimeNs waited_ns = 0; unsent_bytes() > 0; waited_ns += kStep_ns) {
     if (waited_ns >= timeout_ns) return false;
     ::nanosleep(&step, nullptr);
   }

@@ -19,7 +19,7 @@ inline constexpr double kVoltsPerDecivolt = 0.1;
 
 /// The track that turns a difference of wheel speeds into a yaw rate: 2 / DiffConvFactor(0.0034), 1.47 times
 /// the geometric one, because the wheels skid in turns.
-inline constexpr double kEffectiveTrackM = 0.588;
+inline constexpr double kEffectiveTrack_m = 0.588;
 
 constexpr double mm_s_from_m_s(double v_m_s) {
   return v_m_s / kMetresPerMm;

@@ -113,7 +113,7 @@ std::vector<CsvColumn<CaptureCounters>> make_capture_columns() {
       {"t_s", [](L& l, const C& c, int) { l.seconds(c.t_ns); }},
       {"captured", [](L& l, const C& c, int) { l.integer(c.captured); }},
       {"dropped_by_driver", [](L& l, const C& c, int) { l.integer(c.dropped_by_driver); }},
-      {"dropped_in_ring", [](L& l, const C& c, int) { l.integer(c.dropped_in_ring); }},
+      {"dropped_unread", [](L& l, const C& c, int) { l.integer(c.dropped_unread); }},
       {"reopened", [](L& l, const C& c, int) { l.integer(c.reopened); }},
   };
 }

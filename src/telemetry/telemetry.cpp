@@ -11,9 +11,9 @@ namespace heel {
 
 namespace {
 
-constexpr TimeNs kRoundNs = 50 * kNsPerMs;
-constexpr TimeNs kFlushNs = 500 * kNsPerMs;
-constexpr TimeNs kRepeatNs = kNsPerS;
+constexpr TimeNs kRound_ns = 50 * kNsPerMs;
+constexpr TimeNs kFlush_ns = 500 * kNsPerMs;
+constexpr TimeNs kRepeat_ns = kNsPerS;
 
 static_assert(static_cast<std::size_t>(EventKind::Warning) < 16, "Telemetry::logged_ns_ is too short");
 
@@ -24,7 +24,7 @@ Telemetry::Telemetry(TelemetryFeeds& feeds, const TelemetryConfig& config) : fee
 }
 
 void Telemetry::run() {
-  PeriodicDeadline deadline(kRoundNs, monotonic_now_ns());
+  PeriodicDeadline deadline(kRound_ns, monotonic_now_ns());
   while (stop_.load(std::memory_order_acquire) == 0) {
     TimeNs now_ns = monotonic_now_ns();
     if (now_ns < deadline.next_ns()) {
@@ -54,11 +54,11 @@ void Telemetry::drain(TimeNs now_ns) {
     newest_.capture = capture;
     if (recorder_) recorder_->record(capture);
   }
-  for (RecordQueue<Event>* events : {&feeds_.capture_events, &feeds_.vision_events, &feeds_.control_events}) {
+  for (SpscQueue<Event>* events : {&feeds_.capture_events, &feeds_.vision_events, &feeds_.control_events}) {
     for (Event event; events->pop(event);) take(event);
   }
-  tell_losses(now_ns);
-  if (recorder_ && now_ns - flushed_ns_ >= kFlushNs) {
+  log_losses(now_ns);
+  if (recorder_ && now_ns - flushed_ns_ >= kFlush_ns) {
     recorder_->flush();
     flushed_ns_ = now_ns;
   }
@@ -91,7 +91,7 @@ void Telemetry::take(const TickRecord& tick) {
 void Telemetry::take(const Event& event) {
   ++newest_.events;
   TimeNs& logged_ns = logged_ns_[static_cast<std::size_t>(event.kind)];
-  const bool too_soon = logged_ns != 0 && event.t_ns - logged_ns < kRepeatNs;
+  const bool too_soon = logged_ns != 0 && event.t_ns - logged_ns < kRepeat_ns;
   if (event_repeats(event.kind) && too_soon) return;
   logged_ns = event.t_ns;
   log_event({.part = event_part(event.kind), .event = to_string(event.kind)}, event_level(event.kind),
@@ -99,11 +99,11 @@ void Telemetry::take(const Event& event) {
   if (recorder_) recorder_->record(event);
 }
 
-void Telemetry::tell_losses(TimeNs now_ns) {
+void Telemetry::log_losses(TimeNs now_ns) {
   newest_.records_lost = feeds_.ticks.dropped() + feeds_.poses.dropped() + feeds_.captures.dropped() +
                          feeds_.capture_events.dropped() + feeds_.vision_events.dropped() +
                          feeds_.control_events.dropped();
-  if (newest_.records_lost == lost_told_ || now_ns - losses_told_ns_ < kRepeatNs) return;
+  if (newest_.records_lost == lost_told_ || now_ns - losses_told_ns_ < kRepeat_ns) return;
   spdlog::warn("telemetry fell behind: {} records lost so far", newest_.records_lost);
   lost_told_ = newest_.records_lost;
   losses_told_ns_ = now_ns;

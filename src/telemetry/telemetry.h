@@ -50,7 +50,7 @@ class Telemetry {
  private:
   void take(const TickRecord& tick);
   void take(const Event& event);
-  void tell_losses(TimeNs now_ns);
+  void log_losses(TimeNs now_ns);
 
   TelemetryFeeds& feeds_;
   std::unique_ptr<Recorder> recorder_;  // null: nothing is recorded

@@ -32,7 +32,7 @@ struct Bench {
     input.robot.sonar[3].t_ns = input.now_ns;
     input.pose.t_capture_ns = input.now_ns;
   }
-  Conditions frame(PoseNews news = PoseNews::Believed, double certainty = 0.4) {
+  Conditions frame(MeasurementStatus news = MeasurementStatus::Accepted, double certainty = 0.4) {
     input.now_ns += kFrame_ns;
     freshen();
     input.pose.certainty = certainty;
@@ -41,12 +41,12 @@ struct Bench {
   Conditions idle(TimeNs dt_ns) {  // time passes, frames come, nobody in them
     input.now_ns += dt_ns;
     freshen();
-    return monitor.observe(input, PoseNews::Refused, config, sonar_on);
+    return monitor.observe(input, MeasurementStatus::Rejected, config, sonar_on);
   }
   void start_following() {
     for (int i = 0; i < config.frames_to_follow; ++i) frame();
   }
-  Conditions same_tick() { return monitor.observe(input, PoseNews::None, config, sonar_on); }
+  Conditions same_tick() { return monitor.observe(input, MeasurementStatus::None, config, sonar_on); }
 };
 
 TEST(Conditions, NoneWhileFollowing) {
@@ -133,7 +133,7 @@ TEST(Conditions, FollowingStartsOnlyAfterEnoughFramesInARow) {
   Bench bench;
   EXPECT_EQ(bench.frame(), kNoTargetYet);
   EXPECT_EQ(bench.frame(), kNoTargetYet);
-  EXPECT_EQ(bench.frame(PoseNews::Refused), kNoTargetYet);  // starts the count anew
+  EXPECT_EQ(bench.frame(MeasurementStatus::Rejected), kNoTargetYet);  // starts the count anew
   EXPECT_EQ(bench.frame(), kNoTargetYet);
   EXPECT_EQ(bench.same_tick(), kNoTargetYet);  // a tick without a frame does not count
   EXPECT_EQ(bench.frame(), kNoTargetYet);
@@ -153,14 +153,15 @@ TEST(Conditions, CertaintyHasHysteresis) {
   Bench bench;
   const double between = 0.5 * (bench.config.certainty_follow + bench.config.certainty_drop);
   for (int i = 0; i < 20; ++i)
-    EXPECT_EQ(bench.frame(PoseNews::Believed, between), kLowCertainty | kNoTargetYet);
+    EXPECT_EQ(bench.frame(MeasurementStatus::Accepted, between), kLowCertainty | kNoTargetYet);
   bench.start_following();
-  for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.frame(PoseNews::Believed, between), 0);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.frame(MeasurementStatus::Accepted, between), 0);
   Conditions last = 0;
-  for (int i = 0; i < 100; ++i) last = bench.frame(PoseNews::Believed, 0.5 * bench.config.certainty_drop);
+  for (int i = 0; i < 100; ++i)
+    last = bench.frame(MeasurementStatus::Accepted, 0.5 * bench.config.certainty_drop);
   EXPECT_EQ(last, kLowCertainty | kTargetLost);
   for (int i = 0; i < 20; ++i)
-    EXPECT_EQ(bench.frame(PoseNews::Believed, between), kLowCertainty | kTargetLost);
+    EXPECT_EQ(bench.frame(MeasurementStatus::Accepted, between), kLowCertainty | kTargetLost);
 }
 
 TEST(Conditions, LostAfterTheTimeoutAndFoundAgainByTheSameRule) {

@@ -14,7 +14,7 @@ namespace {
 struct Following {
   Config config;
   ControlStage stage{config};
-  truth::Reference reference;
+  test::Reference reference;
   Pose2 robot;
   Pose2 person{3.0, 0.0, 0.0};
   double person_v_m_s = 0.5, person_yaw_rate_rad_s = 0.0;
@@ -29,18 +29,18 @@ struct Following {
     input.robot.phase = LinkPhase::Running;
     input.robot.has_sip = true;
     input.robot.motors_enabled = true;
-    input.robot.odometry = truth::odometry(input.now_ns, robot, 0, 0);
+    input.robot.odometry = test::odometry(input.now_ns, robot, 0, 0);
   }
 
   void tick() {
     if (input.now_ns % (100 * kNsPerMs) == 0) {
-      input.robot.odometry = truth::odometry(input.now_ns, robot, v_m_s, yaw_rate_rad_s);
+      input.robot.odometry = test::odometry(input.now_ns, robot, v_m_s, yaw_rate_rad_s);
       input.robot.sonar.fill({input.now_ns, 5.0});
       if (ahead_m > 0.0) input.robot.sonar[3].range_m = ahead_m;
     }
     if (camera && input.now_ns % (40 * kNsPerMs) == 0) {
       const std::uint64_t sequence = input.pose.frame_sequence + 1;
-      input.pose = truth::measured(person, robot, mount_of(config.camera), reference);
+      input.pose = test::measured(person, robot, mount_of(config.camera), reference);
       if (!visible) input.pose.reason = PoseReason::TooFewMatches;
       input.pose.frame_sequence = sequence;
       input.pose.t_capture_ns = input.now_ns;
@@ -49,8 +49,8 @@ struct Following {
     record = stage.tick(input);
     v_m_s = record.command.v_m_s;
     yaw_rate_rad_s = record.command.yaw_rate_rad_s;
-    robot = truth::moved(robot, v_m_s, yaw_rate_rad_s, 0.02);
-    person = truth::moved(person, person_v_m_s, person_yaw_rate_rad_s, 0.02);
+    robot = test::moved(robot, v_m_s, yaw_rate_rad_s, 0.02);
+    person = test::moved(person, person_v_m_s, person_yaw_rate_rad_s, 0.02);
     input.now_ns += 20 * kNsPerMs;
   }
   void run(double seconds) {

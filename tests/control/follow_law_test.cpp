@@ -99,7 +99,7 @@ struct Loop {
   double worst_bearing_rad = 0.0;
 
   TargetState target() const {
-    const Eigen::Vector2d p = truth::in_robot(robot, person.x_m, person.y_m);
+    const Eigen::Vector2d p = test::in_robot(robot, person.x_m, person.y_m);
     return law.target(p.x(), p.y(), wrap_angle_rad(person.heading_rad - robot.heading_rad));
   }
   void run(double seconds) {
@@ -109,8 +109,8 @@ struct Loop {
       worst_bearing_rad = std::max(worst_bearing_rad,
                                    std::abs(std::atan2(seen.y_m - law.mount.y_m, seen.x_m - law.mount.x_m)));
       const auto command = law(seen);
-      robot = truth::moved(robot, command.v_m_s, command.yaw_rate_rad_s, dt_s);
-      person = truth::moved(person, person_v_m_s, 0.0, dt_s);
+      robot = test::moved(robot, command.v_m_s, command.yaw_rate_rad_s, dt_s);
+      person = test::moved(person, person_v_m_s, 0.0, dt_s);
     }
   }
 };

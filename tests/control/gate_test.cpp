@@ -19,8 +19,8 @@ VelocityCommand command(double v_m_s, double yaw_rate_rad_s, TimeNs t_issued_ns 
 }
 
 VelocityCommand pass(const VelocityCommand& wanted, const VelocityCommand& previous,
-                     StopStyle style = StopStyle::Go, const Surroundings& around = {}) {
-  return pass_gate(wanted, previous, style, around, kNow_ns, GateConfig{});
+                     StopStyle style = StopStyle::Go, const Clearances& around = {}) {
+  return apply_gate(wanted, previous, style, around, kNow_ns, GateConfig{});
 }
 
 TEST(Gate, LetsAModestCommandThroughUntouched) {
@@ -62,7 +62,7 @@ TEST(Gate, ComesToRestWithinTheDeceleration) {
   while (last.v_m_s != 0.0 || last.yaw_rate_rad_s != 0.0) {
     now_ns += kTick_ns;
     const auto next =
-        pass_gate(command(0.7, -1.0, now_ns), last, StopStyle::ComeToRest, {}, now_ns, GateConfig{});
+        apply_gate(command(0.7, -1.0, now_ns), last, StopStyle::ComeToRest, {}, now_ns, GateConfig{});
     ASSERT_LE(last.v_m_s - next.v_m_s, 1.5 * 0.02 + 1e-12);
     last = next;
   }
@@ -96,7 +96,7 @@ TEST(Gate, StopsShortOfTheSeparation) {
   TimeNs now_ns = kNow_ns;
   for (int i = 0; i < 2000; ++i) {
     now_ns += kTick_ns;
-    last = pass_gate(command(0.7, 0, now_ns), last, StopStyle::Go, {range_m, {}}, now_ns, limits);
+    last = apply_gate(command(0.7, 0, now_ns), last, StopStyle::Go, {range_m, {}}, now_ns, limits);
     range_m -= last.v_m_s * 0.02;
   }
   EXPECT_GE(range_m, limits.separation_m - 1e-3);
@@ -115,9 +115,9 @@ TEST(Gate, StopsShortOfWhatTheSonarsHear) {
   TimeNs now_ns = kNow_ns;
   const auto step = [&](double v_m_s) {
     now_ns += kTick_ns;
-    Surroundings around;
+    Clearances around;
     around.echoes.add({0.313 + thing_m, 0.1});
-    last = pass_gate(command(v_m_s, 0, now_ns), last, StopStyle::Go, around, now_ns, limits);
+    last = apply_gate(command(v_m_s, 0, now_ns), last, StopStyle::Go, around, now_ns, limits);
     thing_m -= last.v_m_s * 0.02;
   };
   for (int i = 0; i < 2000; ++i) step(0.7);
@@ -129,7 +129,7 @@ TEST(Gate, StopsShortOfWhatTheSonarsHear) {
 }
 
 TEST(Gate, BrakesForTheWayItIsOnAsWellAsForTheOneItTurnsTo) {
-  Surroundings left, right;
+  Clearances left, right;
   left.echoes.add({0.7, 0.45});    // on an arc to the left, not straight ahead
   right.echoes.add({0.7, -0.45});  // and mirrored
   const auto turning = command(0.6, 0.9, kNow_ns - kTick_ns);
@@ -155,8 +155,8 @@ VelocityCommand any_command() {
   return {any_time(), any_time(), any_double(), any_double(), *rc::gen::arbitrary<std::uint8_t>()};
 }
 
-Surroundings any_surroundings() {
-  Surroundings around{any_double(), {}};
+Clearances any_surroundings() {
+  Clearances around{any_double(), {}};
   for (std::size_t i = *rc::gen::inRange<std::size_t>(0, kSonars + 1); i > 0; --i)
     around.echoes.add({any_double(), any_double()});
   return around;
@@ -167,7 +167,7 @@ RC_GTEST_PROP(GateProperty, NothingEverExceedsALimitAndEverythingExpires, ()) {
   const VelocityCommand wanted = any_command();
   const VelocityCommand previous = any_command();
   const auto style = *rc::gen::element(StopStyle::Go, StopStyle::ComeToRest, StopStyle::AtOnce);
-  const auto out = pass_gate(wanted, previous, style, any_surroundings(), kNow_ns, limits);
+  const auto out = apply_gate(wanted, previous, style, any_surroundings(), kNow_ns, limits);
 
   RC_ASSERT(std::isfinite(out.v_m_s) && std::isfinite(out.yaw_rate_rad_s));
   RC_ASSERT(std::abs(out.v_m_s) <= limits.v_max_m_s);
@@ -187,8 +187,8 @@ RC_GTEST_PROP(GateProperty, NoStepIsLargerThanTheAccelerationsAllow, ()) {
         std::min(seconds_from_ns(now_ns - last.t_issued_ns), seconds_from_ns(kLongestSlew_ns));
     VelocityCommand wanted = any_command();
     wanted.t_expires_ns = now_ns + 1;
-    const auto out = pass_gate(wanted, last, *rc::gen::element(StopStyle::Go, StopStyle::ComeToRest),
-                               any_surroundings(), now_ns, limits);
+    const auto out = apply_gate(wanted, last, *rc::gen::element(StopStyle::Go, StopStyle::ComeToRest),
+                                any_surroundings(), now_ns, limits);
     const double gain = std::abs(out.v_m_s) - std::abs(last.v_m_s);
     RC_ASSERT(gain <= limits.acceleration_m_s2 * dt_s + 1e-12);
     RC_ASSERT(-gain <= limits.deceleration_m_s2 * dt_s + 1e-12);

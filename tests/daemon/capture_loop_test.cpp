@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
-#include "capture/made_frames.h"
 #include "capture/shared_memory/sim_source.h"
+#include "capture/synthetic_frames.h"
 #include "realtime/clock.h"
 #include "support/allocation_count.h"
 
@@ -78,9 +78,9 @@ class CaptureLoopTest : public testing::Test {
     return result;
   }
 
-  FrameRing ring_{kWidth, kHeight};
-  RecordQueue<CaptureCounters> counts_{64};
-  RecordQueue<Event> events_{64};
+  FrameTripleBuffer ring_{kWidth, kHeight};
+  SpscQueue<CaptureCounters> counts_{64};
+  SpscQueue<Event> events_{64};
   ScriptedSource source_;
   CaptureLoop loop_{
       source_, ring_, counts_, events_, {.reopen_first_ns = kNsPerMs, .reopen_longest_ns = 8 * kNsPerMs}};
@@ -92,7 +92,7 @@ TEST_F(CaptureLoopTest, FramesGoIntoTheRing) {
   source_.results = {Frame, Frame, Timeout, Frame};
   loop_.run();
   EXPECT_EQ(loop_.counters().captured, 3u);
-  EXPECT_EQ(loop_.counters().dropped_in_ring, 2u);
+  EXPECT_EQ(loop_.counters().dropped_unread, 2u);
   const FrameView* frame = ring_.take();
   ASSERT_NE(frame, nullptr);
   EXPECT_EQ(frame->header.sequence, 3u);
@@ -176,13 +176,13 @@ TEST_F(CaptureLoopTest, CountsAreToldWheneverTheyHaveChangedAndOnlyThen) {
   const TimeNs before_ns = monotonic_now_ns();
   loop_.run();
   struct Told {
-    std::uint64_t captured, dropped_by_driver, dropped_in_ring, reopened;
+    std::uint64_t captured, dropped_by_driver, dropped_unread, reopened;
     bool operator==(const Told&) const = default;
   };
   std::vector<Told> told;
   TimeNs t_last_ns = before_ns;
   for (CaptureCounters c; counts_.pop(c);) {
-    told.push_back({c.captured, c.dropped_by_driver, c.dropped_in_ring, c.reopened});
+    told.push_back({c.captured, c.dropped_by_driver, c.dropped_unread, c.reopened});
     EXPECT_GE(c.t_ns, t_last_ns);
     t_last_ns = c.t_ns;
   }
@@ -237,9 +237,9 @@ TEST(CaptureLoop, DoesNotAllocateInSteadyState) {
   SimChannelWriter writer(name, kWidth, kHeight);
   SimSource source(name);
   ASSERT_EQ(source.open(), OpenResult::Opened);
-  FrameRing ring(kWidth, kHeight);
-  RecordQueue<CaptureCounters> counts(8);
-  RecordQueue<Event> events(8);
+  FrameTripleBuffer ring(kWidth, kHeight);
+  SpscQueue<CaptureCounters> counts(8);
+  SpscQueue<Event> events(8);
   CaptureLoop loop(source, ring, counts, events);
   loop.assume_open();
   const std::uint64_t before_vector = test::allocations_of_this_thread();

@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "estimate/odometry_history.h"
-#include "estimate/sighting.h"
+#include "estimate/target_measurement.h"
 #include "heel/flow.h"
 #include "heel/vision_config.h"
 
-namespace heel::truth {
+namespace heel::test {
 
 /// The template as it was taken: its centre in the reference camera (x right, y down, z = distance).
 struct Reference {
@@ -70,4 +70,4 @@ inline Odometry odometry(TimeNs t_ns, const Pose2& robot, double v_m_s, double y
   return {t_ns, robot.x_m, robot.y_m, robot.heading_rad, v_m_s, yaw_rate_rad_s};
 }
 
-}  // namespace heel::truth
+}  // namespace heel::test

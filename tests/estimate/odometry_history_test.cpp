@@ -30,8 +30,8 @@ TEST(OdometryHistory, InterpolatesBetweenPackets) {
 TEST(OdometryHistory, CarriesOnAlongTheArcAfterTheNewest) {
   OdometryHistory history;
   const Pose2 start{1.0, 2.0, 0.5};
-  history.push(truth::odometry(kNsPerS, start, 0.7, 1.5));
-  const Pose2 expected = truth::moved(start, 0.7, 1.5, 0.3);
+  history.push(test::odometry(kNsPerS, start, 0.7, 1.5));
+  const Pose2 expected = test::moved(start, 0.7, 1.5, 0.3);
   const auto pose = history.at(kNsPerS + 300 * kNsPerMs);
   ASSERT_TRUE(pose.has_value());
   EXPECT_NEAR(pose->x_m, expected.x_m, 1e-12);

@@ -15,14 +15,14 @@
 namespace heel {
 namespace {
 
-using truth::in_robot;
-using truth::measured;
-using truth::moved;
+using test::in_robot;
+using test::measured;
+using test::moved;
 
 /// Robot packets at 10 Hz, frames at 30 Hz that arrive late, both from exact motion.
 struct Scene {
   Config config;
-  truth::Reference reference;
+  test::Reference reference;
   Pose2 robot{0.0, 0.0, 0.0};
   Pose2 person{2.5, 0.0, 0.0};
   double v_m_s = 0.0, yaw_rate_rad_s = 0.0;
@@ -38,7 +38,7 @@ struct Scene {
     const TimeNs end_ns = now_ns + ns_from_seconds(seconds);
     for (; now_ns < end_ns; now_ns += 10 * kNsPerMs) {
       if (now_ns % (100 * kNsPerMs) == 0) {
-        estimator.see_robot(truth::odometry(now_ns, robot, v_m_s, yaw_rate_rad_s));
+        estimator.add_odometry(test::odometry(now_ns, robot, v_m_s, yaw_rate_rad_s));
       }
       if (now_ns % (30 * kNsPerMs) == 0) {
         in_flight.push_back(measured(person, robot, mount_of(config.camera), reference));
@@ -46,7 +46,7 @@ struct Scene {
         disturb(in_flight.back());
       }
       while (!in_flight.empty() && in_flight.front().t_capture_ns + latency_ns <= now_ns) {
-        estimator.see_pose(in_flight.front());
+        estimator.update(in_flight.front());
         in_flight.erase(in_flight.begin());
       }
       robot = moved(robot, v_m_s, yaw_rate_rad_s, 0.01);
@@ -152,7 +152,7 @@ TEST(TargetEstimator, OneWildJumpIsSetAside) {
   scene.run(1.0);
   PoseEstimate wild = measured({2.5, 1.5, 0.0}, scene.robot, mount_of(scene.config.camera), scene.reference);
   wild.t_capture_ns = scene.now_ns;
-  EXPECT_FALSE(scene.estimator.see_pose(wild));
+  EXPECT_FALSE(scene.estimator.update(wild));
   EXPECT_LT(scene.position_error_m(), 1e-6);
 }
 
@@ -169,10 +169,10 @@ TEST(TargetEstimator, FramesOutOfOrderOrTwiceAreNotBelieved) {
   scene.run(0.5);
   PoseEstimate pose = measured(scene.person, scene.robot, mount_of(scene.config.camera), scene.reference);
   pose.t_capture_ns = scene.now_ns;
-  EXPECT_TRUE(scene.estimator.see_pose(pose));
-  EXPECT_FALSE(scene.estimator.see_pose(pose));
+  EXPECT_TRUE(scene.estimator.update(pose));
+  EXPECT_FALSE(scene.estimator.update(pose));
   pose.t_capture_ns -= kNsPerMs;
-  EXPECT_FALSE(scene.estimator.see_pose(pose));
+  EXPECT_FALSE(scene.estimator.update(pose));
 }
 
 TEST(TargetEstimator, ResetForgets) {

@@ -10,7 +10,7 @@ namespace heel {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr TimeNs kCycleNs = 100 * kNsPerMs;
+constexpr TimeNs kCycle_ns = 100 * kNsPerMs;
 
 /// A robot's counters for a true pose, as firmware of different habits writes them.
 struct Counters {
@@ -43,7 +43,7 @@ TEST(Odometry, FollowsACircleThroughManyWraps) {
       const double heading_rad = arc_m / radius_m;
       const double x_m = radius_m * std::sin(heading_rad);
       const double y_m = radius_m * (1.0 - std::cos(heading_rad));
-      t_ns += kCycleNs;
+      t_ns += kCycle_ns;
       ASSERT_EQ(odometry.update(counters.at(x_m, y_m, heading_rad), t_ns), OdometryTracker::Step::Moved);
       ASSERT_NEAR(odometry.pose().x_m, x_m, 1e-3);
       ASSERT_NEAR(odometry.pose().y_m, y_m, 1e-3);
@@ -58,7 +58,7 @@ TEST(Odometry, BeginsAtTheOriginWhereverTheCountersStand) {
   odometry.update(Counters{}.at(5.0, -3.0, kPi / 2), 0);
   EXPECT_EQ(odometry.pose().x_m, 0.0);
   EXPECT_EQ(odometry.pose().heading_rad, 0.0);
-  odometry.update(Counters{}.at(5.0, -2.9, kPi / 2), kCycleNs);  // ahead, for this robot
+  odometry.update(Counters{}.at(5.0, -2.9, kPi / 2), kCycle_ns);  // ahead, for this robot
   EXPECT_NEAR(odometry.pose().x_m, 0.1, 1e-9);
   EXPECT_NEAR(odometry.pose().y_m, 0.0, 1e-9);
 }
@@ -67,7 +67,7 @@ struct Standing {
   OdometryTracker odometry{1.0};
   TimeNs t_ns = 0;
   OdometryTracker::Step step(double x_m, double y_m, double heading_rad) {
-    t_ns += kCycleNs;
+    t_ns += kCycle_ns;
     return odometry.update(Counters{}.at(x_m, y_m, heading_rad), t_ns);
   }
   /// Origin, then 3 m ahead and turned to the left.

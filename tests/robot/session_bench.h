@@ -8,7 +8,7 @@
 
 namespace heel::test {
 
-inline constexpr TimeNs kTickNs = 20 * kNsPerMs;
+inline constexpr TimeNs kTick_ns = 20 * kNsPerMs;
 
 inline RobotConfig bench_config(const char* address = "pty:/dev/pts/0") {
   RobotConfig config;
@@ -24,7 +24,7 @@ class SessionBench {
 
   /// One tick; the robot hears what was written, and what it says is heard at the next tick.
   void tick() {
-    now_ns += kTickNs;
+    now_ns += kTick_ns;
     const Bytes said = robot.speak(now_ns);
     const bool understood = robot.baud == 0 || robot.baud == session.wanted_baud();
     if (understood && line_up) session.receive(said, now_ns);

@@ -20,7 +20,7 @@ TEST(SessionMemory, NoAllocationAfterConstruction) {
   };
   counted([&] { session.line_opened(now_ns); });
   for (int i = 0; i < 1000; ++i) {
-    now_ns += test::kTickNs;
+    now_ns += test::kTick_ns;
     if (i == 400) robot.mute = true;
     if (i == 700) robot.mute = false;
     test::Bytes said = robot.speak(now_ns);

@@ -13,7 +13,7 @@ namespace {
 
 using arcos::CommandId;
 using test::bench_config;
-using test::kTickNs;
+using test::kTick_ns;
 using test::Received;
 using test::SessionBench;
 using Kind = SessionEventKind;
@@ -120,7 +120,7 @@ TEST(SessionPacing, NeverMoreThanItsShareOfTheLineNorACommandEach4ms) {
       bench.robot.log.clear();
       const std::size_t bytes_before = bench.robot.bytes_received;
       for (int i = 0; i < 10 * kNsPerS / tick_ns; ++i) {
-        bench.now_ns += tick_ns - kTickNs;  // tick() adds its own
+        bench.now_ns += tick_ns - kTick_ns;  // tick() adds its own
         bench.tick();
       }
       const auto bytes = static_cast<double>(bench.robot.bytes_received - bytes_before);

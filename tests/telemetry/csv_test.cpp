@@ -172,12 +172,12 @@ TEST(CsvColumns, APoseLandsUnderItsNames) {
 
 TEST(CsvColumns, CountsOfTheFramePathLandUnderTheirNames) {
   const CaptureCounters counts{
-      .t_ns = 1'250'000'000, .captured = 7, .dropped_by_driver = 5, .dropped_in_ring = 3, .reopened = 2};
+      .t_ns = 1'250'000'000, .captured = 7, .dropped_by_driver = 5, .dropped_unread = 3, .reopened = 2};
   const auto row = row_of(capture_columns(), counts);
   EXPECT_EQ(row.at("t_s"), "1.250000000");
   EXPECT_EQ(row.at("captured"), "7");
   EXPECT_EQ(row.at("dropped_by_driver"), "5");
-  EXPECT_EQ(row.at("dropped_in_ring"), "3");
+  EXPECT_EQ(row.at("dropped_unread"), "3");
   EXPECT_EQ(row.at("reopened"), "2");
 }
 

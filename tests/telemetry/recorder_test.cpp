@@ -104,7 +104,7 @@ TEST(Recorder, WritesHeadersAndRowsOfEachKind) {
   EXPECT_EQ(occurrences(poses, "\n"), 2);
   EXPECT_THAT(poses, HasSubstr(",42,"));
   EXPECT_EQ(read_text(directory + "/capture.csv"),
-            "t_s,captured,dropped_by_driver,dropped_in_ring,reopened\n2.000000000,11,0,0,0\n");
+            "t_s,captured,dropped_by_driver,dropped_unread,reopened\n2.000000000,11,0,0,0\n");
   EXPECT_THAT(read_text(directory + "/events.log"),
               testing::MatchesRegex("[0-9.]+ recording begins at 20[0-9TZ:-]+\n"
                                     "3\\.000000000 frame refused: 320x240 px .*\n"));

@@ -22,8 +22,8 @@ namespace heel::cli {
 namespace {
 
 constexpr int kDefaultFrames = 60;
-constexpr int kLeastSidePx = 240, kMostSidePx = 2160;
-constexpr double kImageRateHz = 30.0;
+constexpr int kLeastSide_px = 240, kMostSide_px = 2160;
+constexpr double kImageRate_Hz = 30.0;
 
 struct BenchVisionOptions {
   std::vector<std::string> inputs;
@@ -49,22 +49,22 @@ cv::Size parse_size(const std::string& text) {
   int width = 0, height = 0;
   char rest = 0;
   const bool whole = std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2;
-  if (!whole || width < kLeastSidePx || height < kLeastSidePx || width > 2 * kMostSidePx ||
-      height > kMostSidePx || width < height)
+  if (!whole || width < kLeastSide_px || height < kLeastSide_px || width > 2 * kMostSide_px ||
+      height > kMostSide_px || width < height)
     throw Error("--size: '" + text + "' (expected WxH, from 240x240 to 4320x2160, not higher than wide)");
   return {width, height};
 }
 
 /// The first `frames` + 1 of somebody's own pictures.
-bench::BenchInput own_input(const BenchVisionOptions& options) {
+evaluation::BenchInput own_input(const BenchVisionOptions& options) {
   if (options.template_file.empty() || options.camera_file.empty())
     throw Error(std::string(options.template_file.empty() ? "--template" : "--camera-info") +
                 ": missing (expected with an input)");
-  bench::BenchInput input;
+  evaluation::BenchInput input;
   input.shirt = read_template(options.template_file);
   input.camera = read_camera_model(options.camera_file);
   input.source = options.inputs.front();
-  FrameInput frames(options.inputs, kImageRateHz);
+  FrameInput frames(options.inputs, kImageRate_Hz);
   InputFrame frame;
   while (input.frames.size() <= static_cast<std::size_t>(options.frames) && frames.next(frame)) {
     require_size(frame, input.camera, options.camera_file);
@@ -73,7 +73,7 @@ bench::BenchInput own_input(const BenchVisionOptions& options) {
   return input;
 }
 
-bench::BenchInput input_of(const BenchVisionOptions& options) {
+evaluation::BenchInput input_of(const BenchVisionOptions& options) {
   if (!options.inputs.empty()) {
     if (!options.size.empty()) throw Error("--size: given with an input (expected one of the two)");
     return own_input(options);
@@ -83,7 +83,7 @@ bench::BenchInput input_of(const BenchVisionOptions& options) {
     if (!value.empty())
       throw Error(std::string(name) + ": given without an input (expected images or a video)");
   const cv::Size size = parse_size(options.size.empty() ? "640x480" : options.size);
-  return bench::walk_in_a_room(size, options.frames + 1);
+  return evaluation::walk_in_a_room(size, options.frames + 1);
 }
 
 /// A counter on a terminal.
@@ -95,16 +95,16 @@ void show_progress(std::size_t frame, std::size_t frames) {
 void run_bench_vision(const BenchVisionOptions& options) {
   if (!options.picture.empty()) require_writable_picture_name(options.picture);
   choose_simd(options.simd);
-  const bench::BenchInput input = input_of(options);
-  bench::VisionReport report;
-  report.machine = bench::this_machine();
+  const evaluation::BenchInput input = input_of(options);
+  evaluation::VisionReport report;
+  report.machine = evaluation::this_machine();
   report.source = input.source;
   report.frames = input.frames.empty() ? 0 : input.frames.size() - 1;
   report.size = {input.camera.width_px, input.camera.height_px};
   report.bench =
-      bench::measure_vision(input, [&](std::size_t frame) { show_progress(frame, report.frames); });
-  std::cout << (options.json ? bench::to_json(report).dump(2) + "\n" : bench::table(report));
-  if (!options.picture.empty()) write_picture(options.picture, bench::bars(report));
+      evaluation::measure_vision(input, [&](std::size_t frame) { show_progress(frame, report.frames); });
+  std::cout << (options.json ? evaluation::to_json(report).dump(2) + "\n" : evaluation::table(report));
+  if (!options.picture.empty()) write_picture(options.picture, evaluation::bars(report));
 }
 
 }  // namespace
@@ -127,7 +127,7 @@ void add_bench_vision_command(CLI::App& bench) {
       ->type_name("CAM.yaml");
   command->add_option("--frames", options->frames, "frames measured, after one for warming up")
       ->type_name("N")
-      ->check(CLI::Range(1, bench::kMaxWorldFrames))
+      ->check(CLI::Range(1, evaluation::kMaxWorldFrames))
       ->capture_default_str();
   command->add_option("--size", options->size, "of the simulated pictures (default 640x480)")
       ->type_name("WxH");

@@ -39,14 +39,14 @@ sim::Scenario base_of(const ExperimentOptions& options) {
   return scenario;
 }
 
-void run_still_experiment(const experiment::StillExperiment& chosen, const ExperimentOptions& options) {
+void run_still_experiment(const evaluation::StillExperiment& chosen, const ExperimentOptions& options) {
   const sim::Scenario base = base_of(options);
   Config config;
   if (!options.config_file.empty()) config = load_config(options.config_file).config;
   sim::apply_scenario(base, config);
   const std::string pictures = options.out + "/" + chosen.name;
   if (chosen.keeps_pictures) std::filesystem::create_directories(pictures);
-  const auto keep = [&](const experiment::StillRow&, std::size_t index,
+  const auto keep = [&](const evaluation::StillRow&, std::size_t index,
                         const std::vector<std::uint8_t>& grey) {
     char name[32];
     std::snprintf(name, sizeof name, "/%03zu.png", index);
@@ -60,12 +60,12 @@ void run_still_experiment(const experiment::StillExperiment& chosen, const Exper
     std::fprintf(stderr, "\r%-10s %5zu of %zu poses", chosen.name, done, of);
   };
   const auto rows =
-      experiment::run_stills(base, chosen.cases(options.repeats > 0 ? options.repeats : chosen.repeats),
+      evaluation::run_stills(base, chosen.cases(options.repeats > 0 ? options.repeats : chosen.repeats),
                              options.teach_distance_m, config.vision, keep, progress);
   const auto found =
       std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.pose.found(); });
   const std::string file = options.out + "/" + chosen.name + ".csv";
-  experiment::write_stills(rows, file);
+  evaluation::write_stills(rows, file);
   std::fprintf(stderr, "\r");
   std::printf("%-10s %zu pictures, found in %td: %s\n", chosen.name, rows.size(), found, file.c_str());
   std::fflush(stdout);
@@ -82,10 +82,10 @@ void look_at_real_images(const ExperimentOptions& options) {
   const std::string data = data_folder(options);
   VisionConfig vision;
   vision.ransac_budget_ms = 0.0;  // a deadline would make the result depend on the machine
-  const auto pairs = experiment::look_at_pairs(data, vision);
-  if (!pairs.empty()) experiment::write_pairs(pairs, options.out + "/real_pairs.csv");
-  const auto video = experiment::look_at_video(data, kVideoStep, vision);
-  if (!video.empty()) experiment::write_video(video, options.out + "/real_video.csv");
+  const auto pairs = evaluation::look_at_pairs(data, vision);
+  if (!pairs.empty()) evaluation::write_pairs(pairs, options.out + "/real_pairs.csv");
+  const auto video = evaluation::look_at_video(data, kVideoStep, vision);
+  if (!video.empty()) evaluation::write_video(video, options.out + "/real_video.csv");
   std::printf("%-10s %zu pairs, %zu frames of video%s\n", kReal, pairs.size(), video.size(),
               pairs.empty() || video.empty() ? (": SKIPPED where absent in " + data).c_str() : "");
   std::fflush(stdout);
@@ -95,7 +95,7 @@ void run_experiments(const ExperimentOptions& options) {
   std::filesystem::create_directories(options.out);
   if (std::find(options.names.begin(), options.names.end(), kReal) != options.names.end())
     look_at_real_images(options);
-  for (const experiment::StillExperiment& known : experiment::still_experiments())
+  for (const evaluation::StillExperiment& known : evaluation::still_experiments())
     if (std::find(options.names.begin(), options.names.end(), known.name) != options.names.end())
       run_still_experiment(known, options);
 }
@@ -108,7 +108,7 @@ void add_experiment_command(CLI::App& app) {
       "experiment", "Looks at the pictured person in commanded poses; NAME.csv for `heel report`");
   std::vector<std::string> names;
   std::string help = "one or more of:";
-  for (const experiment::StillExperiment& known : experiment::still_experiments()) {
+  for (const evaluation::StillExperiment& known : evaluation::still_experiments()) {
     names.emplace_back(known.name);
     help += std::string("\n  ") + known.name + ": " + known.what;
   }

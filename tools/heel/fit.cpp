@@ -29,11 +29,11 @@ struct FitOptions {
 /// DIR/errors.csv: the standing person in thousands of poses.
 void make_stills(const sim::Scenario& base, const VisionConfig& vision, const FitOptions& options,
                  const std::string& file) {
-  const auto& known = experiment::still_experiments();
+  const auto& known = evaluation::still_experiments();
   const auto errors = std::find_if(known.begin(), known.end(),
                                    [](const auto& one) { return std::string(one.name) == "errors"; });
-  experiment::write_stills(
-      experiment::run_stills(
+  evaluation::write_stills(
+      evaluation::run_stills(
           base, errors->cases(options.thousands), options.teach_distance_m, vision, {},
           [](std::size_t done, std::size_t of) { std::fprintf(stderr, "\r%5zu of %zu poses", done, of); }),
       file);
@@ -45,7 +45,7 @@ void make_walk(sim::LockstepSettings settings, const FitOptions& options, const 
   settings.scenario.duration_s = std::min(settings.scenario.duration_s, options.walk_s);
   settings.shirt = sim::teach_from_world(settings.scenario, options.teach_distance_m);
   std::filesystem::create_directories(directory);
-  sim::RunRecord record(directory, settings);
+  evaluation::RunRecord record(directory, settings);
   sim::run_lockstep(settings, record);
 }
 
@@ -60,15 +60,15 @@ void run_fit(const FitOptions& options) {
   if (!std::filesystem::exists(walk + "/truth.csv")) make_walk(settings, options, walk);
 
   const CameraModel& camera = settings.scenario.camera.model;
-  const auto rows = report::still_fit_rows(report::read_stills(stills), camera);
-  const auto frames = report::walk_fit_rows(report::read_run(walk), camera);
-  const errors::ErrorModel model = errors::fit_error_model(rows, frames);
+  const auto rows = evaluation::still_fit_rows(evaluation::read_stills(stills), camera);
+  const auto frames = evaluation::walk_fit_rows(evaluation::read_run(walk), camera);
+  const sim::ErrorModel model = sim::fit_error_model(rows, frames);
   const auto found = std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.found; });
   char note[160];
   std::snprintf(note, sizeof note,
                 "Fitted to %zu pictures of the standing person, found in %td, and %zu frames of %s.",
                 rows.size(), found, frames.size(), settings.scenario.name.c_str());
-  errors::write_error_model(model, note, options.out);
+  sim::write_error_model(model, note, options.out);
   std::printf("%s\n%s\n", note, options.out.c_str());
 }
 

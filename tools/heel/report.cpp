@@ -17,7 +17,7 @@ namespace {
 struct ReportOptions {
   std::string directory;
   bool json = false;
-  sim::FollowCriteria criteria;
+  evaluation::FollowCriteria criteria;
 };
 
 void write_text(const std::string& path, const std::string& text) {
@@ -33,21 +33,21 @@ void write_figure(const std::string& path, const cv::Mat& figure) {
 
 void run_report(const ReportOptions& options) {
   const std::string& directory = options.directory;
-  if (!std::filesystem::exists(directory + "/truth.csv") && report::holds_experiments(directory)) {
-    std::cout << report::report_experiments(directory);
+  if (!std::filesystem::exists(directory + "/truth.csv") && evaluation::holds_experiments(directory)) {
+    std::cout << evaluation::report_experiments(directory);
     return;
   }
-  const sim::MetricsCollector run = report::read_run(directory);
-  const sim::FollowMetrics metrics = run.evaluate();
-  const auto failed = sim::failed_criteria(metrics, options.criteria);
-  const std::string summary = report::summary_text(metrics, failed);
-  nlohmann::ordered_json json = sim::to_json(metrics);
+  const evaluation::MetricsCollector run = evaluation::read_run(directory);
+  const evaluation::FollowMetrics metrics = run.evaluate();
+  const auto failed = evaluation::failed_criteria(metrics, options.criteria);
+  const std::string summary = evaluation::summary_text(metrics, failed);
+  nlohmann::ordered_json json = evaluation::to_json(metrics);
   json["failed"] = failed;
   write_text(directory + "/summary.txt", summary);
   write_text(directory + "/summary.json", json.dump(2) + "\n");
-  write_figure(directory + "/path.png", report::path_figure(run, metrics));
-  write_figure(directory + "/errors.png", report::errors_figure(run));
-  write_figure(directory + "/frames.png", report::frames_figure(directory));
+  write_figure(directory + "/path.png", evaluation::path_figure(run, metrics));
+  write_figure(directory + "/errors.png", evaluation::errors_figure(run));
+  write_figure(directory + "/frames.png", evaluation::frames_figure(directory));
   std::cout << (options.json ? json.dump(2) + "\n" : summary);
   for (const std::string& reason : failed) std::cerr << "heel report: " << reason << '\n';
   if (!failed.empty()) throw CLI::RuntimeError(kExitNo);

@@ -42,7 +42,7 @@ struct SimulateOptions {
   double duration_s = 0.0;
   int runs = 1;
   bool json = false;
-  sim::FollowCriteria criteria;
+  evaluation::FollowCriteria criteria;
 };
 
 sim::Scenario scenario_of(const SimulateOptions& options, const std::string& file) {
@@ -58,7 +58,7 @@ sim::LockstepSettings settings_of(const SimulateOptions& options, const sim::Sce
   if (!options.config_file.empty()) settings.config = load_config(options.config_file).config;
   sim::apply_scenario(settings.scenario, settings.config);
   if (!options.error_model.empty()) {
-    settings.errors = errors::read_error_model(options.error_model);
+    settings.errors = sim::read_error_model(options.error_model);
     settings.shirt.distance_m = options.teach_distance_m;
   } else if (!options.template_file.empty())
     settings.shirt = read_template(options.template_file);
@@ -86,14 +86,14 @@ SimulatedRun description_of(const sim::Scenario& scenario) {
 
 /// Runs in lock step; the record keeps what the figures need.
 SimulatedRun simulated(const SimulateOptions& options, const sim::LockstepSettings& settings,
-                       sim::RunRecord& record) {
+                       evaluation::RunRecord& record) {
   SimulatedRun run = description_of(settings.scenario);
   const auto begin = std::chrono::steady_clock::now();
   run.counts = sim::run_lockstep(settings, record);
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   run.times_real = settings.scenario.duration_s / took_s;
   run.metrics = record.metrics().evaluate();
-  run.failed = sim::failed_criteria(run.metrics, options.criteria);
+  run.failed = evaluation::failed_criteria(run.metrics, options.criteria);
   return run;
 }
 
@@ -109,19 +109,19 @@ bool report_failed(const std::vector<SimulatedRun>& runs) {
 
 void run_one(const SimulateOptions& options, const sim::Scenario& scenario) {
   const sim::LockstepSettings settings = settings_of(options, scenario);
-  sim::RunRecord record(options.out, settings);
+  evaluation::RunRecord record(options.out, settings);
   const SimulatedRun run = simulated(options, settings, record);
   std::cout << (options.json ? to_json(run).dump(2) + "\n" : detailed_text(run));
   if (report_failed({run})) throw CLI::RuntimeError(kExitNo);
 }
 
 /// A run's figures into its folder, and its band of the overview.
-report::OverviewBand draw(const SimulatedRun& run, const sim::MetricsCollector& samples,
-                          const std::string& folder) {
-  report::OverviewBand band{run.scenario, run.shows, report::path_figure(samples, run.metrics),
-                            report::frames_figure(folder)};
+evaluation::OverviewBand draw(const SimulatedRun& run, const evaluation::MetricsCollector& samples,
+                              const std::string& folder) {
+  evaluation::OverviewBand band{run.scenario, run.shows, evaluation::path_figure(samples, run.metrics),
+                                evaluation::frames_figure(folder)};
   write_picture(folder + "/path.png", band.path);
-  write_picture(folder + "/errors.png", report::errors_figure(samples));
+  write_picture(folder + "/errors.png", evaluation::errors_figure(samples));
   if (!band.frames.empty()) write_picture(folder + "/frames.png", band.frames);
   return band;
 }
@@ -130,7 +130,7 @@ report::OverviewBand draw(const SimulatedRun& run, const sim::MetricsCollector& 
 void run_several(const SimulateOptions& options, const std::vector<sim::Scenario>& scenarios) {
   const std::string out = options.out.empty() ? kDefaultOut : options.out;
   std::vector<SimulatedRun> runs;
-  std::vector<report::OverviewBand> bands;
+  std::vector<evaluation::OverviewBand> bands;
   for (const sim::Scenario& scenario : scenarios) {
     const std::string folder = out + "/" + scenario.name;
     std::filesystem::remove_all(folder + "/frames");  // of an earlier run
@@ -144,7 +144,7 @@ void run_several(const SimulateOptions& options, const std::vector<sim::Scenario
       bands.push_back({scenario.name, scenario.shows + " (refused)", {}, {}});
       continue;
     }
-    sim::RunRecord record(folder, settings);
+    evaluation::RunRecord record(folder, settings);
     runs.push_back(simulated(options, settings, record));
     record.flush();
     bands.push_back(draw(runs.back(), record.metrics(), folder));
@@ -154,7 +154,7 @@ void run_several(const SimulateOptions& options, const std::vector<sim::Scenario
   std::ofstream file(out + "/table.txt");
   file << table;
   if (!file.flush()) throw Error(out + "/table.txt: cannot write (expected a writable folder)");
-  write_picture(out + "/overview.png", report::overview_figure(bands));
+  write_picture(out + "/overview.png", evaluation::overview_figure(bands));
   if (options.json) {
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     for (const SimulatedRun& run : runs) all.push_back(to_json(run));
@@ -165,10 +165,10 @@ void run_several(const SimulateOptions& options, const std::vector<sim::Scenario
   if (report_failed(runs)) throw CLI::RuntimeError(kExitNo);
 }
 
-sim::FollowMetrics run_seed(const SimulateOptions& options, sim::Scenario scenario, int later) {
+evaluation::FollowMetrics run_seed(const SimulateOptions& options, sim::Scenario scenario, int later) {
   scenario.seed += static_cast<std::uint64_t>(later);
   const sim::LockstepSettings settings = settings_of(options, scenario);
-  sim::RunRecord record("", settings);
+  evaluation::RunRecord record("", settings);
   sim::run_lockstep(settings, record);
   return record.metrics().evaluate();
 }
@@ -179,7 +179,7 @@ void run_many(const SimulateOptions& options) {
   if (!options.out.empty()) throw Error("--out: given beside --runs (expected one or the other)");
   if (options.scenarios.size() != 1) throw Error("--runs: several scenarios (expected one)");
   const sim::Scenario scenario = scenario_of(options, options.scenarios.front());
-  sim::ManyRuns many;
+  evaluation::ManyRuns many;
   const auto begin = std::chrono::steady_clock::now();
   many.runs.resize(static_cast<std::size_t>(options.runs));
   many.simulated_s = options.runs * settings_of(options, scenario).scenario.duration_s;
@@ -195,10 +195,10 @@ void run_many(const SimulateOptions& options) {
   for (std::future<void>& worker : workers) worker.get();
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (options.json) {
-    std::cout << sim::to_json(many).dump(2) << '\n';
+    std::cout << evaluation::to_json(many).dump(2) << '\n';
     return;
   }
-  std::cout << sim::many_runs_table(many);
+  std::cout << evaluation::many_runs_table(many);
   std::printf("%zu runs, %.0f s simulated, %.0f x real time\n", many.runs.size(), many.simulated_s,
               many.simulated_s / took_s);
 }

@@ -27,7 +27,7 @@ unsigned long long count(std::uint64_t value) {
   return value;
 }
 
-double at_rest_s(const sim::FollowMetrics& m) {
+double at_rest_s(const evaluation::FollowMetrics& m) {
   double sum = 0.0;
   for (const auto& [reason, rest_s] : m.rest_s_by_reason) sum += rest_s;
   return sum;
@@ -62,13 +62,13 @@ nlohmann::ordered_json to_json(const SimulatedRun& run) {
   json["ticks"] = run.counts.ticks;
   json["frames_overtaken"] = run.counts.frames_overtaken;
   json["frames_dropped"] = run.counts.frames_dropped;
-  json.update(sim::to_json(run.metrics));
+  json.update(evaluation::to_json(run.metrics));
   json["failed"] = run.failed;
   return json;
 }
 
 std::string detailed_text(const SimulatedRun& run) {
-  const sim::FollowMetrics& m = run.metrics;
+  const evaluation::FollowMetrics& m = run.metrics;
   std::string text;
   add_line(text, "person walked %.2f m, robot %.2f m", m.person_path_m, m.robot_path_m);
   add_line(text, "beside the person's path: %.3f m RMS, %.3f to %.3f m", m.lateral_m.rms, m.lateral_m.lowest,
@@ -79,7 +79,7 @@ std::string detailed_text(const SimulatedRun& run) {
            count(m.frames_found), count(m.frames), m.out_of_view_longest_s, m.out_of_view_total_s);
   if (m.frames_wrong > 0)
     add_line(text, "found something else in %llu frames, over %.1f m from the target", count(m.frames_wrong),
-             sim::kWrongM);
+             evaluation::kWrong_m);
   add_line(text, "certainty 5/50/95 %%: %.2f %.2f %.2f", m.certainty.p05, m.certainty.p50, m.certainty.p95);
   add_line(text, "yaw error: mean %+.2f, deviation %.2f, 5/95 %% %+.1f %+.1f degrees; (error/sigma)^2 %.2f",
            kDeg * m.yaw_error_rad.mean, kDeg * m.yaw_error_rad.deviation, kDeg * m.yaw_error_rad.p05,
@@ -109,7 +109,7 @@ std::string table_text(const std::vector<SimulatedRun>& runs) {
       add_line(text, "%-20s refused: %s", run.scenario.c_str(), run.refused.c_str());
       continue;
     }
-    const sim::FollowMetrics& m = run.metrics;
+    const evaluation::FollowMetrics& m = run.metrics;
     const double found =
         m.frames > 0 ? 100.0 * static_cast<double>(m.frames_found) / static_cast<double>(m.frames) : 0.0;
     add_line(text, "%-20s %6.1f %6.1f %6.3f %6.2f %6.2f %6.2f %6.1f %6llu %6.2f %6.2f %6.2f %6.2f%s",

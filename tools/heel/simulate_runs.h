@@ -16,7 +16,7 @@ struct SimulatedRun {
   std::uint64_t seed = 0;
   std::string refused;  ///< why the run was never begun; empty: it was
   sim::LockstepCounts counts;
-  sim::FollowMetrics metrics;
+  evaluation::FollowMetrics metrics;
   std::vector<std::string> failed;
   double times_real = 0.0;  ///< simulated seconds a second
 };

@@ -14,7 +14,7 @@ namespace arcos {
 /// The argument's type byte on the wire.
 enum class ArgumentType : std::uint8_t { None = 0, Positive = 0x3B, Negative = 0x1B, Text = 0x2B };
 
-inline constexpr int kVel2StepMmS = 20;  ///< unit of the VEL2 bytes
+inline constexpr int kVel2Step_mm_s = 20;  ///< unit of the VEL2 bytes
 /// Largest VEL2 byte sent. A client that clamps at 128 sends −128 instead: stay well below.
 inline constexpr int kVel2MaxSteps = 120;
 

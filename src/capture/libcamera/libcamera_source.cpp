@@ -15,7 +15,7 @@
 #include "heel/error.h"
 #include "realtime/clock.h"
 #include "realtime/futex.h"
-#include "realtime/record_queue.h"
+#include "realtime/spsc_queue.h"
 
 namespace heel {
 
@@ -73,7 +73,7 @@ struct LibcameraSource::Session {
   std::vector<Mapping> mappings;
   PixelFormat format = PixelFormat::Grey;
 
-  RecordQueue<libcamera::Request*> completed{2 * kWantedBuffers};
+  SpscQueue<libcamera::Request*> completed{2 * kWantedBuffers};
   std::atomic<std::uint32_t> signal{0};
   std::atomic<bool> disconnected{false};
 
@@ -260,7 +260,7 @@ FrameResult LibcameraSource::wait_frame(TimeNs timeout_ns, FrameView& frame) {
   if (s.disconnected.load(std::memory_order_acquire)) give_up("the camera has gone");
   const TimeNs now_ns = monotonic_now_ns();
   if (s.held == nullptr) {
-    if (now_ns - s.heard_ns > kStallNs) give_up("no frame for 2 s");
+    if (now_ns - s.heard_ns > kStall_ns) give_up("no frame for 2 s");
     return FrameResult::Timeout;
   }
   s.heard_ns = now_ns;

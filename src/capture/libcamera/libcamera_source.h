@@ -21,7 +21,7 @@ class LibcameraSource final : public FrameSource {
   void close() override;
 
   /// No frame for this long: the camera has stalled, and only a new process may help.
-  static constexpr TimeNs kStallNs = 2 * kNsPerS;
+  static constexpr TimeNs kStall_ns = 2 * kNsPerS;
 
  private:
   struct Session;

@@ -20,7 +20,7 @@ namespace heel {
 
 namespace {
 
-constexpr std::uint32_t kMaxSidePx = 16384;
+constexpr std::uint32_t kMaxSide_px = 16384;
 
 std::uint32_t round_up(std::uint32_t value, std::uint32_t step) {
   return (value + step - 1) / step * step;
@@ -56,9 +56,9 @@ SimChannelWriter::SimChannelWriter(const std::string& name, std::uint32_t max_wi
       max_width_px_(max_width_px),
       max_height_px_(max_height_px),
       stride_bytes_(round_up(max_width_px, kCacheLineBytes)) {
-  if (max_width_px == 0 || max_height_px == 0 || max_width_px > kMaxSidePx || max_height_px > kMaxSidePx) {
+  if (max_width_px == 0 || max_height_px == 0 || max_width_px > kMaxSide_px || max_height_px > kMaxSide_px) {
     throw Error("sim:" + name + ": frames of " + std::to_string(max_width_px) + "x" +
-                std::to_string(max_height_px) + " px; expected 1 to " + std::to_string(kMaxSidePx) +
+                std::to_string(max_height_px) + " px; expected 1 to " + std::to_string(kMaxSide_px) +
                 " px on each side");
   }
   const std::uint64_t pixel_bytes = std::uint64_t{stride_bytes_} * max_height_px_;

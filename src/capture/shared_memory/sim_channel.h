@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "heel/flow.h"
-#include "realtime/frame_ring.h"
+#include "realtime/frame_triple_buffer.h"
 
 namespace heel {
 

@@ -11,7 +11,7 @@ namespace heel {
 
 namespace {
 
-constexpr double kExposureUnitS = 100e-6;  // of V4L2_CID_EXPOSURE_ABSOLUTE
+constexpr double kExposureUnit_s = 100e-6;  // of V4L2_CID_EXPOSURE_ABSOLUTE
 
 struct Range {
   bool there = false;
@@ -104,11 +104,11 @@ bool agree_on_exposure(V4l2Device& device, const CameraConfig& config, V4l2Agree
   std::int32_t units = 0;
   if (!fix(device,
            {V4L2_CID_EXPOSURE_ABSOLUTE, "camera.exposure_ms", "exposure (ms)", config.exposure_ms,
-            1e-3 / kExposureUnitS, "0 (automatic)"},
+            1e-3 / kExposureUnit_s, "0 (automatic)"},
            agreement, units)) {
     return false;
   }
-  agreement.exposure_s = units * kExposureUnitS;
+  agreement.exposure_s = units * kExposureUnit_s;
   return true;
 }
 

@@ -142,7 +142,8 @@ FrameResult V4l2Source::wait_frame(TimeNs timeout_ns, FrameView& frame) {
   const int error = ready == PollResult::Ready ? device_->control(VIDIOC_DQBUF, &buffer) : EAGAIN;
   const TimeNs now_ns = monotonic_now_ns();
   if (error == EAGAIN) {
-    return now_ns - heard_ns_ > kStallNs ? fail(FrameResult::Lost, "no frame for 2 s") : FrameResult::Timeout;
+    return now_ns - heard_ns_ > kStall_ns ? fail(FrameResult::Lost, "no frame for 2 s")
+                                          : FrameResult::Timeout;
   }
   if (error != 0) return lose("gives no frame", error);
   if (buffer.index >= buffers_.size()) return lose("gives a buffer it was not given", EINVAL);

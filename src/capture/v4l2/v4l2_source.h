@@ -34,7 +34,7 @@ class V4l2Source final : public FrameSource {
   void close() override;
 
   /// No frame for this long: the device has stalled, and only opening it again may help.
-  static constexpr TimeNs kStallNs = 2 * kNsPerS;
+  static constexpr TimeNs kStall_ns = 2 * kNsPerS;
 
  private:
   struct Buffer {

@@ -8,7 +8,7 @@
 #include "heel/flow.h"
 #include "heel/shirt_template.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 
 struct BenchFrame {
   cv::Mat grey;  ///< 8-bit, continuous
@@ -24,7 +24,7 @@ struct BenchInput {
   std::vector<BenchFrame> frames;  ///< the first is for warming up only
 };
 
-inline constexpr double kWorldRateHz = 30.0;
+inline constexpr double kWorldRate_Hz = 30.0;
 /// What the simulated world is rendered for at most: the person's path is so long.
 inline constexpr int kMaxWorldFrames = 600;
 
@@ -33,4 +33,4 @@ inline constexpr int kMaxWorldFrames = 600;
 /// pictures (too small).
 BenchInput walk_in_a_room(cv::Size size, int frames);
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

@@ -4,7 +4,7 @@
 #include "evaluation/benchmarks/subjects.h"
 #include "heel/features.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 namespace {
 
 constexpr int kOrbFeatures = 1000;
@@ -84,4 +84,4 @@ Subjects opencv_features_subjects(const BenchInput& input) {
   return subjects;
 }
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

@@ -6,24 +6,25 @@
 
 #include "core/random.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 namespace {
 
 constexpr int kPairs = 200;
 constexpr int kWrong = 100;
-constexpr double kNoisePx = 1.0;
-constexpr double kFocalPx = 600.0;
-constexpr double kViewWidthPx = 640.0, kViewHeightPx = 480.0;
+constexpr double kNoise_px = 1.0;
+constexpr double kFocal_px = 600.0;
+constexpr double kViewWidth_px = 640.0, kViewHeight_px = 480.0;
 // The region of the reference view that is the shirt's back.
-constexpr double kRegionLeftPx = 240.0, kRegionRightPx = 400.0, kRegionTopPx = 140.0, kRegionBottomPx = 340.0;
+constexpr double kRegionLeft_px = 240.0, kRegionRight_px = 400.0, kRegionTop_px = 140.0,
+                 kRegionBottom_px = 340.0;
 
-const std::array<Eigen::Vector2d, 4> kCornersPx{
-    Eigen::Vector2d(kRegionLeftPx, kRegionTopPx), Eigen::Vector2d(kRegionRightPx, kRegionTopPx),
-    Eigen::Vector2d(kRegionRightPx, kRegionBottomPx), Eigen::Vector2d(kRegionLeftPx, kRegionBottomPx)};
+const std::array<Eigen::Vector2d, 4> kCorners_px{
+    Eigen::Vector2d(kRegionLeft_px, kRegionTop_px), Eigen::Vector2d(kRegionRight_px, kRegionTop_px),
+    Eigen::Vector2d(kRegionRight_px, kRegionBottom_px), Eigen::Vector2d(kRegionLeft_px, kRegionBottom_px)};
 
 Eigen::Matrix3d camera_matrix() {
   Eigen::Matrix3d K;
-  K << kFocalPx, 0, 0.5 * (kViewWidthPx - 1), 0, kFocalPx, 0.5 * (kViewHeightPx - 1), 0, 0, 1;
+  K << kFocal_px, 0, 0.5 * (kViewWidth_px - 1), 0, kFocal_px, 0.5 * (kViewHeight_px - 1), 0, 0, 1;
   return K;
 }
 
@@ -45,18 +46,18 @@ Eigen::Vector2d mapped(const Eigen::Matrix3d& H, const Eigen::Vector2d& point) {
 }
 
 Eigen::Vector2d point_in_region(Random& random) {
-  const double x_px = random.uniform(kRegionLeftPx, kRegionRightPx);
-  return {x_px, random.uniform(kRegionTopPx, kRegionBottomPx)};
+  const double x_px = random.uniform(kRegionLeft_px, kRegionRight_px);
+  return {x_px, random.uniform(kRegionTop_px, kRegionBottom_px)};
 }
 
 Eigen::Vector2d point_in_view(Random& random) {
-  const double x_px = random.uniform(0.0, kViewWidthPx);
-  return {x_px, random.uniform(0.0, kViewHeightPx)};
+  const double x_px = random.uniform(0.0, kViewWidth_px);
+  return {x_px, random.uniform(0.0, kViewHeight_px)};
 }
 
 Eigen::Vector2d noise(Random& random) {
-  const double x_px = kNoisePx * random.normal();
-  return {x_px, kNoisePx * random.normal()};
+  const double x_px = kNoise_px * random.normal();
+  return {x_px, kNoise_px * random.normal()};
 }
 
 cv::Point2f as_opencv(const Eigen::Vector2d& point) {
@@ -67,9 +68,9 @@ cv::Point2f as_opencv(const Eigen::Vector2d& point) {
 
 double GeometryProblem::corner_error_px(const Eigen::Matrix3d& H) const {
   double sum_px = 0.0;
-  for (const Eigen::Vector2d& corner : kCornersPx)
+  for (const Eigen::Vector2d& corner : kCorners_px)
     sum_px += (mapped(H, corner) - mapped(H_cur_from_ref, corner)).norm();
-  return sum_px / static_cast<double>(kCornersPx.size());
+  return sum_px / static_cast<double>(kCorners_px.size());
 }
 
 GeometryProblem make_geometry_problem(std::uint64_t seed) {
@@ -95,4 +96,4 @@ GeometryProblem make_geometry_problem(std::uint64_t seed) {
   return problem;
 }
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

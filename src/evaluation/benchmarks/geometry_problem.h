@@ -9,7 +9,7 @@
 
 #include "heel/homography.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 
 struct GeometryProblem {
   std::vector<PointPair> pairs;       ///< in random order
@@ -24,4 +24,4 @@ struct GeometryProblem {
 /// 200 pairs, half of them wrong. A seed, a problem.
 GeometryProblem make_geometry_problem(std::uint64_t seed);
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

@@ -8,11 +8,11 @@
 #include "heel/homography.h"
 #include "heel/motion.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 namespace {
 
 constexpr int kProblems = 64;
-constexpr double kInlierPx = 3.0;
+constexpr double kInlier_px = 3.0;
 constexpr double kConfidence = 0.999;
 constexpr int kMaxIterations = 10000;
 constexpr int kDecompositionRepeats = 100;  // microseconds each: the clock's own cost must not count
@@ -63,7 +63,7 @@ class HeelHomography : public HomographySubject {
   HeelHomography(std::shared_ptr<const Problems> problems, Figure what)
       : HomographySubject(problems, std::move(what)),
         estimator_(static_cast<int>(problems->front().pairs.size()),
-                   {.inlier_px = kInlierPx, .confidence = kConfidence, .max_iterations = kMaxIterations}) {
+                   {.inlier_px = kInlier_px, .confidence = kConfidence, .max_iterations = kMaxIterations}) {
     mask_.reserve(problems->front().pairs.size());
   }
 
@@ -85,7 +85,7 @@ class OpenCvHomography : public HomographySubject {
 
  private:
   void work(std::size_t frame) override {
-    found_ = cv::findHomography(problem(frame).ref, problem(frame).cur, cv::USAC_MAGSAC, kInlierPx,
+    found_ = cv::findHomography(problem(frame).ref, problem(frame).cur, cv::USAC_MAGSAC, kInlier_px,
                                 cv::noArray(), kMaxIterations, kConfidence);
   }
   bool solution(Eigen::Matrix3d& H) const override {
@@ -145,4 +145,4 @@ Subjects geometry_subjects() {
   return subjects;
 }
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

@@ -7,7 +7,7 @@
 
 #include "vision/features/simd_target.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 namespace {
 
 /// "model name" on x86, "Model" or nothing on ARM.
@@ -36,4 +36,4 @@ Machine this_machine() {
   return machine;
 }
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

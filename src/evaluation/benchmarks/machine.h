@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace heel::bench {
+namespace heel::evaluation {
 
 struct Machine {
   std::string cpu;  ///< as the kernel names it
@@ -15,4 +15,4 @@ struct Machine {
 
 Machine this_machine();
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

@@ -5,7 +5,7 @@
 #include "evaluation/benchmarks/subjects.h"
 #include "heel/matching.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 namespace {
 
 constexpr int kRefs = 300;         // of a template
@@ -69,4 +69,4 @@ Subjects matcher_subjects(const BenchInput& input) {
   return subjects;
 }
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

@@ -4,7 +4,7 @@
 #include "heel/pose_estimator.h"
 #include "heel/pose_tracker.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 namespace {
 
 constexpr double kSearchGoal = 1.3, kTrackingGoal = 0.4;  // × cv::ORB(1000)
@@ -77,4 +77,4 @@ std::unique_ptr<PipelineSubject> tracking_subject(const BenchInput& input) {
                                     figure_of(input, "tracking", "frame to pose, tracking", kTrackingGoal));
 }
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-namespace heel::bench {
+namespace heel::evaluation {
 
 /// One line of at most 255 characters.
 __attribute__((format(printf, 1, 2))) inline std::string printed(const char* format, ...) {
@@ -17,4 +17,4 @@ __attribute__((format(printf, 1, 2))) inline std::string printed(const char* for
   return text;
 }
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

@@ -7,7 +7,7 @@
 
 #include "realtime/thread_clock.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 namespace {
 
 double ms_from_ns(TimeNs ns) {
@@ -76,4 +76,4 @@ Figure Subject::result() const {
   return figure;
 }
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

@@ -7,7 +7,7 @@
 
 #include "evaluation/benchmarks/vision_bench.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 
 /// Adds up the CPU time between marks, stage by stage.
 class CpuStageTimes : public StageTimes {
@@ -54,4 +54,4 @@ class Subject {
 
 using Subjects = std::vector<std::unique_ptr<Subject>>;
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

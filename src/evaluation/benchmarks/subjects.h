@@ -3,7 +3,7 @@
 
 #include "evaluation/benchmarks/subject.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 
 /// The size at which the goals and the cost models hold.
 inline const cv::Size kGoalSize{640, 480};
@@ -29,4 +29,4 @@ Subjects matcher_subjects(const BenchInput& input);
 /// 200 pairs, half of them wrong; keys homography, decomposition, usac_magsac, decompose_homography_mat.
 Subjects geometry_subjects();
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

@@ -7,14 +7,13 @@
 #include "evaluation/benchmarks/vision_report.h"
 #include "evaluation/reports/canvas.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 namespace {
 
-using report::Canvas;
 
-constexpr int kPictureWidthPx = 1100;
-constexpr double kAreaLeftPx = 180, kAreaRightPx = 250, kAreaTopPx = 66;
-constexpr double kRowPx = 48, kBarPx = 28;
+constexpr int kPictureWidth_px = 1100;
+constexpr double kAreaLeft_px = 180, kAreaRight_px = 250, kAreaTop_px = 66;
+constexpr double kRow_px = 48, kBar_px = 28;
 constexpr double kTextSize = 0.42, kTitleSize = 0.56;
 constexpr double kAxisSpare = 1.12;  // beyond the longest bar that is to be seen whole
 const cv::Scalar kYardstickColour(165, 165, 165);
@@ -48,32 +47,32 @@ class Chart {
       : bench_(report.bench),
         rows_(rows),
         axis_ms_(axis_ms),
-        area_(kAreaLeftPx, kAreaTopPx, kPictureWidthPx - kAreaLeftPx - kAreaRightPx,
-              kRowPx * static_cast<double>(rows.size())),
-        canvas_(kPictureWidthPx, static_cast<int>(area_.br().y + kBelowPx)) {}
+        area_(kAreaLeft_px, kAreaTop_px, kPictureWidth_px - kAreaLeft_px - kAreaRight_px,
+              kRow_px * static_cast<double>(rows.size())),
+        canvas_(kPictureWidth_px, static_cast<int>(area_.br().y + kBelow_px)) {}
 
   cv::Mat draw(const std::string& title, const std::string& subtitle) {
-    canvas_.text(title, {0.5 * kPictureWidthPx, 24}, kTitleSize, Canvas::Align::Centre, true);
-    canvas_.text(subtitle, {0.5 * kPictureWidthPx, 46}, kTextSize, Canvas::Align::Centre);
+    canvas_.text(title, {0.5 * kPictureWidth_px, 24}, kTitleSize, Canvas::Align::Centre, true);
+    canvas_.text(subtitle, {0.5 * kPictureWidth_px, 46}, kTextSize, Canvas::Align::Centre);
     draw_axis();
     for (std::size_t i = 0; i < rows_.size(); ++i)
-      draw_row(rows_[i], area_.y + kRowPx * (static_cast<double>(i) + 0.5));
-    canvas_.box(area_, report::kInk);
+      draw_row(rows_[i], area_.y + kRow_px * (static_cast<double>(i) + 0.5));
+    canvas_.box(area_, kInk);
     draw_stage_table();
     return canvas_.reduced();
   }
 
  private:
-  static constexpr double kStageRowPx = 19;
-  static constexpr double kBelowPx = 92 + kStageRowPx * static_cast<double>(kVisionStages);
+  static constexpr double kStageRow_px = 19;
+  static constexpr double kBelow_px = 92 + kStageRow_px * static_cast<double>(kVisionStages);
 
   double x_of(double ms) const { return area_.x + ms / axis_ms_ * area_.width; }
 
   void draw_axis() {
-    const double step_ms = report::nice_step(axis_ms_, 10);
+    const double step_ms = nice_step(axis_ms_, 10);
     for (int i = 0; i * step_ms <= axis_ms_; ++i) {
       const double x = x_of(i * step_ms);
-      canvas_.line({x, area_.y}, {x, area_.br().y}, report::kGrid, 0.5);
+      canvas_.line({x, area_.y}, {x, area_.br().y}, kGrid, 0.5);
       canvas_.text(printed("%g", i * step_ms), {x, area_.br().y + 17}, kTextSize, Canvas::Align::Centre);
     }
     canvas_.text("thread CPU time in ms, median of the frames",
@@ -101,29 +100,30 @@ class Chart {
 
   /// The stages' shares of the frame's median; a bar longer than the axis is torn off.
   void draw_bar(const Figure& figure, double y) {
-    const double top = y - 0.5 * kBarPx, whole_ms = figure.times.median_ms;
+    const double top = y - 0.5 * kBar_px, whole_ms = figure.times.median_ms;
     const double end = x_of(std::min(whole_ms, axis_ms_));
-    canvas_.bar({area_.x, top, end - area_.x, kBarPx}, kYardstickColour);
+    canvas_.bar({area_.x, top, end - area_.x, kBar_px}, kYardstickColour);
     double sum_ms = 0.0;
     for (const StageFigure& stage : figure.stages) sum_ms += stage.times.median_ms;
     double from_ms = 0.0;
     for (const StageFigure& stage : figure.stages) {
       const double to_ms = from_ms + stage.times.median_ms / sum_ms * whole_ms;
-      canvas_.bar({x_of(from_ms), top, x_of(to_ms) - x_of(from_ms), kBarPx}, colour_of(stage.stage));
+      canvas_.bar({x_of(from_ms), top, x_of(to_ms) - x_of(from_ms), kBar_px}, colour_of(stage.stage));
       from_ms = to_ms;
     }
     if (whole_ms > axis_ms_) tear(end, top);
   }
 
   void tear(double x, double top) {
-    constexpr double kBackPx = 34, kSlantPx = 10, kGapPx = 6;
-    canvas_.line({x - kBackPx, top + kBarPx}, {x - kBackPx + kSlantPx, top}, cv::Scalar::all(255), kGapPx);
+    constexpr double kBack_px = 34, kSlant_px = 10, kGap_px = 6;
+    canvas_.line({x - kBack_px, top + kBar_px}, {x - kBack_px + kSlant_px, top}, cv::Scalar::all(255),
+                 kGap_px);
   }
 
   void draw_goal(const Figure& figure, double y) {
     const Figure* orb = bench_.find("orb_1000");
     const double x = x_of(*figure.goal * orb->times.median_ms);
-    canvas_.line({x, y - 0.5 * kRowPx + 3}, {x, y + 0.5 * kRowPx - 3}, kGoalColour, 2.0);
+    canvas_.line({x, y - 0.5 * kRow_px + 3}, {x, y + 0.5 * kRow_px - 3}, kGoalColour, 2.0);
   }
 
   /// Beneath the axis: what each stage takes, which is the bars' legend too.
@@ -137,7 +137,7 @@ class Chart {
       canvas_.text(rows_[row].name, {columns[row + 1], y}, kTextSize, Canvas::Align::Right);
     for (std::size_t i = 0; i < kVisionStages; ++i) {
       const auto stage = static_cast<VisionStage>(i);
-      y += kStageRowPx;
+      y += kStageRow_px;
       canvas_.bar({columns[0] - 24, y - 11, 15, 12}, colour_of(stage));
       canvas_.text(name_of(stage).label, {columns[0], y}, kTextSize, Canvas::Align::Left);
       for (std::size_t row = 0; row < 2; ++row)
@@ -182,4 +182,4 @@ cv::Mat bars(const VisionReport& report) {
       .draw("From frame to pose, beside what OpenCV takes to find features", subtitle);
 }
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

@@ -7,11 +7,11 @@
 #include "heel/error.h"
 #include "realtime/thread_clock.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 namespace {
 
 // The cost models were measured where cv::ORB(1000) took this long at 640 × 480.
-constexpr double kModelOrbMs = 7.1;
+constexpr double kModelOrb_ms = 7.1;
 
 /// All of them, and the two that know more than their times.
 struct Field {
@@ -108,9 +108,9 @@ VisionBench measure_vision(const BenchInput& input, const std::function<void(std
   bench.found_share = field.search->found_share();
   bench.tracked_share = field.tracking->tracked_share();
   bench.cpu_share = cpu_s / wall_s;
-  bench.machine_scale = bench.find("orb_1000")->times.median_ms / kModelOrbMs;
+  bench.machine_scale = bench.find("orb_1000")->times.median_ms / kModelOrb_ms;
   if (input.frames.front().grey.size() == kGoalSize) bench.cost_models = cost_models(bench);
   return bench;
 }
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

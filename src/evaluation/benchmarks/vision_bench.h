@@ -11,7 +11,7 @@
 #include "evaluation/benchmarks/bench_input.h"
 #include "heel/stage_times.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 
 /// Over the frames of a run; of each frame the thread's CPU time.
 struct Times {
@@ -69,4 +69,4 @@ struct VisionBench {
 /// template and the frames do not fit together.
 VisionBench measure_vision(const BenchInput& input, const std::function<void(std::size_t)>& progress);
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

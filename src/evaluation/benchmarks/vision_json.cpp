@@ -3,7 +3,7 @@
 
 #include "evaluation/benchmarks/vision_report.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -97,4 +97,4 @@ nlohmann::ordered_json to_json(const VisionReport& report) {
   return json;
 }
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

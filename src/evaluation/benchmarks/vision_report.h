@@ -8,7 +8,7 @@
 #include "evaluation/benchmarks/machine.h"
 #include "evaluation/benchmarks/vision_bench.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 
 /// A stage's name in JSON and in words.
 struct StageName {
@@ -31,4 +31,4 @@ std::string table(const VisionReport& report);
 /// Bars: search and tracking by stage, OpenCV's features beneath, on one time axis.
 cv::Mat bars(const VisionReport& report);
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

@@ -1,7 +1,7 @@
 #include "evaluation/benchmarks/printed.h"
 #include "evaluation/benchmarks/vision_report.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 namespace {
 
 std::string times_columns(const Times& times) {
@@ -80,4 +80,4 @@ std::string table(const VisionReport& report) {
   return text + model_lines(bench);
 }
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

@@ -8,14 +8,14 @@
 #include "sim/lockstep/lockstep.h"
 #include "sim/scene/world.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 namespace {
 
-constexpr double kTeachDistanceM = 1.5;
+constexpr double kTeachDistance_m = 1.5;
 constexpr double kWalkSpeedM_S = 0.6;
-constexpr double kCircleRadiusM = 3.0;
-constexpr double kFirstFrameS = 2.5;  ///< person and robot are under way
-constexpr double kStartGapM = 1.8;
+constexpr double kCircleRadius_m = 3.0;
+constexpr double kFirstFrame_s = 2.5;  ///< person and robot are under way
+constexpr double kStartGap_m = 1.8;
 
 /// Drives at the person and stays behind them: plain, so that a change of heel's control leaves the pictures
 /// as they are.
@@ -27,15 +27,15 @@ class Follower {
     const double dx = person.x_m - motion_.x_m, dy = person.y_m - motion_.y_m;
     const double bearing = wrap_angle_rad(std::atan2(dy, dx) - motion_.heading_rad);
     motion_.yaw_rate_rad_s = kTurnGain1_S * bearing;
-    motion_.v_m_s = std::max(0.0, kDriveGain1_S * (std::hypot(dx, dy) - kStandGapM));
+    motion_.v_m_s = std::max(0.0, kDriveGain1_S * (std::hypot(dx, dy) - kStandGap_m));
     motion_.heading_rad += dt_s * motion_.yaw_rate_rad_s;
     motion_.x_m += dt_s * motion_.v_m_s * std::cos(motion_.heading_rad);
     motion_.y_m += dt_s * motion_.v_m_s * std::sin(motion_.heading_rad);
   }
 
  private:
-  static constexpr double kTurnGain1_S = 2.0, kDriveGain1_S = 1.5, kStandGapM = 1.5;
-  sim::RobotMotion motion_{.x_m = -kStartGapM};
+  static constexpr double kTurnGain1_S = 2.0, kDriveGain1_S = 1.5, kStandGap_m = 1.5;
+  sim::RobotMotion motion_{.x_m = -kStartGap_m};
 };
 
 /// As wide a view as the simulator's own camera has, at any size.
@@ -59,18 +59,18 @@ sim::Scenario scenario_of(cv::Size size) {
   sim::Scenario scenario;
   scenario.name = "walk in a room";
   scenario.seed = 7;
-  scenario.robot.x_m = -kStartGapM;
+  scenario.robot.x_m = -kStartGap_m;
   scenario.camera.model = camera_of(size);
-  scenario.camera.rate_hz = kWorldRateHz;
+  scenario.camera.rate_hz = kWorldRate_Hz;
   scenario.path = {
       {.step = WalkStep::Straight, .speed_m_s = kWalkSpeedM_S, .length_m = 1.5},
       {.step = WalkStep::Arc,
        .speed_m_s = kWalkSpeedM_S,
-       .radius_m = kCircleRadiusM,
+       .radius_m = kCircleRadius_m,
        .angle_rad = 2.0 * std::numbers::pi},
       {.step = WalkStep::Arc,
        .speed_m_s = kWalkSpeedM_S,
-       .radius_m = kCircleRadiusM,
+       .radius_m = kCircleRadius_m,
        .angle_rad = -2.0 * std::numbers::pi},
   };
   return scenario;
@@ -90,25 +90,25 @@ FrameView BenchFrame::view(std::uint64_t sequence) const {
 }
 
 BenchInput walk_in_a_room(cv::Size size, int frames) {
-  constexpr double kStepS = 1.0 / (10.0 * kWorldRateHz);
+  constexpr double kStep_s = 1.0 / (10.0 * kWorldRate_Hz);
   const sim::Scenario scenario = scenario_of(size);
   sim::World world(scenario);
   world.start_walk(0.0);
   BenchInput input;
   input.source = "simulated world";
-  input.shirt = sim::teach_from_world(scenario, kTeachDistanceM);
+  input.shirt = sim::teach_from_world(scenario, kTeachDistance_m);
   input.camera = scenario.camera.model;
 
   Follower follower;
   std::vector<std::uint8_t> grey;
   int steps = 0;
   for (int i = 0; i < frames; ++i) {
-    const double t_s = kFirstFrameS + i / kWorldRateHz;
-    for (; steps * kStepS < t_s; ++steps) follower.step(world.walk().at(steps * kStepS), kStepS);
+    const double t_s = kFirstFrame_s + i / kWorldRate_Hz;
+    for (; steps * kStep_s < t_s; ++steps) follower.step(world.walk().at(steps * kStep_s), kStep_s);
     world.render(follower.motion(), t_s, static_cast<std::uint64_t>(i), grey);
     input.frames.push_back({cv::Mat(size, CV_8U, grey.data()).clone(), ns_from_seconds(t_s)});
   }
   return input;
 }
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

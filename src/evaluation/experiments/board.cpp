@@ -5,10 +5,10 @@
 
 #include "core/random.h"
 
-namespace heel::experiment {
+namespace heel::evaluation {
 namespace {
 
-constexpr int kCellPx = 9;
+constexpr int kCell_px = 9;
 constexpr double kBeyond = 0.6;  ///< of the back's size, past its outer edge, above and below
 
 }  // namespace
@@ -19,8 +19,8 @@ void draw_board(const sim::Truth& truth, const CameraModel& camera, double share
   if (back.z() < 0.1) return;
   // Seen from aside, the back is as narrow as the cosine of the angle to the line of sight makes it.
   const double aspect_rad = truth.yaw_rad - std::atan2(back.x(), back.z());
-  const double half_width_px = camera.fx * kBackHalfWidthM * std::abs(std::cos(aspect_rad)) / back.z();
-  const double half_height_px = camera.fy * kBackHalfHeightM / back.z();
+  const double half_width_px = camera.fx * kBackHalfWidth_m * std::abs(std::cos(aspect_rad)) / back.z();
+  const double half_height_px = camera.fy * kBackHalfHeight_m / back.z();
   const double hidden_px = 2.0 * half_width_px * std::abs(share);
   double from_px = truth.back_px.x() - (1.0 + 2.0 * kBeyond) * half_width_px;
   double to_px = truth.back_px.x() - half_width_px + hidden_px;
@@ -36,16 +36,16 @@ void draw_board(const sim::Truth& truth, const CameraModel& camera, double share
   const int y1 = clamped(truth.back_px.y() + (1.0 + kBeyond) * half_height_px, camera.height_px);
 
   Random random(seed);
-  const int columns = (x1 - x0) / kCellPx + 1;
-  std::vector<std::uint8_t> cells(static_cast<std::size_t>(columns) * ((y1 - y0) / kCellPx + 1));
+  const int columns = (x1 - x0) / kCell_px + 1;
+  std::vector<std::uint8_t> cells(static_cast<std::size_t>(columns) * ((y1 - y0) / kCell_px + 1));
   for (std::uint8_t& cell : cells) cell = static_cast<std::uint8_t>(light * random.uniform(50.0, 200.0));
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) {
-      const int cell = (y - y0) / kCellPx * columns + (x - x0) / kCellPx;
+      const int cell = (y - y0) / kCell_px * columns + (x - x0) / kCell_px;
       const double noisy = cells[static_cast<std::size_t>(cell)] + 2.0 * random.normal();
       grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
            static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(std::clamp(noisy, 0.0, 255.0));
     }
 }
 
-}  // namespace heel::experiment
+}  // namespace heel::evaluation

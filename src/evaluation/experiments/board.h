@@ -7,10 +7,10 @@
 #include "heel/camera_model.h"
 #include "sim/scene/world.h"
 
-namespace heel::experiment {
+namespace heel::evaluation {
 
-inline constexpr double kBackHalfWidthM = 0.16;   ///< of what a template shows
-inline constexpr double kBackHalfHeightM = 0.26;  ///< likewise
+inline constexpr double kBackHalfWidth_m = 0.16;   ///< of what a template shows
+inline constexpr double kBackHalfHeight_m = 0.26;  ///< likewise
 
 /// Hides `share` (0…1) of the back's width, from its left edge in the picture; negative: from its right edge.
 /// The board reaches beyond the back above and below and is printed with a pattern of its own, by `seed`, lit
@@ -18,4 +18,4 @@ inline constexpr double kBackHalfHeightM = 0.26;  ///< likewise
 void draw_board(const sim::Truth& truth, const CameraModel& camera, double share, std::uint64_t seed,
                 double light, std::vector<std::uint8_t>& grey);
 
-}  // namespace heel::experiment
+}  // namespace heel::evaluation

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdio>
 
-namespace heel::sim {
+namespace heel::evaluation {
 namespace {
 
 struct RunFigure {
@@ -64,4 +64,4 @@ std::string many_runs_table(const ManyRuns& many) {
   return text;
 }
 
-}  // namespace heel::sim
+}  // namespace heel::evaluation

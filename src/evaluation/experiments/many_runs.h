@@ -7,7 +7,7 @@
 
 #include "evaluation/metrics/metrics.h"
 
-namespace heel::sim {
+namespace heel::evaluation {
 
 /// Over runs, one value a run.
 struct ManyRuns {
@@ -19,4 +19,4 @@ struct ManyRuns {
 nlohmann::ordered_json to_json(const ManyRuns& many);
 std::string many_runs_table(const ManyRuns& many);
 
-}  // namespace heel::sim
+}  // namespace heel::evaluation

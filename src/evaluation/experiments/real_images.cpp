@@ -12,7 +12,7 @@
 #include "heel/error.h"
 #include "heel/pose_estimator.h"
 
-namespace heel::experiment {
+namespace heel::evaluation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -148,4 +148,4 @@ void write_video(const std::vector<VideoRow>& rows, const std::string& path) {
   if (!file.flush()) throw Error(path + ": cannot write (expected a writable folder)");
 }
 
-}  // namespace heel::experiment
+}  // namespace heel::evaluation

@@ -9,7 +9,7 @@
 #include "heel/shirt_template.h"
 #include "heel/vision_config.h"
 
-namespace heel::experiment {
+namespace heel::evaluation {
 
 /// A pair of the Oxford sets (K. Mikolajczyk et al., "A comparison of affine region detectors", IJCV 2005).
 struct PairRow {
@@ -41,4 +41,4 @@ inline constexpr int kVideoFirstInView = 950, kVideoLastInView = 1170;
 void write_pairs(const std::vector<PairRow>& rows, const std::string& path);
 void write_video(const std::vector<VideoRow>& rows, const std::string& path);
 
-}  // namespace heel::experiment
+}  // namespace heel::evaluation

@@ -10,7 +10,7 @@
 #include "heel/error.h"
 #include "sim/scene/truth_columns.h"
 
-namespace heel::sim {
+namespace heel::evaluation {
 namespace {
 
 constexpr int kSavedFrames = 12;
@@ -18,7 +18,7 @@ constexpr std::uint64_t kTicksAFlush = 50;
 
 }  // namespace
 
-MotionSample motion_sample(const TruthMoment& truth) {
+MotionSample motion_sample(const sim::TruthMoment& truth) {
   MotionSample sample;
   sample.t_s = seconds_from_ns(truth.t_ns);
   sample.robot = {truth.robot.pose.x_m, truth.robot.pose.y_m, truth.robot.pose.heading_rad};
@@ -30,7 +30,7 @@ MotionSample motion_sample(const TruthMoment& truth) {
   return sample;
 }
 
-PoseSample pose_sample(const PoseEstimate& pose, const TruthMoment& truth) {
+PoseSample pose_sample(const PoseEstimate& pose, const sim::TruthMoment& truth) {
   PoseSample sample;
   sample.t_s = seconds_from_ns(pose.t_capture_ns);
   sample.found = pose.found();
@@ -64,7 +64,8 @@ RunRecord::File RunRecord::create(const std::string& path) {
   return file;
 }
 
-RunRecord::RunRecord(const std::string& directory, const LockstepSettings& settings) : directory_(directory) {
+RunRecord::RunRecord(const std::string& directory, const sim::LockstepSettings& settings)
+    : directory_(directory) {
   if (directory.empty()) return;
   recorder_ = std::make_unique<Recorder>(directory);
   truth_ = create(directory + "/truth.csv");
@@ -73,7 +74,8 @@ RunRecord::RunRecord(const std::string& directory, const LockstepSettings& setti
       "odom_heading_rad,motors_enabled",
       truth_.get());
   if (settings.scenario.camera.source == "sim")
-    for (const TruthColumn& column : world_truth_columns()) std::fprintf(truth_.get(), ",%s", column.name);
+    for (const sim::TruthColumn& column : sim::world_truth_columns())
+      std::fprintf(truth_.get(), ",%s", column.name);
   std::fputc('\n', truth_.get());
   wire_ = create(directory + "/wire.hex");
   if (!settings.errors) {
@@ -84,7 +86,7 @@ RunRecord::RunRecord(const std::string& directory, const LockstepSettings& setti
   t_next_frame_ns_ = frame_interval_ns_ / 2;
 }
 
-void RunRecord::on_tick(const TickRecord& tick, const TruthMoment& truth) {
+void RunRecord::on_tick(const TickRecord& tick, const sim::TruthMoment& truth) {
   metrics_.add(motion_sample(truth));
   metrics_.add(tick_sample(tick));
   if (!recorder_) return;
@@ -93,7 +95,7 @@ void RunRecord::on_tick(const TickRecord& tick, const TruthMoment& truth) {
   if (tick.tick % kTicksAFlush == 0) recorder_->flush();
 }
 
-void RunRecord::on_pose(const FrameView& frame, const PoseEstimate& pose, const TruthMoment& truth) {
+void RunRecord::on_pose(const FrameView& frame, const PoseEstimate& pose, const sim::TruthMoment& truth) {
   metrics_.add(pose_sample(pose, truth));
   if (!recorder_) return;
   recorder_->record(pose);
@@ -117,13 +119,13 @@ void RunRecord::flush() {
   std::fflush(wire_.get());
 }
 
-void RunRecord::write_truth(const TruthMoment& truth) {
-  const RobotTruth& robot = truth.robot;
+void RunRecord::write_truth(const sim::TruthMoment& truth) {
+  const sim::RobotTruth& robot = truth.robot;
   std::fprintf(truth_.get(), "%.4f,%.5f,%.5f,%.6f,%.5f,%.6f,%.5f,%.5f,%.6f,%d", seconds_from_ns(truth.t_ns),
                robot.pose.x_m, robot.pose.y_m, robot.pose.heading_rad, robot.v_m_s, robot.yaw_rate_rad_s,
                robot.odometry.x_m, robot.odometry.y_m, robot.odometry.heading_rad, robot.motors_enabled);
   if (truth.has_world)
-    for (const TruthColumn& column : world_truth_columns())
+    for (const sim::TruthColumn& column : sim::world_truth_columns())
       std::fprintf(truth_.get(), ",%.*f", column.decimals, column.value(truth.world));
   std::fputc('\n', truth_.get());
 }
@@ -138,4 +140,4 @@ void RunRecord::save_frame(const FrameView& frame) const {
   cv::imwrite(directory_ + name, picture);
 }
 
-}  // namespace heel::sim
+}  // namespace heel::evaluation

@@ -9,21 +9,21 @@
 #include "sim/lockstep/lockstep.h"
 #include "telemetry/recorder.h"
 
-namespace heel::sim {
+namespace heel::evaluation {
 
 /// Samples for the metrics from a run's records.
-MotionSample motion_sample(const TruthMoment& truth);
-PoseSample pose_sample(const PoseEstimate& pose, const TruthMoment& truth);
+MotionSample motion_sample(const sim::TruthMoment& truth);
+PoseSample pose_sample(const PoseEstimate& pose, const sim::TruthMoment& truth);
 TickSample tick_sample(const TickRecord& tick);
 
-class RunRecord : public LockstepObserver {
+class RunRecord : public sim::LockstepObserver {
  public:
   /// `directory` empty: metrics only. Writes ticks.csv, poses.csv, truth.csv, wire.hex, shirt.heel and about
   /// twelve frames. Throws heel::Error when the folder cannot be written.
-  RunRecord(const std::string& directory, const LockstepSettings& settings);
+  RunRecord(const std::string& directory, const sim::LockstepSettings& settings);
 
-  void on_tick(const TickRecord& tick, const TruthMoment& truth) override;
-  void on_pose(const FrameView& frame, const PoseEstimate& pose, const TruthMoment& truth) override;
+  void on_tick(const TickRecord& tick, const sim::TruthMoment& truth) override;
+  void on_pose(const FrameView& frame, const PoseEstimate& pose, const sim::TruthMoment& truth) override;
   void on_bytes_to_robot(std::span<const std::uint8_t> bytes, TimeNs t_ns) override;
 
   const MetricsCollector& metrics() const { return metrics_; }
@@ -36,7 +36,7 @@ class RunRecord : public LockstepObserver {
   };
   using File = std::unique_ptr<std::FILE, Close>;
   static File create(const std::string& path);
-  void write_truth(const TruthMoment& truth);
+  void write_truth(const sim::TruthMoment& truth);
   void save_frame(const FrameView& frame) const;
 
   std::string directory_;
@@ -48,4 +48,4 @@ class RunRecord : public LockstepObserver {
   TimeNs t_next_frame_ns_ = 0;
 };
 
-}  // namespace heel::sim
+}  // namespace heel::evaluation

@@ -10,11 +10,11 @@
 #include "core/random.h"
 #include "sim/lockstep/lockstep.h"
 
-namespace heel::experiment {
+namespace heel::evaluation {
 namespace {
 
 constexpr double kRad = std::numbers::pi / 180.0;
-constexpr double kPaperDistanceM = 2.0;  ///< the paper's lateral and yaw experiments: "approximately 2 m"
+constexpr double kPaperDistance_m = 2.0;  ///< the paper's lateral and yaw experiments: "approximately 2 m"
 
 std::uint64_t seed_of(int repeat) {
   return static_cast<std::uint64_t>(1 + repeat % kMostSeeds);
@@ -29,7 +29,7 @@ std::vector<StillCase> repeated(const std::vector<StillView>& views, const char*
 
 std::vector<StillCase> lateral_cases(int repeats) {
   std::vector<StillView> views;
-  for (int i = -4; i <= 4; ++i) views.push_back({.x_m = 0.2 * i, .z_m = kPaperDistanceM});
+  for (int i = -4; i <= 4; ++i) views.push_back({.x_m = 0.2 * i, .z_m = kPaperDistance_m});
   return repeated(views, "lateral", repeats);
 }
 
@@ -42,7 +42,8 @@ std::vector<StillCase> distance_cases(int repeats) {
 std::vector<StillCase> yaw_cases(int repeats) {
   std::vector<StillView> views;
   for (int deg = -85; deg <= 85; deg += 5)
-    if (std::abs(deg) > 60 || deg % 20 == 0) views.push_back({.z_m = kPaperDistanceM, .yaw_rad = kRad * deg});
+    if (std::abs(deg) > 60 || deg % 20 == 0)
+      views.push_back({.z_m = kPaperDistance_m, .yaw_rad = kRad * deg});
   return repeated(views, "yaw", repeats);
 }
 
@@ -71,7 +72,7 @@ std::vector<StillCase> hard_cases(int /*repeats*/) {
 std::vector<StillCase> errors_cases(int repeats) {
   constexpr std::array<double, 4> kLights{0.5, 0.25, 0.12, 0.06};
   constexpr std::array<const char*, 2> kShirts{"bold", "mosaic"};
-  constexpr double kWidestBearingRad = 25.0 * kRad;
+  constexpr double kWidestBearing_rad = 25.0 * kRad;
   Random random(0xe44);
   std::vector<StillCase> cases;
   for (int i = 0; i < 1000 * repeats; ++i) {
@@ -80,7 +81,7 @@ std::vector<StillCase> errors_cases(int repeats) {
     drawn.surroundings.seed = seed_of(random.index(kMostSeeds));
     drawn.surroundings.shirt = kShirts[static_cast<std::size_t>(random.uniform() < 0.25 ? 1 : 0)];
     drawn.view.z_m = random.uniform(0.9, 5.5);
-    drawn.view.x_m = drawn.view.z_m * std::tan(random.uniform(-kWidestBearingRad, kWidestBearingRad));
+    drawn.view.x_m = drawn.view.z_m * std::tan(random.uniform(-kWidestBearing_rad, kWidestBearing_rad));
     drawn.view.yaw_rad = random.uniform(-80.0 * kRad, 80.0 * kRad);
     const double disturbed = random.uniform();
     const bool together = disturbed > 0.9;
@@ -139,4 +140,4 @@ std::vector<StillRow> run_stills(const sim::Scenario& base, std::vector<StillCas
   return rows;
 }
 
-}  // namespace heel::experiment
+}  // namespace heel::evaluation

@@ -8,7 +8,7 @@
 
 #include "evaluation/experiments/still_scene.h"
 
-namespace heel::experiment {
+namespace heel::evaluation {
 
 struct StillCase {
   std::string name;
@@ -39,4 +39,4 @@ std::vector<StillRow> run_stills(const sim::Scenario& base, std::vector<StillCas
                                                           const std::vector<std::uint8_t>& grey)>& keep,
                                  const std::function<void(std::size_t done, std::size_t of)>& progress);
 
-}  // namespace heel::experiment
+}  // namespace heel::evaluation

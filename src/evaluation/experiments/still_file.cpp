@@ -6,7 +6,7 @@
 
 #include "heel/error.h"
 
-namespace heel::experiment {
+namespace heel::evaluation {
 namespace {
 
 struct Column {
@@ -74,4 +74,4 @@ void write_stills(const std::vector<StillRow>& rows, const std::string& path) {
   if (!file.flush()) throw Error(path + ": cannot write (expected a writable folder)");
 }
 
-}  // namespace heel::experiment
+}  // namespace heel::evaluation

@@ -6,9 +6,9 @@
 
 #include "evaluation/experiments/still_scene.h"
 
-namespace heel::experiment {
+namespace heel::evaluation {
 
 /// Throws heel::Error when it cannot be written.
 void write_stills(const std::vector<StillRow>& rows, const std::string& path);
 
-}  // namespace heel::experiment
+}  // namespace heel::evaluation

@@ -9,16 +9,16 @@
 #include "realtime/thread_clock.h"
 #include "sim/scene/shirts.h"
 
-namespace heel::experiment {
+namespace heel::evaluation {
 namespace {
 
 constexpr double kFreeRoundPersonM = 5.6;  ///< nothing stands nearer: the camera goes round at up to 5.5 m
-constexpr double kRoomReachM = 8.0;
+constexpr double kRoomReach_m = 8.0;
 // Every seed has a person of its own build.
 constexpr std::uint64_t kBuild = 0xb1d;
 constexpr double kFlattest = 0.75, kRoundest = 1.3;
 // Longer than PoseTracker remembers: the next case is looked for anew.
-constexpr double kBetweenCasesS = 1.0;
+constexpr double kBetweenCases_s = 1.0;
 
 /// Yaw alone: the person stands upright before a camera that may be tilted.
 Eigen::Matrix3d true_rotation(const sim::Truth& truth, double heading_rad) {
@@ -43,11 +43,10 @@ sim::Scenario still_scenario(const sim::Scenario& base, const StillSurroundings&
   scenario.person_start = {};
   scenario.person.shirt = sim::shirt_design(surroundings.shirt);
   scenario.light.level = surroundings.light;
-  scenario.person.depth =
-      Random(derived_seed(surroundings.seed, kBuild)).uniform(kFlattest, kRoundest);
+  scenario.person.depth = Random(derived_seed(surroundings.seed, kBuild)).uniform(kFlattest, kRoundest);
   scenario.robot = {};
   scenario.room.clearance_m = kFreeRoundPersonM;
-  scenario.room.margin_m = kRoomReachM;
+  scenario.room.margin_m = kRoomReach_m;
   return scenario;
 }
 
@@ -74,7 +73,7 @@ StillScene::StillScene(const sim::Scenario& base, const StillSurroundings& surro
       vision_(shirt, base.camera.model, vision) {}
 
 std::array<StillRow, 2> StillScene::look(const std::string& name, const StillView& view) {
-  t_s_ += kBetweenCasesS;
+  t_s_ += kBetweenCases_s;
   const StillRow first = look_once(name, view, 0);
   t_s_ += 1.0 / world_.scenario().camera.rate_hz;
   return {first, look_once(name, view, 1)};
@@ -129,4 +128,4 @@ StillRow StillScene::look_once(const std::string& name, const StillView& view, i
   return row;
 }
 
-}  // namespace heel::experiment
+}  // namespace heel::evaluation

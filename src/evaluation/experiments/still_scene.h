@@ -16,7 +16,7 @@
 #include "sim/scene/scenario.h"
 #include "sim/scene/world.h"
 
-namespace heel::experiment {
+namespace heel::evaluation {
 
 /// What a world is made for.
 struct StillSurroundings {
@@ -83,4 +83,4 @@ sim::Scenario still_scenario(const sim::Scenario& base, const StillSurroundings&
 sim::RobotMotion robot_for(const sim::ScenarioCamera& camera, const Eigen::Vector3d& back_m,
                            const StillView& view);
 
-}  // namespace heel::experiment
+}  // namespace heel::evaluation

@@ -8,13 +8,13 @@
 #include "core/angles.h"
 #include "heel/flow.h"
 
-namespace heel::sim {
+namespace heel::evaluation {
 namespace {
 
 const std::string kFollowing = to_string(StopReason::None);
 const std::string kShuttingDown = to_string(StopReason::Shutdown);
 constexpr double kWalkingM_S = 0.05;
-constexpr double kLostAllM = 100.0;  ///< search radius along a path that has gone astray
+constexpr double kLostAll_m = 100.0;  ///< search radius along a path that has gone astray
 constexpr std::size_t kSearchBehind = 100;
 constexpr std::size_t kSearchAhead = 300;
 
@@ -105,7 +105,7 @@ void measure_poses(const std::vector<PoseSample>& poses, FollowMetrics& out) {
     x.push_back(pose.x_m - pose.true_x_m);
     y.push_back(pose.y_m - pose.true_y_m);
     z.push_back(pose.z_m - pose.true_z_m);
-    if (std::hypot(x.back(), y.back(), z.back()) > kWrongM) ++out.frames_wrong;
+    if (std::hypot(x.back(), y.back(), z.back()) > kWrong_m) ++out.frames_wrong;
     if (pose.yaw_sigma_rad > 0.0) nees += std::pow(yaw.back() / pose.yaw_sigma_rad, 2);
   }
   out.out_of_view_longest_s = std::max(out.out_of_view_longest_s, t_last_s - t_found_s);
@@ -175,8 +175,8 @@ Quantiles quantiles(std::vector<double> values) {
 double lateral_distance_m(const std::vector<PathPoint>& path, const PathPoint& point, std::size_t& near) {
   const std::size_t from = near > kSearchBehind ? near - kSearchBehind : 0;
   const std::size_t to = std::min(path.size() - 1, near + kSearchAhead);
-  double best2 = kLostAllM * kLostAllM;
-  double lateral = kLostAllM;
+  double best2 = kLostAll_m * kLostAll_m;
+  double lateral = kLostAll_m;
   for (std::size_t i = from; i < to; ++i) {
     const PathPoint& a = path[i];
     const double ex = path[i + 1].x_m - a.x_m;
@@ -248,4 +248,4 @@ std::vector<std::string> failed_criteria(const FollowMetrics& m, const FollowCri
   return failed;
 }
 
-}  // namespace heel::sim
+}  // namespace heel::evaluation

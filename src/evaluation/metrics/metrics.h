@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace heel::sim {
+namespace heel::evaluation {
 
 struct PathPoint {
   double x_m = 0.0;
@@ -56,7 +56,7 @@ struct Quantiles {
 Quantiles quantiles(std::vector<double> values);
 
 /// A target found farther than this from its true place is another one.
-inline constexpr double kWrongM = 0.5;
+inline constexpr double kWrong_m = 0.5;
 
 struct FollowMetrics {
   double t_walk_begin_s = 0.0, t_walk_end_s = 0.0;  ///< while the person walked
@@ -65,7 +65,7 @@ struct FollowMetrics {
   Quantiles separation_m;         ///< robot to person
   double separation_end_m = 0.0;  ///< when the walk ends
   std::uint64_t frames = 0, frames_found = 0;
-  std::uint64_t frames_wrong = 0;      ///< found, but over kWrongM from where the target was: something else
+  std::uint64_t frames_wrong = 0;      ///< found, but over kWrong_m from where the target was: something else
   double out_of_view_longest_s = 0.0;  ///< between two frames in which the target was found
   double out_of_view_total_s = 0.0;    ///< frames not found, times the frame period
   double truly_out_of_view_longest_s = 0.0;  ///< by geometry
@@ -109,4 +109,4 @@ struct FollowCriteria {
 /// One line for each that is not met.
 std::vector<std::string> failed_criteria(const FollowMetrics& metrics, const FollowCriteria& criteria);
 
-}  // namespace heel::sim
+}  // namespace heel::evaluation

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
 constexpr int kScale = 2;  ///< drawn larger, then reduced
@@ -87,4 +87,4 @@ cv::Mat Canvas::reduced() const {
   return out;
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-namespace heel::report {
+namespace heel::evaluation {
 
 inline const cv::Scalar kInk(40, 40, 40);
 inline const cv::Scalar kGrid(225, 225, 225);
@@ -34,4 +34,4 @@ class Canvas {
   cv::Mat picture_;
 };
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

@@ -5,7 +5,7 @@
 
 #include "heel/error.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
 std::vector<std::string> split(const std::string& line) {
@@ -56,4 +56,4 @@ double CsvTable::number(std::size_t row, const std::string& column) const {
   return value;
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

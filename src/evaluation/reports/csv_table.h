@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace heel::report {
+namespace heel::evaluation {
 
 class CsvTable {
  public:
@@ -28,4 +28,4 @@ class CsvTable {
   std::vector<std::vector<std::string>> cells_;
 };
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

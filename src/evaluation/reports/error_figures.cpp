@@ -10,10 +10,10 @@
 #include "evaluation/reports/plot.h"
 #include "evaluation/reports/style.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
-constexpr int kErrorPanelWidthPx = 420, kErrorPanelHeightPx = 250;
+constexpr int kErrorPanelWidth_px = 420, kErrorPanelHeight_px = 250;
 
 cv::Mat yaw_panel(const ErrorCurve& curve, const std::string& x_label) {
   Series mean{"outwards", kBlue, {}, 1.6, false}, absolute{"mean absolute", kOrange, {}, 1.6, false};
@@ -24,8 +24,8 @@ cv::Mat yaw_panel(const ErrorCurve& curve, const std::string& x_label) {
     absolute.points.emplace_back(bin.middle, kDeg * bin.yaw_mean_abs_rad);
     p95.points.emplace_back(bin.middle, kDeg * bin.yaw_p95_rad);
   }
-  return plot({"yaw error", x_label, "degrees", false, false, {}}, {p95, absolute, mean}, kErrorPanelWidthPx,
-              kErrorPanelHeightPx);
+  return plot({"yaw error", x_label, "degrees", false, false, {}}, {p95, absolute, mean}, kErrorPanelWidth_px,
+              kErrorPanelHeight_px);
 }
 
 cv::Mat share_panel(const ErrorCurve& curve, const std::string& x_label) {
@@ -38,7 +38,7 @@ cv::Mat share_panel(const ErrorCurve& curve, const std::string& x_label) {
     certainty.points.emplace_back(bin.middle, bin.certainty);
   }
   return plot({"found, wrong, certainty", x_label, "share", false, true, {}}, {found, certainty, wrong},
-              kErrorPanelWidthPx, kErrorPanelHeightPx);
+              kErrorPanelWidth_px, kErrorPanelHeight_px);
 }
 
 /// log10 of the mean normalised error squared: 0 is honest, 1 ten times too much.
@@ -53,7 +53,7 @@ cv::Mat honesty_panel(const ErrorCurve& curve, const std::string& x_label) {
     honest.points.emplace_back(bin.middle, 0.0);
   }
   return plot({"log10 of (error / sigma) squared", x_label, "log10", false, false, {}},
-              {honest, yaw, t_x, t_z}, kErrorPanelWidthPx, kErrorPanelHeightPx);
+              {honest, yaw, t_x, t_z}, kErrorPanelWidth_px, kErrorPanelHeight_px);
 }
 
 /// White at nothing, through yellow to dark red at `most` and beyond.
@@ -84,7 +84,7 @@ cv::Mat errors_over_conditions_figure(const std::vector<ErrorCurve>& curves) {
 cv::Mat error_map_figure(const std::vector<StillSample>& samples) {
   constexpr std::array kDistances{0.9, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.6};
   constexpr std::array kAngles{-80, -60, -45, -30, -15, 0, 15, 30, 45, 60, 80};
-  constexpr double kCellWidth = 76, kCellHeight = 46, kLeft = 110, kTop = 60, kBottom = 60, kMostDeg = 20.0;
+  constexpr double kCellWidth = 76, kCellHeight = 46, kLeft = 110, kTop = 60, kBottom = 60, kMost_deg = 20.0;
   const auto columns = static_cast<double>(kAngles.size() - 1),
              rows = static_cast<double>(kDistances.size() - 1);
   Canvas canvas(static_cast<int>(kLeft + columns * kCellWidth + 20),
@@ -105,7 +105,7 @@ cv::Mat error_map_figure(const std::vector<StillSample>& samples) {
       });
       const cv::Rect2d cell(x, y, kCellWidth, kCellHeight);
       if (bin.found > 0) {
-        canvas.bar(cell, heat(kDeg * bin.yaw_mean_abs_rad, kMostDeg));
+        canvas.bar(cell, heat(kDeg * bin.yaw_mean_abs_rad, kMost_deg));
         const bool wide = std::max(std::abs(bin.yaw_mean_rad), bin.yaw_deviation_rad) * kDeg >= 9.95;
         std::snprintf(text, sizeof text, wide ? "%+.0f +-%.0f" : "%+.1f +-%.1f", kDeg * bin.yaw_mean_rad,
                       kDeg * bin.yaw_deviation_rad);
@@ -129,4 +129,4 @@ cv::Mat error_map_figure(const std::vector<StillSample>& samples) {
   return canvas.reduced();
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

@@ -5,7 +5,7 @@
 
 #include "evaluation/reports/error_statistics.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 
 /// One row a condition: yaw error, share found and wrong, and honesty of the stated deviation over it.
 cv::Mat errors_over_conditions_figure(const std::vector<ErrorCurve>& curves);
@@ -14,4 +14,4 @@ cv::Mat errors_over_conditions_figure(const std::vector<ErrorCurve>& curves);
 /// numbers that, its deviation, and the share found.
 cv::Mat error_map_figure(const std::vector<StillSample>& samples);
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

@@ -9,12 +9,12 @@
 #include "evaluation/reports/style.h"
 #include "heel/error.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
 constexpr double kNormal95 = 1.959964;
 // Where a curve shows one condition, the others stay where the robot follows: near enough and not averted.
-constexpr double kEasyZM = 3.0, kEasyAspectRad = 45.0 / kDeg;
+constexpr double kEasyZM = 3.0, kEasyAspect_rad = 45.0 / kDeg;
 
 double square(double value) {
   return value * value;
@@ -42,7 +42,7 @@ ErrorCurve curve_over(const char* condition, const char* unit, const std::vector
 }
 
 bool easy_pose(const StillSample& s) {
-  return s.true_z_m < kEasyZM && std::abs(s.aspect_rad()) < kEasyAspectRad;
+  return s.true_z_m < kEasyZM && std::abs(s.aspect_rad()) < kEasyAspect_rad;
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ ErrorBin error_bin(const std::string& name, double middle, const std::vector<Sti
     if (!s.found) continue;
     ++bin.found;
     if (s.wrong()) ++bin.wrong;
-    if (std::abs(s.aspect_rad()) >= kLeastFlipAspectRad) ++bin.signed_pictures;
+    if (std::abs(s.aspect_rad()) >= kLeastFlipAspect_rad) ++bin.signed_pictures;
     if (s.flipped()) ++bin.flips;
     yaw.push_back(s.yaw_error_rad());
     outward += std::copysign(1.0, s.aspect_rad()) * s.yaw_error_rad();
@@ -74,8 +74,8 @@ ErrorBin error_bin(const std::string& name, double middle, const std::vector<Sti
   }
   if (bin.found == 0) return bin;
   const auto count = static_cast<double>(bin.found);
-  const sim::Quantiles yaw_q = sim::quantiles(yaw), abs_q = sim::quantiles(yaw_abs);
-  const sim::Quantiles x_q = sim::quantiles(x), z_q = sim::quantiles(z);
+  const Quantiles yaw_q = quantiles(yaw), abs_q = quantiles(yaw_abs);
+  const Quantiles x_q = quantiles(x), z_q = quantiles(z);
   bin.yaw_outward_mean_rad = outward / count;
   bin.yaw_mean_rad = yaw_q.mean;
   bin.yaw_deviation_rad = yaw_q.deviation;
@@ -99,7 +99,7 @@ std::vector<ErrorCurve> error_curves(const std::vector<StillSample>& samples) {
       "distance", "m", {0.5, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.6}, samples,
       [](const StillSample& s) { return s.true_z_m; },
       [&](const StillSample& s) {
-        return bold(s) && s.undisturbed() && std::abs(s.aspect_rad()) < kEasyAspectRad;
+        return bold(s) && s.undisturbed() && std::abs(s.aspect_rad()) < kEasyAspect_rad;
       }));
   curves.push_back(curve_over(
       "angle to the line of sight", "deg", {0, 10, 20, 30, 40, 50, 60, 70, 80, 105}, samples,
@@ -158,4 +158,4 @@ NeesBand nees_band(std::size_t count) {
   return {quantile(-kNormal95), quantile(kNormal95)};
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

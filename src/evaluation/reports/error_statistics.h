@@ -7,7 +7,7 @@
 
 #include "evaluation/reports/still_samples.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 
 /// All samples of one condition.
 struct ErrorBin {
@@ -52,4 +52,4 @@ struct NeesBand {
 };
 NeesBand nees_band(std::size_t count);
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

@@ -14,7 +14,7 @@
 #include "evaluation/reports/style.h"
 #include "heel/error.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,9 +86,9 @@ std::vector<std::string> run_names(const std::string& directory) {
 
 void draw_runs(const std::string& directory, ExperimentData& data, std::vector<RunLine>& lines,
                Writer& writer) {
-  std::optional<sim::MetricsCollector> walk, position_only;
+  std::optional<MetricsCollector> walk, position_only;
   for (const std::string& name : run_names(directory + "/runs")) {
-    const sim::MetricsCollector run = read_run(directory + "/runs/" + name);
+    const MetricsCollector run = read_run(directory + "/runs/" + name);
     lines.push_back(run_line(name, run));
     if (name == "response")
       writer.figure("fig7_response.png", response_figure(run),
@@ -160,4 +160,4 @@ std::string report_experiments(const std::string& directory) {
   return summary;
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace heel::report {
+namespace heel::evaluation {
 
 /// Whether `directory` holds rows of `heel experiment`, or runs in runs/NAME.
 bool holds_experiments(const std::string& directory);
@@ -12,4 +12,4 @@ bool holds_experiments(const std::string& directory);
 /// heel::Error.
 std::string report_experiments(const std::string& directory);
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

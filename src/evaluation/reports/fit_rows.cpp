@@ -7,7 +7,7 @@
 #include "core/angles.h"
 #include "evaluation/reports/style.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
 /// On the floor of the camera frame.
@@ -15,12 +15,12 @@ struct Seen {
   double x_m, z_m, yaw_rad;
 };
 
-/// Conditions of the pose alone, and the errors of what was found.
-errors::FitRow row_of(const Seen& truth, const Seen& estimate, bool found, const CameraModel& camera,
-                      double occluded) {
-  errors::FitRow row;
-  row.conditions = errors::conditions_of(truth.x_m, truth.z_m, truth.yaw_rad, camera.fx, camera.cx,
-                                         camera.width_px, occluded);
+/// ViewConditions of the pose alone, and the errors of what was found.
+sim::FitRow row_of(const Seen& truth, const Seen& estimate, bool found, const CameraModel& camera,
+                   double occluded) {
+  sim::FitRow row;
+  row.conditions = sim::conditions_of(truth.x_m, truth.z_m, truth.yaw_rad, camera.fx, camera.cx,
+                                      camera.width_px, occluded);
   row.found = found;
   if (!found) return row;
   const double bearing_rad = std::atan2(estimate.x_m, estimate.z_m);
@@ -28,20 +28,19 @@ errors::FitRow row_of(const Seen& truth, const Seen& estimate, bool found, const
   row.aspect_error_rad = wrap_angle_rad(aspect_rad - row.conditions.aspect_rad);
   row.bearing_error_rad = bearing_rad - std::atan2(truth.x_m, truth.z_m);
   row.range_error_share = std::hypot(estimate.x_m, estimate.z_m) / row.conditions.distance_m - 1.0;
-  row.flipped = std::abs(row.conditions.aspect_rad) > kLeastFlipAspectRad &&
+  row.flipped = std::abs(row.conditions.aspect_rad) > kLeastFlipAspect_rad &&
                 aspect_rad * row.conditions.aspect_rad < 0.0;
   return row;
 }
 
 }  // namespace
 
-std::vector<errors::FitRow> still_fit_rows(const std::vector<StillSample>& samples,
-                                           const CameraModel& camera) {
-  std::vector<errors::FitRow> rows;
+std::vector<sim::FitRow> still_fit_rows(const std::vector<StillSample>& samples, const CameraModel& camera) {
+  std::vector<sim::FitRow> rows;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const StillSample& s = samples[i];
-    errors::FitRow row = row_of({s.true_x_m, s.true_z_m, s.true_yaw_rad},
-                                {s.x_est_m, s.z_est_m, s.yaw_est_rad}, s.found, camera, s.occluded);
+    sim::FitRow row = row_of({s.true_x_m, s.true_z_m, s.true_yaw_rad}, {s.x_est_m, s.z_est_m, s.yaw_est_rad},
+                             s.found, camera, s.occluded);
     row.conditions.blur_px = s.blur_px;
     row.conditions.light = s.light;
     // Decided by the picture before, not by whether tracking worked.
@@ -56,13 +55,13 @@ std::vector<errors::FitRow> still_fit_rows(const std::vector<StillSample>& sampl
   return rows;
 }
 
-std::vector<errors::FitRow> walk_fit_rows(const sim::MetricsCollector& run, const CameraModel& camera) {
-  const sim::FollowMetrics metrics = run.evaluate();
-  std::vector<errors::FitRow> rows;
-  for (const sim::PoseSample& pose : run.poses()) {
+std::vector<sim::FitRow> walk_fit_rows(const MetricsCollector& run, const CameraModel& camera) {
+  const FollowMetrics metrics = run.evaluate();
+  std::vector<sim::FitRow> rows;
+  for (const PoseSample& pose : run.poses()) {
     if (!pose.has_truth || pose.t_s < metrics.t_walk_begin_s || pose.t_s > metrics.t_walk_end_s) continue;
-    errors::FitRow row = row_of({pose.true_x_m, pose.true_z_m, pose.true_yaw_rad},
-                                {pose.x_m, pose.z_m, pose.yaw_rad}, pose.found, camera, 0.0);
+    sim::FitRow row = row_of({pose.true_x_m, pose.true_z_m, pose.true_yaw_rad},
+                             {pose.x_m, pose.z_m, pose.yaw_rad}, pose.found, camera, 0.0);
     row.t_s = pose.t_s;
     row.certainty = pose.certainty;
     row.yaw_sigma_rad = pose.yaw_sigma_rad;
@@ -71,4 +70,4 @@ std::vector<errors::FitRow> walk_fit_rows(const sim::MetricsCollector& run, cons
   return rows;
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

@@ -8,13 +8,12 @@
 #include "heel/camera_model.h"
 #include "sim/pose_noise/error_fit.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 
 /// `samples` as `heel experiment errors` writes them: two pictures of each case, one after the other.
-std::vector<errors::FitRow> still_fit_rows(const std::vector<StillSample>& samples,
-                                           const CameraModel& camera);
+std::vector<sim::FitRow> still_fit_rows(const std::vector<StillSample>& samples, const CameraModel& camera);
 
 /// Every frame of a run in which the person walks and was found.
-std::vector<errors::FitRow> walk_fit_rows(const sim::MetricsCollector& run, const CameraModel& camera);
+std::vector<sim::FitRow> walk_fit_rows(const MetricsCollector& run, const CameraModel& camera);
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

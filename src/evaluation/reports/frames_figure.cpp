@@ -12,7 +12,7 @@
 #include "files/template_file.h"
 #include "heel/shirt_template.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
 constexpr std::size_t kColumns = 4;
@@ -108,4 +108,4 @@ cv::Mat frames_figure(const std::string& directory) {
   return sheet;
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

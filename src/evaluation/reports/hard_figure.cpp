@@ -11,11 +11,11 @@
 #include "evaluation/reports/style.h"
 #include "heel/error.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
 constexpr int kHardColumns = 4;
-constexpr int kHardTileWidthPx = 264;
+constexpr int kHardTileWidth_px = 264;
 constexpr int kCornerShift = 4;  ///< OpenCV's fixed-point places
 
 cv::Mat hard_tile(const cv::Mat& grey, const CsvTable& table, std::size_t row) {
@@ -41,7 +41,7 @@ cv::Mat hard_tile(const cv::Mat& grey, const CsvTable& table, std::size_t row) {
   cv::putText(out, table.text(row, "name"), {12, out.rows - 40}, cv::FONT_HERSHEY_SIMPLEX, 0.85, ink, 2,
               cv::LINE_AA);
   cv::putText(out, values, {12, out.rows - 12}, cv::FONT_HERSHEY_SIMPLEX, 0.8, ink, 2, cv::LINE_AA);
-  cv::resize(out, out, {kHardTileWidthPx, kHardTileWidthPx * grey.rows / grey.cols}, 0, 0, cv::INTER_AREA);
+  cv::resize(out, out, {kHardTileWidth_px, kHardTileWidth_px * grey.rows / grey.cols}, 0, 0, cv::INTER_AREA);
   cv::copyMakeBorder(out, out, 2, 2, 2, 2, cv::BORDER_CONSTANT, cv::Scalar::all(255));
   return out;
 }
@@ -71,4 +71,4 @@ cv::Mat hard_figure(const std::string& directory) {
   return sheet;
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

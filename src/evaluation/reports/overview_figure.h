@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace heel::report {
+namespace heel::evaluation {
 
 struct OverviewBand {
   std::string title;
@@ -17,4 +17,4 @@ struct OverviewBand {
 /// Bands one under the other: path, and the frames from the middle of the run.
 cv::Mat overview_figure(const std::vector<OverviewBand>& bands);
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

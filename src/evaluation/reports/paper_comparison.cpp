@@ -8,14 +8,14 @@
 #include "evaluation/reports/error_statistics.h"
 #include "evaluation/reports/style.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
 constexpr double kPaperReliable = 0.1, kPaperRarely = 0.6;
 constexpr double kTrustedShare = 0.95;  ///< of the pictures at an angle: found, with certainty above 0.1
-constexpr double kGoalYawDeg = 2.0, kGoalFlips = 0.001, kGoalRSquared = 0.999, kGoalFollowM = 0.15;
-constexpr double kGoalNearM = 1.0, kGoalFarM = 4.0, kGoalYawRangeRad = 60.0 / kDeg;
-constexpr double kMonotoneFarM = 5.0;
+constexpr double kGoalYaw_deg = 2.0, kGoalFlips = 0.001, kGoalRSquared = 0.999, kGoalFollow_m = 0.15;
+constexpr double kGoalNear_m = 1.0, kGoalFar_m = 4.0, kGoalYawRange_rad = 60.0 / kDeg;
+constexpr double kMonotoneFar_m = 5.0;
 
 [[gnu::format(printf, 1, 2)]] std::string printed(const char* format, ...) {
   char text[400];
@@ -117,15 +117,15 @@ std::string yaw_goals(const ExperimentData& data) {
   if (undisturbed.empty()) return rows;
   const auto within = [](double yaw_rad) {
     return [yaw_rad](const StillSample& s) {
-      return s.true_z_m >= kGoalNearM && s.true_z_m <= kGoalFarM && std::abs(s.true_yaw_rad) <= yaw_rad;
+      return s.true_z_m >= kGoalNear_m && s.true_z_m <= kGoalFar_m && std::abs(s.true_yaw_rad) <= yaw_rad;
     };
   };
-  const ErrorBin all = error_bin("", 0.0, undisturbed, within(kGoalYawRangeRad));
+  const ErrorBin all = error_bin("", 0.0, undisturbed, within(kGoalYawRange_rad));
   const ErrorBin ahead = error_bin("", 0.0, undisturbed, within(20.0 / kDeg));
   rows += goal_row("mean absolute yaw error, 1 to 4 m, up to 60 degrees", "at most 2 degrees",
                    printed("%.2f degrees (up to 20 degrees: %.2f)", kDeg * all.yaw_mean_abs_rad,
                            kDeg * ahead.yaw_mean_abs_rad),
-                   kDeg * all.yaw_mean_abs_rad <= kGoalYawDeg);
+                   kDeg * all.yaw_mean_abs_rad <= kGoalYaw_deg);
   rows += goal_row("sign flips of a back turned by 10 degrees or more", "below 0.1 %",
                    printed("%zu of %zu (%.2f %%)", all.flips, all.signed_pictures,
                            percent(all.flips, all.signed_pictures)),
@@ -213,7 +213,7 @@ std::string goals_table(const ExperimentData& data) {
   if (!data.distance.empty()) {
     std::vector<StillSample> near;
     for (const StillSample& s : data.distance)
-      if (s.z_m <= kMonotoneFarM + 1e-9) near.push_back(s);
+      if (s.z_m <= kMonotoneFar_m + 1e-9) near.push_back(s);
     const std::string breaks = breaks_of_monotony(
         steps_of(near, &StillSample::z_m, &StillSample::z_est_m, &StillSample::true_z_m), "m");
     text += goal_row("t_z from 1 to 5 m", "monotone", breaks.empty() ? "monotone" : breaks, breaks.empty());
@@ -225,9 +225,9 @@ std::string goals_table(const ExperimentData& data) {
       measured +=
           printed("; following the position only: %.3f m", data.walk_position_only->metrics.lateral_m.rms);
     text +=
-        goal_row("robot's path beside the person's", "within 0.15 m RMS", measured, rms_m <= kGoalFollowM);
+        goal_row("robot's path beside the person's", "within 0.15 m RMS", measured, rms_m <= kGoalFollow_m);
   }
   return text;
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

@@ -8,7 +8,7 @@
 #include "evaluation/reports/run_table.h"
 #include "evaluation/reports/still_samples.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 
 /// What there is to compare; parts that were not run are empty.
 struct ExperimentData {
@@ -28,4 +28,4 @@ std::string breaks_of_monotony(const std::vector<Step>& steps, const std::string
 std::string paper_table(const ExperimentData& data);  ///< Markdown
 std::string goals_table(const ExperimentData& data);  ///< Markdown
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

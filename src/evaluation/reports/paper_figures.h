@@ -8,7 +8,7 @@
 #include "evaluation/metrics/metrics.h"
 #include "evaluation/reports/still_samples.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 
 struct StepFigure {
   std::string title, x_label, y_label;
@@ -23,10 +23,10 @@ cv::Mat hard_figure(const std::string& directory);
 
 /// Figure 7: the robot set down beside a person's straight line at another heading: both paths, distance from
 /// the line and heading against it over the way walked.
-cv::Mat response_figure(const sim::MetricsCollector& run);
+cv::Mat response_figure(const MetricsCollector& run);
 
 /// Figure 8: a long walk: the person's path, the robot's, and, where there is such a run, the path of a robot
 /// that follows the position only.
-cv::Mat walk_figure(const sim::MetricsCollector& run, const sim::MetricsCollector* position_only);
+cv::Mat walk_figure(const MetricsCollector& run, const MetricsCollector* position_only);
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

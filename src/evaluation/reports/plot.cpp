@@ -6,7 +6,7 @@
 
 #include "evaluation/reports/canvas.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
 constexpr int kLeft = 78, kRight = 18, kTop = 62, kBottom = 54;
@@ -66,23 +66,23 @@ void draw_grid(Canvas& canvas, const Axes& axes, const cv::Rect2d& area, const S
 
 /// One row, centred over the axes.
 void draw_legend(Canvas& canvas, const cv::Rect2d& area, const std::vector<Series>& series) {
-  constexpr double kTextSize = 0.42, kSamplePx = 26, kGapPx = 8, kBetweenPx = 26;
+  constexpr double kTextSize = 0.42, kSample_px = 26, kGap_px = 8, kBetween_px = 26;
   std::vector<const Series*> named;
-  double width = -kBetweenPx;
+  double width = -kBetween_px;
   for (const Series& s : series) {
     if (s.name.empty() || s.points.empty()) continue;
     named.push_back(&s);
-    width += kSamplePx + kGapPx + Canvas::text_width_px(s.name, kTextSize) + kBetweenPx;
+    width += kSample_px + kGap_px + Canvas::text_width_px(s.name, kTextSize) + kBetween_px;
   }
   double x = area.x + 0.5 * (area.width - width);
   for (const Series* s : named) {
     if (s->dots)
-      canvas.dot({x + 0.5 * kSamplePx, kLegendYPx}, s->bgr, 3.2);
+      canvas.dot({x + 0.5 * kSample_px, kLegendYPx}, s->bgr, 3.2);
     else
-      canvas.line({x, kLegendYPx}, {x + kSamplePx, kLegendYPx}, s->bgr, s->width_px);
-    x += kSamplePx + kGapPx;
+      canvas.line({x, kLegendYPx}, {x + kSample_px, kLegendYPx}, s->bgr, s->width_px);
+    x += kSample_px + kGap_px;
     canvas.text(s->name, {x, kLegendYPx + 5}, kTextSize, Canvas::Align::Left);
-    x += Canvas::text_width_px(s->name, kTextSize) + kBetweenPx;
+    x += Canvas::text_width_px(s->name, kTextSize) + kBetween_px;
   }
 }
 
@@ -109,4 +109,4 @@ cv::Mat plot(const Axes& axes, const std::vector<Series>& series, int width_px, 
   return canvas.reduced();
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

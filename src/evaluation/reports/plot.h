@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace heel::report {
+namespace heel::evaluation {
 
 struct Series {
   std::string name;  ///< empty: not in the legend; neither is a series without points
@@ -36,4 +36,4 @@ struct Axes {
 /// A picture of `width` × `height` pixels.
 cv::Mat plot(const Axes& axes, const std::vector<Series>& series, int width_px, int height_px);
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

@@ -6,7 +6,7 @@
 #include "evaluation/reports/csv_table.h"
 #include "evaluation/reports/plot.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
 constexpr double kReliable = 0.1;
@@ -82,4 +82,4 @@ cv::Mat video_figure(const std::string& directory) {
               {reliable, certainty}, 900, 300);
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

@@ -8,22 +8,22 @@
 #include "evaluation/reports/plot.h"
 #include "evaluation/reports/style.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
 const cv::Scalar kPositionOnly = kGreen;
-constexpr int kRunWidthPx = 900, kRunPathHeightPx = 330, kRunPanelHeightPx = 230, kWalkHeightPx = 640;
+constexpr int kRunWidth_px = 900, kRunPathHeight_px = 330, kRunPanelHeight_px = 230, kWalkHeight_px = 640;
 
-Series robot_path(const sim::MetricsCollector& run, const char* name, const cv::Scalar& bgr) {
+Series robot_path(const MetricsCollector& run, const char* name, const cv::Scalar& bgr) {
   Series path{name, bgr, {}, 2.0, false};
-  for (const sim::MotionSample& sample : run.motion())
+  for (const MotionSample& sample : run.motion())
     path.points.emplace_back(sample.robot.x_m, sample.robot.y_m);
   return path;
 }
 
-Series person_path(const sim::MetricsCollector& run) {
+Series person_path(const MetricsCollector& run) {
   Series path{"person", kPerson, {}, 2.0, false};
-  for (const sim::MotionSample& sample : run.motion())
+  for (const MotionSample& sample : run.motion())
     if (sample.has_person) path.points.emplace_back(sample.person.x_m, sample.person.y_m);
   return path;
 }
@@ -36,14 +36,14 @@ std::string titled(const char* format, double a, double b) {
 
 }  // namespace
 
-cv::Mat response_figure(const sim::MetricsCollector& run) {
+cv::Mat response_figure(const MetricsCollector& run) {
   Series offset{"robot's distance from the person's line", kRobot, {}, 1.8, false};
   Series heading{"robot's heading against the person's", kPerson, {}, 1.8, false};
   double gone_m = 0.0;
   for (std::size_t i = 0; i < run.motion().size(); ++i) {
-    const sim::MotionSample& now = run.motion()[i];
+    const MotionSample& now = run.motion()[i];
     if (i > 0) {
-      const sim::PathPoint& before = run.motion()[i - 1].robot;
+      const PathPoint& before = run.motion()[i - 1].robot;
       gone_m += std::hypot(now.robot.x_m - before.x_m, now.robot.y_m - before.y_m);
     }
     // The person walks straight on: their line is where they are and where they face.
@@ -64,18 +64,18 @@ cv::Mat response_figure(const sim::MetricsCollector& run) {
             true,
             false,
             {}},
-           {person_path(run), robot_path(run, "robot", kRobot)}, kRunWidthPx, kRunPathHeightPx),
-      plot({"", "way driven in m", "offset in m", false, false, x}, {zero, offset}, kRunWidthPx,
-           kRunPanelHeightPx),
-      plot({"", "way driven in m", "degrees", false, false, x}, {zero, heading}, kRunWidthPx,
-           kRunPanelHeightPx)};
+           {person_path(run), robot_path(run, "robot", kRobot)}, kRunWidth_px, kRunPathHeight_px),
+      plot({"", "way driven in m", "offset in m", false, false, x}, {zero, offset}, kRunWidth_px,
+           kRunPanelHeight_px),
+      plot({"", "way driven in m", "degrees", false, false, x}, {zero, heading}, kRunWidth_px,
+           kRunPanelHeight_px)};
   cv::Mat out;
   cv::vconcat(panels, out);
   return out;
 }
 
-cv::Mat walk_figure(const sim::MetricsCollector& run, const sim::MetricsCollector* position_only) {
-  const sim::FollowMetrics metrics = run.evaluate();
+cv::Mat walk_figure(const MetricsCollector& run, const MetricsCollector* position_only) {
+  const FollowMetrics metrics = run.evaluate();
   std::vector<Series> series;
   std::string title = titled("Figure 8: %.0f m walked, the robot's path %.2f m RMS beside",
                              metrics.person_path_m, metrics.lateral_m.rms);
@@ -85,7 +85,7 @@ cv::Mat walk_figure(const sim::MetricsCollector& run, const sim::MetricsCollecto
   }
   series.push_back(person_path(run));
   series.push_back(robot_path(run, "robot", kRobot));
-  return plot({title, "x in m", "y in m", true, false, {}}, series, kRunWidthPx, kWalkHeightPx);
+  return plot({title, "x in m", "y in m", true, false, {}}, series, kRunWidth_px, kWalkHeight_px);
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

@@ -8,22 +8,22 @@
 #include "evaluation/reports/csv_table.h"
 #include "heel/error.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
-constexpr double kTruthGapS = 0.2;  ///< farther from any row of truth, a pose has no truth
+constexpr double kTruthGap_s = 0.2;  ///< farther from any row of truth, a pose has no truth
 
 struct TargetRow {
   double t_s, yaw_rad, x_m, y_m, z_m;
 };
 
-std::vector<TargetRow> read_truth(const CsvTable& truth, sim::MetricsCollector& run) {
+std::vector<TargetRow> read_truth(const CsvTable& truth, MetricsCollector& run) {
   std::vector<TargetRow> targets;
   const std::string time = truth.has("t_monotonic_s") ? "t_monotonic_s" : "t_s";
   const bool has_person = truth.has("person_x_m");
   const bool has_occluded = truth.has("target_occluded");
   for (std::size_t i = 0; i < truth.rows(); ++i) {
-    sim::MotionSample sample;
+    MotionSample sample;
     sample.t_s = truth.number(i, time);
     if (i > 0 && !(sample.t_s >= run.motion().back().t_s))
       throw Error(truth.place(i) + ": " + time + " goes back (expected rows in order of time)");
@@ -45,13 +45,13 @@ std::vector<TargetRow> read_truth(const CsvTable& truth, sim::MetricsCollector& 
 }
 
 /// The truth at the pose's capture time, between the two rows about it.
-void add_truth(const std::vector<TargetRow>& targets, sim::PoseSample& pose) {
+void add_truth(const std::vector<TargetRow>& targets, PoseSample& pose) {
   const auto after = std::lower_bound(targets.begin(), targets.end(), pose.t_s,
                                       [](const TargetRow& row, double t_s) { return row.t_s < t_s; });
   if (after == targets.begin() || after == targets.end()) return;
   const TargetRow& b = *after;
   const TargetRow& a = *(after - 1);
-  if (b.t_s - a.t_s > kTruthGapS) return;
+  if (b.t_s - a.t_s > kTruthGap_s) return;
   const double f = (pose.t_s - a.t_s) / (b.t_s - a.t_s);
   pose.has_truth = true;
   pose.true_yaw_rad = a.yaw_rad + f * wrap_angle_rad(b.yaw_rad - a.yaw_rad);
@@ -62,16 +62,16 @@ void add_truth(const std::vector<TargetRow>& targets, sim::PoseSample& pose) {
 
 }  // namespace
 
-sim::MetricsCollector read_run(const std::string& directory) {
-  sim::MetricsCollector run;
+MetricsCollector read_run(const std::string& directory) {
+  MetricsCollector run;
   const std::vector<TargetRow> targets = read_truth(CsvTable(directory + "/truth.csv"), run);
   const CsvTable ticks(directory + "/ticks.csv");
   for (std::size_t i = 0; i < ticks.rows(); ++i)
-    run.add(sim::TickSample{ticks.number(i, "t_s"), ticks.text(i, "stop_reason"),
-                            ticks.number(i, "command_v_m_s"), ticks.number(i, "command_yaw_rate_rad_s")});
+    run.add(TickSample{ticks.number(i, "t_s"), ticks.text(i, "stop_reason"), ticks.number(i, "command_v_m_s"),
+                       ticks.number(i, "command_yaw_rate_rad_s")});
   const CsvTable poses(directory + "/poses.csv");
   for (std::size_t i = 0; i < poses.rows(); ++i) {
-    sim::PoseSample pose;
+    PoseSample pose;
     pose.t_s = poses.number(i, "t_s");
     pose.found = poses.number(i, "found") != 0.0;
     pose.reason = poses.text(i, "reason");
@@ -87,4 +87,4 @@ sim::MetricsCollector read_run(const std::string& directory) {
   return run;
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

@@ -5,10 +5,10 @@
 
 #include "evaluation/metrics/metrics.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 
 /// Real-time runs carry the daemon's and the simulator's clock in truth.csv (t_monotonic_s); lock-step runs
 /// have one clock. Times in the result are those of the recording. Throws heel::Error.
-sim::MetricsCollector read_run(const std::string& directory);
+MetricsCollector read_run(const std::string& directory);
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

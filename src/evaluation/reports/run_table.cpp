@@ -8,37 +8,37 @@
 #include "evaluation/reports/still_samples.h"
 #include "evaluation/reports/style.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
 /// More than this between two sightings: one frame at least did not show the target.
 constexpr double kLossFrames = 1.5;
 
-bool wrong(const sim::PoseSample& pose) {
+bool wrong(const PoseSample& pose) {
   return is_wrong(wrap_angle_rad(pose.yaw_rad - pose.true_yaw_rad),
                   std::hypot(pose.x_m - pose.true_x_m, pose.z_m - pose.true_z_m), pose.true_z_m);
 }
 
-double frame_period_s(const sim::MetricsCollector& run) {
+double frame_period_s(const MetricsCollector& run) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < run.poses().size(); ++i)
     steps.push_back(run.poses()[i].t_s - run.poses()[i - 1].t_s);
-  return sim::quantiles(steps).p50;
+  return quantiles(steps).p50;
 }
 
 }  // namespace
 
-RunLine run_line(const std::string& name, const sim::MetricsCollector& run) {
+RunLine run_line(const std::string& name, const MetricsCollector& run) {
   RunLine line;
   line.name = name;
   line.metrics = run.evaluate();
   const double period_s = frame_period_s(run);
   double t_found_s = line.metrics.t_walk_begin_s;
-  for (const sim::PoseSample& pose : run.poses()) {
+  for (const PoseSample& pose : run.poses()) {
     if (pose.t_s < line.metrics.t_walk_begin_s || pose.t_s > line.metrics.t_walk_end_s) continue;
     ++line.frames;
     const auto truth = std::lower_bound(run.motion().begin(), run.motion().end(), pose.t_s,
-                                        [](const sim::MotionSample& s, double t) { return s.t_s < t; });
+                                        [](const MotionSample& s, double t) { return s.t_s < t; });
     const bool visible = truth != run.motion().end() && truth->back_in_view;
     if (visible) ++line.visible;
     if (!pose.found) continue;
@@ -57,7 +57,7 @@ std::string run_table(const std::vector<RunLine>& lines) {
       "longest) "
       "| path RMS | stops |\n|---|---|---|---|---|---|---|---|---|---|\n";
   for (const RunLine& line : lines) {
-    const sim::Quantiles gaps = sim::quantiles(line.gaps_s);
+    const Quantiles gaps = quantiles(line.gaps_s);
     const auto share = [](std::size_t part, std::size_t whole) {
       return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
     };
@@ -103,4 +103,4 @@ std::string worlds_table(const std::vector<RunLine>& pictured, const std::vector
          rows;
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

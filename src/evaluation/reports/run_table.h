@@ -6,18 +6,18 @@
 
 #include "evaluation/metrics/metrics.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 
 struct RunLine {
   std::string name;
-  sim::FollowMetrics metrics;
+  FollowMetrics metrics;
   std::size_t frames = 0, found = 0;              ///< while the person walked
   std::size_t found_of_visible = 0, visible = 0;  ///< frames in which the middle of the back was in view
   std::size_t wrong = 0;                          ///< is_wrong()
   std::vector<double> gaps_s;  ///< from the last frame with the target to the next one, losses only
 };
 
-RunLine run_line(const std::string& name, const sim::MetricsCollector& run);
+RunLine run_line(const std::string& name, const MetricsCollector& run);
 
 /// A line a run, as a Markdown table.
 std::string run_table(const std::vector<RunLine>& lines);
@@ -26,4 +26,4 @@ std::string run_table(const std::vector<RunLine>& lines);
 /// no name is in both.
 std::string worlds_table(const std::vector<RunLine>& pictured, const std::vector<RunLine>& without);
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

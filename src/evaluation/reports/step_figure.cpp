@@ -6,10 +6,10 @@
 #include "evaluation/reports/plot.h"
 #include "evaluation/reports/style.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
-constexpr int kStepWidthPx = 900, kValueHeightPx = 380, kCertaintyHeightPx = 230;
+constexpr int kStepWidth_px = 900, kValueHeight_px = 380, kCertaintyHeight_px = 230;
 
 void add_bar(Series& bars, double x, double low, double high) {
   bars.points.emplace_back(x, low);
@@ -43,13 +43,13 @@ cv::Mat step_figure(const StepFigure& what, const std::vector<Step>& steps) {
   const Span x = steps.empty() ? Span{} : Span{steps.front().at, steps.back().at};
   const Series reliable{"0.1: reliable", kGrey, {{x.low, 0.1}, {x.high, 0.1}}, 1.0, false};
   const cv::Mat above = plot({what.title, what.x_label, what.y_label, false, false, x},
-                             {truth, bars, mean, dots}, kStepWidthPx, kValueHeightPx);
+                             {truth, bars, mean, dots}, kStepWidth_px, kValueHeight_px);
   const cv::Mat below =
       plot({"Certainty: inliers / template features", what.x_label, "0 ... 1", false, true, x},
-           {reliable, found, certainty, certainty_mean}, kStepWidthPx, kCertaintyHeightPx);
+           {reliable, found, certainty, certainty_mean}, kStepWidth_px, kCertaintyHeight_px);
   cv::Mat out;
   cv::vconcat(above, below, out);
   return out;
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

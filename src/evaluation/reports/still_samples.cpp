@@ -12,17 +12,17 @@
 #include "evaluation/reports/style.h"
 #include "heel/error.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
-constexpr double kWrongYawRad = 15.0 * M_PI / 180.0;
+constexpr double kWrongYaw_rad = 15.0 * M_PI / 180.0;
 constexpr double kWrongShare = 0.1;
-constexpr double kWrongLeastM = 0.15;
+constexpr double kWrongLeast_m = 0.15;
 
 }  // namespace
 
 bool is_wrong(double yaw_error_rad, double off_m, double distance_m) {
-  return std::abs(yaw_error_rad) > kWrongYawRad || off_m > std::max(kWrongLeastM, kWrongShare * distance_m);
+  return std::abs(yaw_error_rad) > kWrongYaw_rad || off_m > std::max(kWrongLeast_m, kWrongShare * distance_m);
 }
 
 double StillSample::yaw_error_rad() const {
@@ -34,7 +34,7 @@ double StillSample::aspect_rad() const {
 }
 
 bool StillSample::flipped() const {
-  if (!found || std::abs(aspect_rad()) < kLeastFlipAspectRad) return false;
+  if (!found || std::abs(aspect_rad()) < kLeastFlipAspect_rad) return false;
   return wrap_angle_rad(yaw_est_rad - std::atan2(x_est_m, z_est_m)) * aspect_rad() < 0.0;
 }
 
@@ -97,10 +97,10 @@ std::vector<Step> steps_of(const std::vector<StillSample>& samples, Member at, M
       errors.push_back(std::abs(scale * (sample->*estimate - sample->*truth)));
     }
     step.found = estimates.size();
-    const sim::Quantiles q = sim::quantiles(estimates), c = sim::quantiles(certainties);
+    const Quantiles q = quantiles(estimates), c = quantiles(certainties);
     step.mean = q.mean;
     step.deviation = q.deviation;
-    step.mean_abs_error = sim::quantiles(errors).mean;
+    step.mean_abs_error = quantiles(errors).mean;
     step.certainty_mean = c.mean;
     step.certainty_low = c.p05;
     step.certainty_high = c.p95;
@@ -123,4 +123,4 @@ void write_steps(const std::vector<Step>& steps, const std::string& unit, const 
   if (!file.flush()) throw Error(path + ": cannot write (expected a writable folder)");
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

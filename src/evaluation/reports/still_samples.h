@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace heel::report {
+namespace heel::evaluation {
 
 /// Whether an estimate is worse than useless: 15° or a tenth of the distance (at least 0.15 m) off.
 bool is_wrong(double yaw_error_rad, double off_m, double distance_m);
@@ -33,7 +33,7 @@ struct StillSample {
   bool undisturbed() const { return blur_px == 0.0 && light == 1.0 && occluded == 0.0; }
 };
 
-inline constexpr double kLeastFlipAspectRad = 0.1745329;  ///< 10°: nearer to frontal a sign means nothing
+inline constexpr double kLeastFlipAspect_rad = 0.1745329;  ///< 10°: nearer to frontal a sign means nothing
 
 /// Throws heel::Error naming file, line and column.
 std::vector<StillSample> read_stills(const std::string& path);
@@ -58,4 +58,4 @@ std::vector<Step> steps_of(const std::vector<StillSample>& samples, Member at, M
 /// "at,pictures,found,truth,mean,deviation,…" with `unit` in the names.
 void write_steps(const std::vector<Step>& steps, const std::string& unit, const std::string& path);
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

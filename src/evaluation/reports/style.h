@@ -5,7 +5,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-namespace heel::report {
+namespace heel::evaluation {
 
 inline constexpr double kDeg = 180.0 / M_PI;
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -14,4 +14,4 @@ inline const cv::Scalar kOrange(40, 130, 230), kBlue(170, 80, 20), kGreen(60, 14
     kGrey(150, 150, 150);
 inline const cv::Scalar kPerson = kOrange, kRobot = kBlue;
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

@@ -5,7 +5,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-namespace heel::report {
+namespace heel::evaluation {
 namespace {
 
 double degrees(double rad) {
@@ -31,7 +31,7 @@ class Lines {
   std::string text_;
 };
 
-void add_stops(const sim::FollowMetrics& m, Lines& lines) {
+void add_stops(const FollowMetrics& m, Lines& lines) {
   if (m.rest_s_by_reason.empty()) lines.add("stops", "none");
   for (const auto& [reason, rest_s] : m.rest_s_by_reason) {
     const auto times = m.stops_by_reason.find(reason);
@@ -42,7 +42,7 @@ void add_stops(const sim::FollowMetrics& m, Lines& lines) {
 
 }  // namespace
 
-std::string summary_text(const sim::FollowMetrics& m, const std::vector<std::string>& failed) {
+std::string summary_text(const FollowMetrics& m, const std::vector<std::string>& failed) {
   Lines lines;
   lines.add("person walked", "%.2f m in %.1f s", m.person_path_m, m.t_walk_end_s - m.t_walk_begin_s);
   lines.add("robot drove", "%.2f m", m.robot_path_m);
@@ -69,4 +69,4 @@ std::string summary_text(const sim::FollowMetrics& m, const std::vector<std::str
   return lines.text();
 }
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

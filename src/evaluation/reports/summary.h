@@ -6,9 +6,9 @@
 
 #include "evaluation/metrics/metrics.h"
 
-namespace heel::report {
+namespace heel::evaluation {
 
 /// One "name  value" a line; `failed` are the criteria the run did not meet, named last.
-std::string summary_text(const sim::FollowMetrics& metrics, const std::vector<std::string>& failed);
+std::string summary_text(const FollowMetrics& metrics, const std::vector<std::string>& failed);
 
-}  // namespace heel::report
+}  // namespace heel::evaluation

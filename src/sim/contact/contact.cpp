@@ -7,13 +7,13 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kHalfLengthM = 0.313;  ///< the bumpers' outer edge
-constexpr double kHalfWidthM = 0.2525;
-constexpr double kBumperTravelM = 0.02;  ///< then comes what does not give
-constexpr int kSegments = 5;             ///< of a bumper
+constexpr double kHalfLength_m = 0.313;  ///< the bumpers' outer edge
+constexpr double kHalfWidth_m = 0.2525;
+constexpr double kBumperTravel_m = 0.02;  ///< then comes what does not give
+constexpr int kSegments = 5;              ///< of a bumper
 constexpr int kPointsASegment = 3;
 constexpr int kPointsASide = 8;
-constexpr double kReachM = 0.41;  ///< half the diagonal, and a little
+constexpr double kReach_m = 0.41;  ///< half the diagonal, and a little
 
 Eigen::Vector2d in_world(const Pose2& pose, double ahead_m, double left_m) {
   const double c = std::cos(pose.heading_rad);
@@ -32,7 +32,7 @@ std::uint8_t pressed(const Pose2& pose, const std::vector<Footprint>& things, do
   unsigned bits = 0;
   for (int i = 0; i < kSegments * kPointsASegment; ++i) {
     const double across = 1.0 - 2.0 * (i + 0.5) / (kSegments * kPointsASegment);
-    if (holds(things, in_world(pose, end * kHalfLengthM, end * across * kHalfWidthM)))
+    if (holds(things, in_world(pose, end * kHalfLength_m, end * across * kHalfWidth_m)))
       bits |= 1u << (i / kPointsASegment);
   }
   return static_cast<std::uint8_t>(bits);
@@ -40,12 +40,12 @@ std::uint8_t pressed(const Pose2& pose, const std::vector<Footprint>& things, do
 
 /// Whether the part that does not give is inside something.
 bool blocked(const Pose2& pose, const std::vector<Footprint>& things) {
-  const double length = kHalfLengthM - kBumperTravelM;
+  const double length = kHalfLength_m - kBumperTravel_m;
   for (int i = 0; i <= kPointsASide; ++i) {
     const double share = 2.0 * i / kPointsASide - 1.0;
     for (const double side : {-1.0, 1.0})
-      if (holds(things, in_world(pose, side * length, share * kHalfWidthM)) ||
-          holds(things, in_world(pose, share * length, side * kHalfWidthM)))
+      if (holds(things, in_world(pose, side * length, share * kHalfWidth_m)) ||
+          holds(things, in_world(pose, share * length, side * kHalfWidth_m)))
         return true;
   }
   return false;
@@ -67,8 +67,8 @@ std::vector<Footprint> Contact::near() const {
   const auto add = [&](const std::vector<Footprint>& all) {
     for (const Footprint& thing : all) {
       const bool far =
-          (thing.centre_m - at).norm() > kReachM + thing.reach_m();  // most are, and that is soon seen
-      if (!far && (thing.nearest_m(at) - at).norm() < kReachM) things.push_back(thing);
+          (thing.centre_m - at).norm() > kReach_m + thing.reach_m();  // most are, and that is soon seen
+      if (!far && (thing.nearest_m(at) - at).norm() < kReach_m) things.push_back(thing);
     }
   };
   add(world_.room().footprints());

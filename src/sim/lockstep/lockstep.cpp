@@ -13,7 +13,7 @@
 #include "robot/arcos_session.h"
 #include "sim/contact/contact.h"
 #include "sim/lockstep/frame_supply.h"
-#include "sim/pose_noise/drawn_poses.h"
+#include "sim/pose_noise/sampled_poses.h"
 
 namespace heel::sim {
 namespace {
@@ -52,8 +52,8 @@ class Lockstep {
   LockstepObserver& observer_;
   std::unique_ptr<World> world_;  ///< none when frames come from a file
   std::unique_ptr<FrameSupply> frames_;
-  std::optional<PoseTracker> vision_;        ///< of pictures
-  std::optional<errors::DrawnPoses> drawn_;  ///< or none
+  std::optional<PoseTracker> vision_;  ///< of pictures
+  std::optional<SampledPoses> drawn_;  ///< or none
   ControlStage control_;
   ArcosSession session_;
   P3At robot_;

@@ -4,7 +4,7 @@
 //     ↑                                                    ↑ RobotState ──────────┘    ←bytes─┘   │
 //     └──────────────────────────────── true pose of the robot ───────────────────────────────────┘
 //
-// With an error model, World draws nothing and DrawnPoses stands in PoseTracker's place; all else is the
+// With an error model, World draws nothing and SampledPoses stands in PoseTracker's place; all else is the
 // same. Nothing here reads a clock: the same scenario, configuration and template give the same run to the
 // bit.
 #pragma once
@@ -28,7 +28,7 @@ struct LockstepSettings {
   Config config;
   ShirtTemplate shirt;  ///< with `errors` only its distance is asked for
   /// Poses are drawn from this model instead of pictures: some hundred times faster, for statistics.
-  std::optional<errors::ErrorModel> errors;
+  std::optional<ErrorModel> errors;
 };
 
 /// What is true at one moment. Without a world (frames from a file) only the robot's part is.

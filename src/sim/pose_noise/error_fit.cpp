@@ -10,7 +10,7 @@
 #include "core/angles.h"
 #include "heel/error.h"
 
-namespace heel::errors {
+namespace heel::sim {
 namespace {
 
 constexpr std::size_t kFewestRows = 200;
@@ -19,9 +19,9 @@ constexpr double kHuber = 2.5;       ///< normalised residuals beyond this weigh
 constexpr double kRidge = 1e-5;      ///< of the weights of a linear fit, per row
 constexpr double kOddsRidge = 0.05;  ///< of a logistic one; rare events leave most terms undetermined
 constexpr int kNewtonSteps = 60;
-constexpr double kBackHalfWidthM = 0.16;
+constexpr double kBackHalfWidth_m = 0.16;
 constexpr double kLeastSpread = 1e-5;
-constexpr double kAspectMarginRad = 0.05, kDistanceMarginM = 0.1;
+constexpr double kAspectMargin_rad = 0.05, kDistanceMargin_m = 0.1;
 
 constexpr auto kEven = static_cast<Eigen::Index>(kEvenTerms.size());
 constexpr auto kOdd = static_cast<Eigen::Index>(kOddTerms.size());
@@ -183,7 +183,7 @@ LogModel fit_log(const Rows& rows, const std::function<double(const FitRow&)>& v
 
 void fit_time(const std::vector<FitRow>& stills, const Rows& found, ErrorModel& model) {
   model.time_share = fit_log(found, [](const FitRow& row) { return row.vision_ms; });
-  const double reference = model.time_share.mean_log(Conditions{});
+  const double reference = model.time_share.mean_log(ViewConditions{});
   model.time_share.log_mean(0) -= reference;
   double sum = 0.0;
   int missed = 0;
@@ -208,9 +208,9 @@ ErrorModel fit_error_model(const std::vector<FitRow>& stills, const std::vector<
     found.push_back(&row);
     was_flipped.push_back(row.flipped);
     if (!row.flipped) upright.push_back(&row);
-    model.distance_max_m = std::max(model.distance_max_m, row.conditions.distance_m + kDistanceMarginM);
+    model.distance_max_m = std::max(model.distance_max_m, row.conditions.distance_m + kDistanceMargin_m);
     model.aspect_max_rad =
-        std::max(model.aspect_max_rad, std::abs(row.conditions.aspect_rad) + kAspectMarginRad);
+        std::max(model.aspect_max_rad, std::abs(row.conditions.aspect_rad) + kAspectMargin_rad);
   }
   if (upright.size() < kFewestRows)
     throw Error("error model: the shirt was found in " + std::to_string(upright.size()) + " of " +
@@ -236,15 +236,15 @@ ErrorModel fit_error_model(const std::vector<FitRow>& stills, const std::vector<
   return model;
 }
 
-Conditions conditions_of(double x_m, double z_m, double yaw_rad, double fx_px, double cx_px, double width_px,
-                         double occluded) {
-  Conditions conditions;
+ViewConditions conditions_of(double x_m, double z_m, double yaw_rad, double fx_px, double cx_px,
+                             double width_px, double occluded) {
+  ViewConditions conditions;
   conditions.distance_m = std::hypot(x_m, z_m);
   conditions.aspect_rad = wrap_angle_rad(yaw_rad - std::atan2(x_m, z_m));
   conditions.hidden = occluded;
   // What is out of the picture is hidden too.
-  const double half_px =
-      std::max(1.0, fx_px * kBackHalfWidthM * std::abs(std::cos(conditions.aspect_rad)) / std::max(z_m, 0.1));
+  const double half_px = std::max(
+      1.0, fx_px * kBackHalfWidth_m * std::abs(std::cos(conditions.aspect_rad)) / std::max(z_m, 0.1));
   const double at_px = cx_px + fx_px * x_m / std::max(z_m, 0.1);
   const double out_left = std::clamp((half_px - at_px) / (2.0 * half_px), 0.0, 1.0);
   const double out_right = std::clamp((at_px + half_px - width_px) / (2.0 * half_px), 0.0, 1.0);
@@ -253,4 +253,4 @@ Conditions conditions_of(double x_m, double z_m, double yaw_rad, double fx_px, d
   return conditions;
 }
 
-}  // namespace heel::errors
+}  // namespace heel::sim

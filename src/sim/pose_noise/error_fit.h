@@ -6,11 +6,11 @@
 
 #include "sim/pose_noise/error_model.h"
 
-namespace heel::errors {
+namespace heel::sim {
 
 /// One picture: its conditions, and what vision made of it. Errors are estimated minus true.
 struct FitRow {
-  Conditions conditions;
+  ViewConditions conditions;
   std::uint64_t world = 0;  ///< pictures of one print in one room have the same
   double t_s = 0.0;         ///< in a sequence
   bool found = false;
@@ -26,8 +26,8 @@ struct FitRow {
 ErrorModel fit_error_model(const std::vector<FitRow>& stills, const std::vector<FitRow>& walk);
 
 /// The conditions of a truth: what hides the back, and what of it is out of the picture, is one share.
-/// `occluded` as experiment::StillView.
-Conditions conditions_of(double x_m, double z_m, double yaw_rad, double fx_px, double cx_px, double width_px,
-                         double occluded);
+/// `occluded` as evaluation::StillView.
+ViewConditions conditions_of(double x_m, double z_m, double yaw_rad, double fx_px, double cx_px,
+                             double width_px, double occluded);
 
-}  // namespace heel::errors
+}  // namespace heel::sim

@@ -7,10 +7,10 @@
 #include <array>
 #include <string>
 
-namespace heel::errors {
+namespace heel::sim {
 
 /// The conditions of one picture.
-struct Conditions {
+struct ViewConditions {
   double distance_m = 2.0;  ///< camera to the middle of the back, on the floor
   double aspect_rad = 0.0;  ///< of the back to the line of sight, signed as PoseEstimate::yaw_rad
   double blur_px = 0.0;     ///< length of the smear
@@ -33,8 +33,8 @@ using EvenTerms = Eigen::Matrix<double, kEvenTerms.size(), 1>;
 using OddTerms = Eigen::Matrix<double, kOddTerms.size(), 1>;
 
 /// Distances in metres, angles in radians, dark in halvings of the light. Held to the range that was fitted.
-EvenTerms even_terms(const Conditions& conditions);
-OddTerms odd_terms(const Conditions& conditions);
+EvenTerms even_terms(const ViewConditions& conditions);
+OddTerms odd_terms(const ViewConditions& conditions);
 
 /// Normalised residuals at 0, 2.5, 5 … 100 %.
 inline constexpr std::size_t kQuantiles = 41;
@@ -50,8 +50,8 @@ struct SpreadModel {
       0.0;                ///< of the residual's variance: the same over a whole run (this print, this room)
   double memory_s = 0.0;  ///< what remains fades with this time constant
 
-  double bias(const Conditions& conditions) const;
-  double spread(const Conditions& conditions) const;
+  double bias(const ViewConditions& conditions) const;
+  double spread(const ViewConditions& conditions) const;
 };
 
 /// A positive value whose logarithm is a sum of terms, normally spread.
@@ -59,7 +59,7 @@ struct LogModel {
   EvenTerms log_mean = EvenTerms::Zero();
   double log_deviation = 0.0;
 
-  double mean_log(const Conditions& conditions) const { return log_mean.dot(even_terms(conditions)); }
+  double mean_log(const ViewConditions& conditions) const { return log_mean.dot(even_terms(conditions)); }
 };
 
 struct ErrorModel {
@@ -73,12 +73,12 @@ struct ErrorModel {
   LogModel yaw_sigma_rad;  ///< as vision states it
   LogModel time_share;     ///< time vision takes, over that for a person straight ahead at 2 m, tracked
   double missed_log_time_share = 0.0;  ///< when nothing is found
-  // Conditions beyond what was fitted find nothing.
+  // ViewConditions beyond what was fitted find nothing.
   double distance_max_m = 0.0;
   double aspect_max_rad = 0.0;
 
-  double found_probability(const Conditions& conditions) const;
-  double flip_probability(const Conditions& conditions) const;
+  double found_probability(const ViewConditions& conditions) const;
+  double flip_probability(const ViewConditions& conditions) const;
 };
 
 /// Throws heel::Error naming file, line and column.
@@ -86,4 +86,4 @@ ErrorModel read_error_model(const std::string& path);
 /// `note` is a line of comment: what it was fitted to.
 void write_error_model(const ErrorModel& model, const std::string& note, const std::string& path);
 
-}  // namespace heel::errors
+}  // namespace heel::sim

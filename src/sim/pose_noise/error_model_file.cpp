@@ -7,10 +7,10 @@
 #include "sim/pose_noise/error_model.h"
 #include "sim/scene/toml_section.h"
 
-namespace heel::errors {
+namespace heel::sim {
 namespace {
 
-constexpr sim::Range kAny{-1e6, 1e6, ""};
+constexpr Range kAny{-1e6, 1e6, ""};
 
 template <typename Terms, std::size_t N>
 void write_terms(std::ostream& out, const Terms& terms, const std::array<const char*, N>& names) {
@@ -23,7 +23,7 @@ void write_terms(std::ostream& out, const Terms& terms, const std::array<const c
 
 /// TOML tells whole numbers from others; both are numbers here.
 template <typename Terms, std::size_t N>
-Terms read_terms(sim::TomlSection section, const std::array<const char*, N>& names) {
+Terms read_terms(TomlSection section, const std::array<const char*, N>& names) {
   Terms terms;
   for (std::size_t i = 0; i < N; ++i) terms(static_cast<Eigen::Index>(i)) = section.need(names[i], kAny);
   section.finish();
@@ -54,7 +54,7 @@ void write_spread(std::ostream& out, const std::string& name, const char* what, 
   write_terms(out, model.log_spread, kEvenTerms);
 }
 
-SpreadModel read_spread(sim::TomlSection section) {
+SpreadModel read_spread(TomlSection section) {
   SpreadModel model;
   model.print_share = section.need("print_share", {0, 1, ""});
   model.memory_s = section.need("memory_s", {0, 1000, "s"});
@@ -75,7 +75,7 @@ void write_log(std::ostream& out, const std::string& name, const char* what, con
   write_terms(out, model.log_mean, kEvenTerms);
 }
 
-LogModel read_log(sim::TomlSection section) {
+LogModel read_log(TomlSection section) {
   LogModel model;
   model.log_deviation = section.need("log_deviation", {0, 100, ""});
   model.log_mean = read_terms<EvenTerms>(section.section("log_mean"), kEvenTerms);
@@ -98,7 +98,7 @@ ErrorModel read_error_model(const std::string& path) {
     throw Error(path + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": " +
                 std::string(error.description()) + " (expected TOML)");
   }
-  sim::TomlSection root(table, "", path);
+  TomlSection root(table, "", path);
   ErrorModel model;
   model.distance_max_m = root.need("distance_max_m", {0, 100, "m"});
   model.aspect_max_rad = root.need("aspect_max_rad", {0, 3.2, "rad"});
@@ -143,4 +143,4 @@ void write_error_model(const ErrorModel& model, const std::string& note, const s
   if (!out.flush()) throw Error(path + ": cannot write (expected a writable folder)");
 }
 
-}  // namespace heel::errors
+}  // namespace heel::sim

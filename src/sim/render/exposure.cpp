@@ -6,7 +6,7 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kShortestMs = 0.5;
+constexpr double kShortest_ms = 0.5;
 
 }  // namespace
 
@@ -15,7 +15,7 @@ ExposureControl::ExposureControl(const ExposureSettings& settings, double exposu
     : exposure_ms_(exposure_ms), lag_s_(settings.lag_s), changes_(changes) {
   if (!settings.automatic || exposure_ms <= 0.0) return;
   const double longest_ms = std::max(settings.longest_ms, exposure_ms);
-  const double stops_down = std::log2(kShortestMs / exposure_ms);
+  const double stops_down = std::log2(kShortest_ms / exposure_ms);
   const double stops_up = std::log2(longest_ms / exposure_ms * settings.most_gain);
   double stops = 0.0;  // brighter than at light 1
   const int count = static_cast<int>(std::ceil(duration_s / lag_s_)) + 1;

@@ -39,7 +39,7 @@ Eigen::Vector2d distorted_px(const CameraModel& camera, const Eigen::Vector3f& p
 void add_polygon(const RayTable& rays, std::vector<Eigen::Vector3f> polygon, PixelBounds& bounds) {
   const float ax = rays.x_max + 0.01f;
   const float ay = rays.y_max + 0.01f;
-  clip(polygon, {0, 0, 1}, -kNearM);
+  clip(polygon, {0, 0, 1}, -kNear_m);
   clip(polygon, {1, 0, ax}, 0.f);
   clip(polygon, {-1, 0, ax}, 0.f);
   clip(polygon, {0, 1, ay}, 0.f);

@@ -9,7 +9,7 @@
 namespace heel::sim {
 
 /// Nothing nearer is drawn.
-inline constexpr float kNearM = 0.05f;
+inline constexpr float kNear_m = 0.05f;
 
 /// Bounds in distorted pixels; empty until something is added.
 struct PixelBounds {

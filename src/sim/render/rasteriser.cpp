@@ -9,10 +9,10 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kWindowMarginPx = 2.0;      ///< long edges bulge a little between projected points
-constexpr double kMeshWindowMarginPx = 0.1;  ///< short ones do not
-constexpr int kRun = 16;                     ///< pixels sharing one mip level
-constexpr int kBandRows = 24;                ///< rows a thread takes at a time
+constexpr double kWindowMargin_px = 2.0;      ///< long edges bulge a little between projected points
+constexpr double kMeshWindowMargin_px = 0.1;  ///< short ones do not
+constexpr int kRun = 16;                      ///< pixels sharing one mip level
+constexpr int kBandRows = 24;                 ///< rows a thread takes at a time
 
 /// Bilinear look-up at 8-bit fixed-point texel coordinates; 8.16 fixed-point grey.
 inline int bilinear(const Texture::Level& level, int s, int t) {
@@ -49,7 +49,7 @@ Rasteriser::Row Rasteriser::Form::at(float rows_below_middle) const {
           middle[2] + rows_below_middle * per_row[2]};
 }
 
-Rasteriser::Rasteriser(const RayTable& rays, Workers& workers)
+Rasteriser::Rasteriser(const RayTable& rays, ThreadPool& workers)
     : rays_(rays),
       workers_(workers),
       width_(rays.camera.width_px),
@@ -105,7 +105,7 @@ Rasteriser::Window Rasteriser::window_of(FaceShape shape, const std::array<Corne
   if (bounds.empty()) return {};
   // A long edge bulges between the sampled points by a small share of its own extent.
   const double margin =
-      kWindowMarginPx + 0.01 * std::max(bounds.x_high - bounds.x_low, bounds.y_high - bounds.y_low);
+      kWindowMargin_px + 0.01 * std::max(bounds.x_high - bounds.x_low, bounds.y_high - bounds.y_low);
   return clamped(bounds.x_low - margin, bounds.x_high + margin, bounds.y_low - margin,
                  bounds.y_high + margin);
 }
@@ -122,7 +122,7 @@ Rasteriser::Seen Rasteriser::seen(const Corner& corner) const {
   const bool moves = !corner.shift_m.isZero(0.f);
   for (const float share : {-0.5f, 0.5f}) {
     const Eigen::Vector3f p = at_share(corner, moves ? share : 0.f);
-    if (p.z() < kNearM || std::abs(p.x()) > rays_.x_max * p.z() || std::abs(p.y()) > rays_.y_max * p.z())
+    if (p.z() < kNear_m || std::abs(p.x()) > rays_.x_max * p.z() || std::abs(p.y()) > rays_.y_max * p.z())
       return out;
     bounds.add(distorted_px(rays_.camera, p));
     if (!moves) break;
@@ -149,10 +149,10 @@ void Rasteriser::add_mesh(std::span<const Corner> corners, std::span<const std::
     const Seen& c = seen_[at[2]];
     Window window;
     if (a.inside && b.inside && c.inside)
-      window = clamped(std::min({a.x_low, b.x_low, c.x_low}) - kMeshWindowMarginPx,
-                       std::max({a.x_high, b.x_high, c.x_high}) + kMeshWindowMarginPx,
-                       std::min({a.y_low, b.y_low, c.y_low}) - kMeshWindowMarginPx,
-                       std::max({a.y_high, b.y_high, c.y_high}) + kMeshWindowMarginPx);
+      window = clamped(std::min({a.x_low, b.x_low, c.x_low}) - kMeshWindowMargin_px,
+                       std::max({a.x_high, b.x_high, c.x_high}) + kMeshWindowMargin_px,
+                       std::min({a.y_low, b.y_low, c.y_low}) - kMeshWindowMargin_px,
+                       std::max({a.y_high, b.y_high, c.y_high}) + kMeshWindowMargin_px);
     else
       window = window_of(FaceShape::Triangle, face);
     if (!window.empty()) take(FaceShape::Triangle, face, look, window);
@@ -229,7 +229,7 @@ void Rasteriser::fill(const Face& face, std::int32_t id, int y_begin, int y_end)
 
 void Rasteriser::draw(float background, std::vector<float>& radiance) {
   radiance.resize(rays_.x.size());
-  workers_.share(height_, kBandRows, [&](int y_begin, int y_end) {
+  workers_.parallel_for(height_, kBandRows, [&](int y_begin, int y_end) {
     const auto first = static_cast<std::ptrdiff_t>(index(0, y_begin));
     const auto pixels = static_cast<std::ptrdiff_t>(index(0, y_end)) - first;
     std::fill_n(inverse_depth_.begin() + first, pixels, 0.f);

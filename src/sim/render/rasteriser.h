@@ -18,7 +18,7 @@
 
 #include "sim/render/ray_table.h"
 #include "sim/render/texture.h"
-#include "sim/render/workers.h"
+#include "sim/render/thread_pool.h"
 
 namespace heel::sim {
 
@@ -42,7 +42,7 @@ struct Look {
 class Rasteriser {
  public:
   /// `workers` share the rows.
-  Rasteriser(const RayTable& rays, Workers& workers);
+  Rasteriser(const RayTable& rays, ThreadPool& workers);
 
   void clear();
   /// Takes a face for the next draw(). Front faces are counter-clockwise when seen from outside
@@ -101,7 +101,7 @@ class Rasteriser {
   void shade_run(const Face& face, int x, int y, int count, float* out) const;
 
   const RayTable& rays_;
-  Workers& workers_;
+  ThreadPool& workers_;
   int width_;
   int height_;
   std::vector<float> inverse_depth_;

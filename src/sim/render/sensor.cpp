@@ -9,25 +9,25 @@
 namespace heel::sim {
 namespace {
 
-constexpr int kPad = 8;               ///< pixels repeated around the picture
-constexpr float kMotionMaxPx = 10.f;  ///< longest blur drawn: kernel radius 7 < kPad
-constexpr int kMotionStepsPx = 4;     ///< quantisation of blur vectors, per pixel
-constexpr int kMotionBins = 2 * static_cast<int>(kMotionMaxPx) * kMotionStepsPx + 1;
+constexpr int kPad = 8;                ///< pixels repeated around the picture
+constexpr float kMotionMax_px = 10.f;  ///< longest blur drawn: kernel radius 7 < kPad
+constexpr int kMotionSteps_px = 4;     ///< quantisation of blur vectors, per pixel
+constexpr int kMotionBins = 2 * static_cast<int>(kMotionMax_px) * kMotionSteps_px + 1;
 constexpr int kBandBlocks = 3;  ///< rows of blocks a thread takes at a time
 constexpr std::size_t kNoiseSamples = 1 << 16;
 
 int motion_bin(float d_px) {
-  const float clamped = std::clamp(d_px, -kMotionMaxPx, kMotionMaxPx);
-  return static_cast<int>(std::lround(clamped * kMotionStepsPx)) + (kMotionBins - 1) / 2;
+  const float clamped = std::clamp(d_px, -kMotionMax_px, kMotionMax_px);
+  return static_cast<int>(std::lround(clamped * kMotionSteps_px)) + (kMotionBins - 1) / 2;
 }
 
 float motion_of_bin(int bin) {
-  return static_cast<float>(bin - (kMotionBins - 1) / 2) / static_cast<float>(kMotionStepsPx);
+  return static_cast<float>(bin - (kMotionBins - 1) / 2) / static_cast<float>(kMotionSteps_px);
 }
 
 }  // namespace
 
-Sensor::Sensor(const RayTable& rays, const SensorSettings& settings, std::uint64_t seed, Workers& workers)
+Sensor::Sensor(const RayTable& rays, const SensorSettings& settings, std::uint64_t seed, ThreadPool& workers)
     : workers_(workers),
       width_(rays.camera.width_px),
       height_(rays.camera.height_px),
@@ -98,15 +98,15 @@ const std::vector<Sensor::Tap>& Sensor::kernel(float dx_px, float dy_px) {
 }
 
 void Sensor::blur_block(int block_x, int block_y, const std::vector<Tap>& taps) {
-  const int x0 = block_x * kMotionBlockPx;
-  const int y_end = std::min(height_, (block_y + 1) * kMotionBlockPx);
-  const int count = std::min(kMotionBlockPx, width_ - x0);
-  for (int y = block_y * kMotionBlockPx; y < y_end; ++y) {
-    std::array<float, kMotionBlockPx> sum{};
+  const int x0 = block_x * kMotionBlock_px;
+  const int y_end = std::min(height_, (block_y + 1) * kMotionBlock_px);
+  const int count = std::min(kMotionBlock_px, width_ - x0);
+  for (int y = block_y * kMotionBlock_px; y < y_end; ++y) {
+    std::array<float, kMotionBlock_px> sum{};
     // The padding makes reading a whole block safe at the right edge too.
     const float* from = padded_.data() + static_cast<std::size_t>(y + kPad) * padded_stride_ + kPad + x0;
     for (const Tap& tap : taps)
-      for (int i = 0; i < kMotionBlockPx; ++i)
+      for (int i = 0; i < kMotionBlock_px; ++i)
         sum[static_cast<std::size_t>(i)] += tap.weight * from[tap.offset + i];
     std::copy_n(sum.begin(), count, blurred_.begin() + static_cast<std::ptrdiff_t>(y) * width_ + x0);
   }
@@ -119,11 +119,11 @@ void Sensor::scatter(int blocks_x, int blocks_y, float brightness) {
   std::vector<float> bright(blocks, 0.f);
   for (int by = 0; by < blocks_y; ++by)
     for (int bx = 0; bx < blocks_x; ++bx) {
-      const int x = std::min(bx * kMotionBlockPx + kMotionBlockPx / 2, width_ - 1);
-      const int y = std::min(by * kMotionBlockPx + kMotionBlockPx / 2, height_ - 1);
+      const int x = std::min(bx * kMotionBlock_px + kMotionBlock_px / 2, width_ - 1);
+      const int y = std::min(by * kMotionBlock_px + kMotionBlock_px / 2, height_ - 1);
       const float* row = blurred_.data() + static_cast<std::size_t>(y) * width_;
       bright[static_cast<std::size_t>(by) * blocks_x + bx] =
-          brightness * 0.5f * (row[x] + row[std::max(0, x - kMotionBlockPx / 2)]);
+          brightness * 0.5f * (row[x] + row[std::max(0, x - kMotionBlock_px / 2)]);
     }
   glare_.assign(blocks, 0.f);
   // A first-order filter forwards and backwards, along rows and columns, is an exponential tail.
@@ -147,8 +147,8 @@ void Sensor::scatter(int blocks_x, int blocks_y, float brightness) {
 /// Interpolated between the middles of the blocks.
 float Sensor::scattered(int x, int y) const {
   const int rows = static_cast<int>(glare_.size()) / glare_columns_;
-  const float u = (static_cast<float>(x) - 0.5f * (kMotionBlockPx - 1)) / kMotionBlockPx;
-  const float v = (static_cast<float>(y) - 0.5f * (kMotionBlockPx - 1)) / kMotionBlockPx;
+  const float u = (static_cast<float>(x) - 0.5f * (kMotionBlock_px - 1)) / kMotionBlock_px;
+  const float v = (static_cast<float>(y) - 0.5f * (kMotionBlock_px - 1)) / kMotionBlock_px;
   const int j = std::clamp(static_cast<int>(std::floor(u)), 0, glare_columns_ - 2);
   const int i = std::clamp(static_cast<int>(std::floor(v)), 0, rows - 2);
   const float fu = std::clamp(u - static_cast<float>(j), 0.f, 1.f);
@@ -175,7 +175,7 @@ void Sensor::expose(const std::vector<float>& radiance, const MotionField& motio
   // Kernels are made here, before the threads use them.
   of_block_.resize(motion.dx_px.size());
   for (std::size_t i = 0; i < of_block_.size(); ++i) of_block_[i] = &kernel(motion.dx_px[i], motion.dy_px[i]);
-  workers_.share(motion.blocks_y, kBandBlocks, [&](int begin, int end) {
+  workers_.parallel_for(motion.blocks_y, kBandBlocks, [&](int begin, int end) {
     for (int by = begin; by < end; ++by)
       for (int bx = 0; bx < motion.blocks_x; ++bx)
         blur_block(bx, by, *of_block_[static_cast<std::size_t>(by) * motion.blocks_x + bx]);
@@ -196,7 +196,7 @@ void Sensor::expose(const std::vector<float>& radiance, const MotionField& motio
   Random random(derived_seed(seed_, 0x100 + frame));
   std::vector<const float*> noise;
   for (int y = 0; y < height_; ++y) noise.push_back(noise_.data() + (random.next() & (kNoiseSamples - 1)));
-  workers_.share(height_, kBandBlocks * kMotionBlockPx, [&](int begin, int end) {
+  workers_.parallel_for(height_, kBandBlocks * kMotionBlock_px, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       quantise_row(y, brightness_f, noise[static_cast<std::size_t>(y)],
                    grey.data() + static_cast<std::size_t>(y) * width_);

@@ -7,7 +7,7 @@
 
 #include "sim/render/exposure.h"
 #include "sim/render/ray_table.h"
-#include "sim/render/workers.h"
+#include "sim/render/thread_pool.h"
 
 namespace heel::sim {
 
@@ -23,7 +23,7 @@ struct SensorSettings {
 };
 
 /// Image motion during the exposure, one vector for every block of kMotionBlockPx², in pixels.
-inline constexpr int kMotionBlockPx = 8;
+inline constexpr int kMotionBlock_px = 8;
 struct MotionField {
   int blocks_x = 0;
   int blocks_y = 0;
@@ -34,7 +34,7 @@ struct MotionField {
 class Sensor {
  public:
   /// `workers` share the rows.
-  Sensor(const RayTable& rays, const SensorSettings& settings, std::uint64_t seed, Workers& workers);
+  Sensor(const RayTable& rays, const SensorSettings& settings, std::uint64_t seed, ThreadPool& workers);
 
   /// `radiance` holds one value a pixel, for the room's light by itself. The noise is a function of the seed
   /// and `frame`, nothing else.
@@ -54,7 +54,7 @@ class Sensor {
   float scattered(int x, int y) const;
   void quantise_row(int y, float brightness, const float* noise, std::uint8_t* grey) const;
 
-  Workers& workers_;
+  ThreadPool& workers_;
   int width_;
   int height_;
   int padded_stride_;

@@ -26,7 +26,7 @@ constexpr Ellipse kHeadProfile[] = {{0.855, 0.015, 0.012, 0.012}, {0.845, 0.012,
                                     {0.630, 0.008, 0.056, 0.054}, {0.580, 0.000, 0.058, 0.058}};
 
 // An arm hanging from its shoulder joint: rounded shoulder, short sleeve, elbow, wrist, hand.
-constexpr double kSleeveEndM = -0.272;
+constexpr double kSleeveEnd_m = -0.272;
 constexpr Ellipse kArmProfile[] = {
     {0.022, 0.0, 0.012, 0.012},  {0.014, 0.0, 0.034, 0.030}, {-0.01, 0.0, 0.052, 0.044},
     {-0.05, 0.0, 0.059, 0.049},  {-0.24, 0.0, 0.052, 0.045}, {-0.27, 0.0, 0.053, 0.046},
@@ -38,12 +38,12 @@ constexpr Ellipse kThighProfile[] = {{0.060, 0.0, 0.070, 0.070},
                                      {0.000, -0.01, 0.092, 0.090},
                                      {-0.12, 0.0, 0.088, 0.084},
                                      {-0.30, 0.0, 0.070, 0.066},
-                                     {-kThighLengthM, 0.0, 0.058, 0.056}};
+                                     {-kThighLength_m, 0.0, 0.058, 0.056}};
 constexpr Ellipse kShinProfile[] = {{0.030, 0.005, 0.052, 0.050}, {-0.05, 0.0, 0.058, 0.056},
                                     {-0.18, -0.01, 0.060, 0.057}, {-0.38, -0.01, 0.050, 0.050},
                                     {-0.40, 0.03, 0.090, 0.042},  {-0.44, 0.06, 0.125, 0.047},
                                     {-0.47, 0.06, 0.130, 0.048},  {-0.472, 0.06, 0.01, 0.01}};
-constexpr double kShoeTopM = -0.395;
+constexpr double kShoeTop_m = -0.395;
 
 // Hanging hair, from kHairRootZM: a bundle, or a curtain over the shoulder blades.
 constexpr Ellipse kShortHairProfile[] = {
@@ -174,7 +174,7 @@ Texture arm_surface(const Tones& tones, const Canvas& shirt, std::uint64_t seed)
   constexpr double kTexelsAround = 320.0 / kPartTexels;
   const double texels_down = kShirtTexelsPerM * (part_z_m(kArmProfile, 0) - part_z_m(kArmProfile, 1));
   return surface([&](int x, int y) {
-    if (part_z_m(kArmProfile, y) <= kSleeveEndM) return uneven(tones.skin, 2.0, random);
+    if (part_z_m(kArmProfile, y) <= kSleeveEnd_m) return uneven(tones.skin, 2.0, random);
     return shirt.at(static_cast<int>(x * kTexelsAround), 600 + static_cast<int>(y * texels_down));
   });
 }
@@ -182,8 +182,8 @@ Texture arm_surface(const Tones& tones, const Canvas& shirt, std::uint64_t seed)
 Texture leg_surface(const Tones& tones, std::uint64_t seed) {
   Random random(seed);
   return surface([&](int /*x*/, int y) {
-    return part_z_m(kShinProfile, y) > kShoeTopM ? uneven(tones.trousers, 6.0, random)
-                                                 : uneven(tones.shoes, 3.0, random);
+    return part_z_m(kShinProfile, y) > kShoeTop_m ? uneven(tones.trousers, 6.0, random)
+                                                  : uneven(tones.shoes, 3.0, random);
   });
 }
 

@@ -19,7 +19,7 @@ enum class Hair : std::uint8_t {
 Hair hair_style(const std::string& name);
 
 inline constexpr double kHairRootZM = 0.78;  ///< torso frame
-inline constexpr double kThighLengthM = 0.43;
+inline constexpr double kThighLength_m = 0.43;
 
 Mesh head_mesh();            ///< with the neck; torso frame
 Mesh hair_mesh(Hair style);  ///< what hangs; origin at kHairRootZM over the hips

@@ -8,8 +8,8 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kHalfBaseM = 0.125;  ///< P3-AT: wheels 0.25 m apart along, 0.40 m across
-constexpr double kHalfTrackM = 0.20;
+constexpr double kHalfBase_m = 0.125;  ///< P3-AT: wheels 0.25 m apart along, 0.40 m across
+constexpr double kHalfTrack_m = 0.20;
 
 }  // namespace
 
@@ -39,14 +39,14 @@ Stand Ground::stand(double x_m, double y_m, double heading_rad) const {
   const auto under = [&](double ahead, double left) {
     return height_m(x_m + c * ahead - s * left, y_m + s * ahead + c * left);
   };
-  const double front_left = under(kHalfBaseM, kHalfTrackM);
-  const double front_right = under(kHalfBaseM, -kHalfTrackM);
-  const double rear_left = under(-kHalfBaseM, kHalfTrackM);
-  const double rear_right = under(-kHalfBaseM, -kHalfTrackM);
+  const double front_left = under(kHalfBase_m, kHalfTrack_m);
+  const double front_right = under(kHalfBase_m, -kHalfTrack_m);
+  const double rear_left = under(-kHalfBase_m, kHalfTrack_m);
+  const double rear_right = under(-kHalfBase_m, -kHalfTrack_m);
   const double nose = 0.5 * (front_left + front_right - rear_left - rear_right);
   const double left = 0.5 * (front_left + rear_left - front_right - rear_right);
-  return {0.25 * (front_left + front_right + rear_left + rear_right), std::atan2(nose, 2.0 * kHalfBaseM),
-          std::atan2(left, 2.0 * kHalfTrackM)};
+  return {0.25 * (front_left + front_right + rear_left + rear_right), std::atan2(nose, 2.0 * kHalfBase_m),
+          std::atan2(left, 2.0 * kHalfTrack_m)};
 }
 
 }  // namespace heel::sim

@@ -9,16 +9,16 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kHipHeightM = 0.92;
-constexpr double kSeatedHipHeightM = 0.54;
+constexpr double kHipHeight_m = 0.92;
+constexpr double kSeatedHipHeight_m = 0.54;
 constexpr double kShoulderZM = 0.515;  ///< above the hips
 constexpr double kArmPivotYM = 0.213;
 constexpr double kHipJointYM = 0.095;
 constexpr double kHipJointZM = -0.02;
-constexpr double kSwingRad = 0.38;       ///< arms and thighs, either way
-constexpr double kKneeRad = 0.75;        ///< of the leg that swings forwards
-constexpr double kSeatedThighRad = 1.5;  ///< nearly level
-constexpr double kRisingLeanRad = 0.45;  ///< half way down to the seat or up from it
+constexpr double kSwing_rad = 0.38;       ///< arms and thighs, either way
+constexpr double kKnee_rad = 0.75;        ///< of the leg that swings forwards
+constexpr double kSeatedThigh_rad = 1.5;  ///< nearly level
+constexpr double kRisingLean_rad = 0.45;  ///< half way down to the seat or up from it
 constexpr double kBreathsPerS = 0.25;
 
 using Eigen::AngleAxisd;
@@ -35,15 +35,16 @@ Isometry3d hanging(const Isometry3d& parent, double y_m, double z_m, double forw
 void set_leg(PersonPose& pose, const Isometry3d& hips, bool left, double phase, double ahead, double aside) {
   const double seat = pose.walk.seat;
   const double side = left ? 1.0 : -1.0;
-  const double swing = -kSwingRad * std::cos(phase);
+  const double swing = -kSwing_rad * std::cos(phase);
   const double lift = std::max(0.0, std::sin(phase));
   const double spread = 0.16 * aside * std::cos(phase);
-  const double thigh_rad = ahead * swing + 0.35 * kKneeRad * lift * std::abs(ahead) + seat * kSeatedThighRad;
+  const double thigh_rad =
+      ahead * swing + 0.35 * kKnee_rad * lift * std::abs(ahead) + seat * kSeatedThigh_rad;
   const double knee_rad =
-      kKneeRad * lift * (std::abs(ahead) + 0.5 * std::abs(aside)) + seat * kSeatedThighRad;
+      kKnee_rad * lift * (std::abs(ahead) + 0.5 * std::abs(aside)) + seat * kSeatedThigh_rad;
   const Isometry3d thigh = hanging(hips, side * kHipJointYM, kHipJointZM, thigh_rad, side * 0.02 + spread);
   pose.world_from_part[left ? kLeftThigh : kRightThigh] = thigh;
-  pose.world_from_part[left ? kLeftShin : kRightShin] = hanging(thigh, 0.0, -kThighLengthM, -knee_rad, 0.0);
+  pose.world_from_part[left ? kLeftShin : kRightShin] = hanging(thigh, 0.0, -kThighLength_m, -knee_rad, 0.0);
 }
 
 }  // namespace
@@ -91,8 +92,8 @@ PersonPose Person::pose(const WalkState& walk, double clock_s) const {
   const double yaw = walk.heading_rad + vigour * settings_.sway_yaw_rad * std::sin(stride + 0.6);
   const double roll = vigour * settings_.sway_roll_rad * std::cos(stride);
   const double lean = ahead * settings_.lean_rad * (1.0 + 0.3 * std::sin(2.0 * stride)) +
-                      kRisingLeanRad * std::sin(std::numbers::pi * walk.seat);
-  const double swing = ahead * kSwingRad * std::sin(stride);
+                      kRisingLean_rad * std::sin(std::numbers::pi * walk.seat);
+  const double swing = ahead * kSwing_rad * std::sin(stride);
   const double breathing = 2.0 * std::numbers::pi * kBreathsPerS * clock_s;
 
   PersonPose pose;
@@ -103,11 +104,11 @@ PersonPose Person::pose(const WalkState& walk, double clock_s) const {
   pose.cloth.slide_around_m = vigour * settings_.cloth_slide_m * std::sin(stride - 0.4);
   pose.cloth.slide_up_m = 0.6 * vigour * settings_.cloth_slide_m * std::cos(2.0 * stride);
 
-  const double back_m = kSeatBehindFeetM * walk.seat;
+  const double back_m = kSeatBehindFeet_m * walk.seat;
   const double c = std::cos(walk.heading_rad);
   const double s = std::sin(walk.heading_rad);
   const Vector3d hips(walk.x_m - side_m * s - back_m * c, walk.y_m + side_m * c - back_m * s,
-                      kHipHeightM + bob_m + walk.seat * (kSeatedHipHeightM - kHipHeightM));
+                      kHipHeight_m + bob_m + walk.seat * (kSeatedHipHeight_m - kHipHeight_m));
   const Isometry3d upright = Eigen::Translation3d(hips) * AngleAxisd(yaw, Vector3d::UnitZ());
   const Isometry3d torso =
       upright * AngleAxisd(lean, Vector3d::UnitY()) * AngleAxisd(roll, Vector3d::UnitX());

@@ -28,8 +28,8 @@ Renderer::Renderer(const World& world, int threads)
       rays_(world.scenario().camera.model),
       rasteriser_(rays_, workers_),
       sensor_(rays_, world.scenario().camera.sensor, derived_seed(world.scenario().seed, 0x5e), workers_) {
-  motion_.blocks_x = (rays_.camera.width_px + kMotionBlockPx - 1) / kMotionBlockPx;
-  motion_.blocks_y = (rays_.camera.height_px + kMotionBlockPx - 1) / kMotionBlockPx;
+  motion_.blocks_x = (rays_.camera.width_px + kMotionBlock_px - 1) / kMotionBlock_px;
+  motion_.blocks_y = (rays_.camera.height_px + kMotionBlock_px - 1) / kMotionBlock_px;
   motion_.dx_px.resize(static_cast<std::size_t>(motion_.blocks_x) * motion_.blocks_y);
   motion_.dy_px.resize(motion_.dx_px.size());
 }
@@ -96,10 +96,10 @@ void Renderer::add_room(const Moments& moments) {
 
 /// Whether a tall ball about them reaches into the pyramid of rays.
 bool Renderer::may_be_seen(const PersonPose& person, const Eigen::Isometry3d& camera_from_world) const {
-  constexpr double kReachM = 1.2;  // from the hips to whatever is farthest, and a little
+  constexpr double kReach_m = 1.2;  // from the hips to whatever is farthest, and a little
   const Eigen::Vector3d hips = camera_from_world * person.world_from_part[kTorso].translation();
   const double x_max = static_cast<double>(rays_.x_max);
-  return hips.z() > -kReachM && std::abs(hips.x()) < x_max * hips.z() + kReachM * std::hypot(1.0, x_max);
+  return hips.z() > -kReach_m && std::abs(hips.x()) < x_max * hips.z() + kReach_m * std::hypot(1.0, x_max);
 }
 
 void Renderer::add_person(const Moments& moments, std::size_t figure) {
@@ -153,8 +153,8 @@ void Renderer::measure_motion(const Moments& moments) {
   const auto fy = static_cast<float>(rays_.camera.fy);
   for (int by = 0; by < motion_.blocks_y; ++by) {
     for (int bx = 0; bx < motion_.blocks_x; ++bx) {
-      const int x = std::min(bx * kMotionBlockPx + kMotionBlockPx / 2, rays_.camera.width_px - 1);
-      const int y = std::min(by * kMotionBlockPx + kMotionBlockPx / 2, rays_.camera.height_px - 1);
+      const int x = std::min(bx * kMotionBlock_px + kMotionBlock_px / 2, rays_.camera.width_px - 1);
+      const int y = std::min(by * kMotionBlock_px + kMotionBlock_px / 2, rays_.camera.height_px - 1);
       const auto block = static_cast<std::size_t>(by) * motion_.blocks_x + bx;
       const float inverse_depth = rasteriser_.inverse_depth(x, y);
       motion_.dx_px[block] = 0.f;

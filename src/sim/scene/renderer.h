@@ -9,7 +9,7 @@
 #include "sim/render/rasteriser.h"
 #include "sim/render/ray_table.h"
 #include "sim/render/sensor.h"
-#include "sim/render/workers.h"
+#include "sim/render/thread_pool.h"
 #include "sim/scene/person.h"
 
 namespace heel::sim {
@@ -53,7 +53,7 @@ class Renderer {
   void measure_motion(const Moments& moments);
 
   const World& world_;
-  Workers workers_;
+  ThreadPool workers_;
   RayTable rays_;
   Rasteriser rasteriser_;
   Sensor sensor_;

@@ -11,8 +11,8 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kCeilingM = 3.0;
-constexpr double kPatchM = 2.0;  ///< light is interpolated linearly over a patch
+constexpr double kCeiling_m = 3.0;
+constexpr double kPatch_m = 2.0;  ///< light is interpolated linearly over a patch
 
 double distance_to_walk(const FloorPlan& plan, const Eigen::Vector2d& point) {
   double nearest = std::numeric_limits<double>::max();
@@ -83,18 +83,18 @@ void Room::add_block(const Block& block, const Texture& texture) {
   const Eigen::Vector3d half_along = 0.5 * block.length_m * along;
   const Eigen::Vector3d half_left = 0.5 * block.width_m * left;
   // Seen from outside, `right` runs counter-clockwise about the block.
-  add_rectangle(top - half_along - half_left, 2.0 * half_along, down, texture, kTexelsPerM, {0, 0}, kPatchM);
+  add_rectangle(top - half_along - half_left, 2.0 * half_along, down, texture, kTexelsPerM, {0, 0}, kPatch_m);
   add_rectangle(top + half_along - half_left, 2.0 * half_left, down, texture, kTexelsPerM, {170, 60},
-                kPatchM);
+                kPatch_m);
   add_rectangle(top + half_along + half_left, -2.0 * half_along, down, texture, kTexelsPerM, {300, 0},
-                kPatchM);
+                kPatch_m);
   add_rectangle(top - half_along + half_left, -2.0 * half_left, down, texture, kTexelsPerM, {80, 200},
-                kPatchM);
+                kPatch_m);
   add_rectangle(top - half_along + half_left, 2.0 * half_along, -2.0 * half_left, texture, kTexelsPerM,
-                {0, 300}, kPatchM);
+                {0, 300}, kPatch_m);
   if (block.bottom_m > 0.0)
     add_rectangle(top + down - half_along - half_left, 2.0 * half_along, 2.0 * half_left, texture,
-                  kTexelsPerM, {0, 300}, kPatchM);
+                  kTexelsPerM, {0, 300}, kPatch_m);
   else
     footprints_.push_back(
         {block.centre_m, block.heading_rad, block.length_m, block.width_m, 0.0, block.top_m});
@@ -112,7 +112,8 @@ void Room::add_pole(const ObstacleSettings& pole, const Texture& texture) {
   };
   for (int i = 0; i < kSides; ++i) {
     const Eigen::Vector3d right = corner(i + 1) - corner(i);
-    add_rectangle(corner(i), right, down, texture, kTexelsPerM, {i * right.norm() * kTexelsPerM, 0}, kPatchM);
+    add_rectangle(corner(i), right, down, texture, kTexelsPerM, {i * right.norm() * kTexelsPerM, 0},
+                  kPatch_m);
   }
   footprints_.push_back({{pole.x_m, pole.y_m}, 0.0, 0.0, 0.0, pole.radius_m, pole.height_m});
 }
@@ -126,7 +127,7 @@ void Room::add_placed(const FloorPlan& plan, std::uint64_t seed) {
       add_block(block, obstacle.kind == ObstacleKind::Box ? crate : plaster);
   }
   for (const StoolPlace& stool : plan.stools)
-    add_block({{stool.x_m, stool.y_m}, stool.heading_rad, kStoolSideM, kStoolSideM, 0.0, kStoolHeightM},
+    add_block({{stool.x_m, stool.y_m}, stool.heading_rad, kStoolSide_m, kStoolSide_m, 0.0, kStoolHeight_m},
               crate);
 }
 
@@ -134,13 +135,13 @@ void Room::add_placed(const FloorPlan& plan, std::uint64_t seed) {
 void Room::add_windows(const RoomSettings& settings, const Eigen::Vector2d& low, const Eigen::Vector2d& high,
                        double azimuth_rad) {
   if (settings.windows <= 0) return;
-  constexpr double kWidthM = 1.6, kHeightM = 1.3, kTopM = 2.4, kBeforeWallM = 0.02;
+  constexpr double kWidth_m = 1.6, kHeight_m = 1.3, kTop_m = 2.4, kBeforeWall_m = 0.02;
   const Texture& texture = surface([&] { return draw_window(); });
   const double c = std::cos(azimuth_rad);
   const double s = std::sin(azimuth_rad);
   const bool along_y = std::abs(c) >= std::abs(s);  // the wall runs along y
-  const double wall = along_y ? (c > 0 ? high.x() - kBeforeWallM : low.x() + kBeforeWallM)
-                              : (s > 0 ? high.y() - kBeforeWallM : low.y() + kBeforeWallM);
+  const double wall = along_y ? (c > 0 ? high.x() - kBeforeWall_m : low.x() + kBeforeWall_m)
+                              : (s > 0 ? high.y() - kBeforeWall_m : low.y() + kBeforeWall_m);
   const double from = along_y ? low.y() : low.x();
   const double to = along_y ? high.y() : high.x();
   // Seen from the room, to the right.
@@ -150,9 +151,9 @@ void Room::add_windows(const RoomSettings& settings, const Eigen::Vector2d& low,
   for (int i = 0; i < settings.windows; ++i) {
     const double at = from + (to - from) * (i + 0.5) / settings.windows;
     const Eigen::Vector3d middle =
-        along_y ? Eigen::Vector3d(wall, at, kTopM) : Eigen::Vector3d(at, wall, kTopM);
-    add_rectangle(middle - 0.5 * kWidthM * right, kWidthM * right, {0, 0, -kHeightM}, texture,
-                  512.0 / kWidthM, {0, 0}, kPatchM);
+        along_y ? Eigen::Vector3d(wall, at, kTop_m) : Eigen::Vector3d(at, wall, kTop_m);
+    add_rectangle(middle - 0.5 * kWidth_m * right, kWidth_m * right, {0, 0, -kHeight_m}, texture,
+                  512.0 / kWidth_m, {0, 0}, kPatch_m);
   }
   for (std::size_t i = first; i < faces_.size(); ++i)
     faces_[i].light.fill(static_cast<float>(settings.window_light));
@@ -162,26 +163,27 @@ void Room::add_shell(const Eigen::Vector2d& low, const Eigen::Vector2d& high, st
   const Eigen::Vector2d size = high - low;
   const Texture& floor = surface([&] { return draw_floor(derived_seed(seed, 1)); });
   const Texture& ceiling = surface([&] { return draw_ceiling(derived_seed(seed, 2)); });
-  add_rectangle({low.x(), high.y(), 0.0}, {size.x(), 0, 0}, {0, -size.y(), 0}, floor, 256.0, {0, 0}, kPatchM);
-  add_rectangle({low.x(), low.y(), kCeilingM}, {size.x(), 0, 0}, {0, size.y(), 0}, ceiling, 100.0, {0, 0},
-                kPatchM);
+  add_rectangle({low.x(), high.y(), 0.0}, {size.x(), 0, 0}, {0, -size.y(), 0}, floor, 256.0, {0, 0},
+                kPatch_m);
+  add_rectangle({low.x(), low.y(), kCeiling_m}, {size.x(), 0, 0}, {0, size.y(), 0}, ceiling, 100.0, {0, 0},
+                kPatch_m);
   // The walls face inwards: `right` runs clockwise about the room.
-  const Eigen::Vector3d down(0, 0, -kCeilingM);
-  const std::array<Eigen::Vector3d, 4> corners{{{low.x(), low.y(), kCeilingM},
-                                                {low.x(), high.y(), kCeilingM},
-                                                {high.x(), high.y(), kCeilingM},
-                                                {high.x(), low.y(), kCeilingM}}};
+  const Eigen::Vector3d down(0, 0, -kCeiling_m);
+  const std::array<Eigen::Vector3d, 4> corners{{{low.x(), low.y(), kCeiling_m},
+                                                {low.x(), high.y(), kCeiling_m},
+                                                {high.x(), high.y(), kCeiling_m},
+                                                {high.x(), low.y(), kCeiling_m}}};
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Texture& wall = surface([&] { return draw_wall(derived_seed(seed, 10 + i)); });
-    add_rectangle(corners[i], corners[(i + 1) % 4] - corners[i], down, wall, 512.0 / kCeilingM, {0, 0},
-                  kPatchM);
+    add_rectangle(corners[i], corners[(i + 1) % 4] - corners[i], down, wall, 512.0 / kCeiling_m, {0, 0},
+                  kPatch_m);
   }
   const Eigen::Vector2d middle = 0.5 * (low + high);
-  constexpr double kThickM = 0.2;  // outside the room
+  constexpr double kThick_m = 0.2;  // outside the room
   for (const double side : {-1.0, 1.0}) {
-    const Eigen::Vector2d out = 0.5 * side * (size.array() + kThickM).matrix();
-    footprints_.push_back({{middle.x() + out.x(), middle.y()}, 0.0, kThickM, size.y(), 0.0, kCeilingM});
-    footprints_.push_back({{middle.x(), middle.y() + out.y()}, 0.0, size.x(), kThickM, 0.0, kCeilingM});
+    const Eigen::Vector2d out = 0.5 * side * (size.array() + kThick_m).matrix();
+    footprints_.push_back({{middle.x() + out.x(), middle.y()}, 0.0, kThick_m, size.y(), 0.0, kCeiling_m});
+    footprints_.push_back({{middle.x(), middle.y() + out.y()}, 0.0, size.x(), kThick_m, 0.0, kCeiling_m});
   }
 }
 

@@ -11,7 +11,7 @@ namespace heel::sim {
 
 inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 inline constexpr Range kMetres{-1000, 1000, "m"};
-inline constexpr Range kTurnDeg{-720, 720, "deg"};
+inline constexpr Range kTurn_deg{-720, 720, "deg"};
 inline constexpr Range kShare{0, 1, ""};
 
 /// [person], with its [[person.path]]

@@ -20,7 +20,7 @@ bool read_step(const std::string& step, TomlSection& item, WalkItem& out) {
   } else if (step == "arc") {
     out.step = WalkStep::Arc;
     out.radius_m = item.need("radius_m", {0.2, 1000, "m"});
-    out.angle_rad = kRadPerDeg * item.need("angle_deg", kTurnDeg);
+    out.angle_rad = kRadPerDeg * item.need("angle_deg", kTurn_deg);
   } else if (step == "to") {
     out.step = WalkStep::To;
     out.x_m = item.need("x_m", kMetres);
@@ -31,7 +31,7 @@ bool read_step(const std::string& step, TomlSection& item, WalkItem& out) {
     out.duration_s = item.need("duration_s", {0, 3600, "s"});
   } else if (step == "turn") {
     out.step = WalkStep::Turn;
-    out.angle_rad = kRadPerDeg * item.need("angle_deg", kTurnDeg);
+    out.angle_rad = kRadPerDeg * item.need("angle_deg", kTurn_deg);
     out.duration_s = item.need("duration_s", {0.1, 3600, "s"});
   } else if (step == "sit") {
     out.step = WalkStep::Sit;
@@ -64,7 +64,7 @@ WalkState read_start(TomlSection& person) {
   WalkState start;
   start.x_m = person.number("x_m", 0.0, kMetres);
   start.y_m = person.number("y_m", 0.0, kMetres);
-  start.heading_rad = kRadPerDeg * person.number("heading_deg", 0.0, kTurnDeg);
+  start.heading_rad = kRadPerDeg * person.number("heading_deg", 0.0, kTurn_deg);
   return start;
 }
 

@@ -12,7 +12,7 @@ constexpr Range kTrack{0.4, 1.0, "m"};
 void read_robot(TomlSection robot, ScenarioRobot& out) {
   out.x_m = robot.number("x_m", out.x_m, kMetres);
   out.y_m = robot.number("y_m", out.y_m, kMetres);
-  out.heading_rad = kRadPerDeg * robot.number("heading_deg", 0.0, kTurnDeg);
+  out.heading_rad = kRadPerDeg * robot.number("heading_deg", 0.0, kTurn_deg);
   out.true_track_m = robot.number("true_track_m", out.true_track_m, kTrack);
   out.left_scale_error = robot.number("left_scale_error", out.left_scale_error, {-0.2, 0.2, ""});
   out.right_scale_error = robot.number("right_scale_error", out.right_scale_error, {-0.2, 0.2, ""});
@@ -44,7 +44,7 @@ void read_light(TomlSection light, LightSettings& out) {
   out.level = light.number("level", out.level, {0.02, 3, ""});
   out.unevenness = light.number("unevenness", out.unevenness, {0, 0.9, ""});
   out.window_azimuth_rad =
-      kRadPerDeg * light.number("window_azimuth_deg", out.window_azimuth_rad / kRadPerDeg, kTurnDeg);
+      kRadPerDeg * light.number("window_azimuth_deg", out.window_azimuth_rad / kRadPerDeg, kTurn_deg);
   for (TomlSection& change : light.sections("change")) {
     const LightChange next{change.need("at_s", {0, 86400, "s"}), change.need("level", {0.01, 10, ""})};
     if (!out.changes.empty() && next.t_s <= out.changes.back().t_s)
@@ -70,7 +70,7 @@ ObstacleSettings read_obstacle(TomlSection obstacle) {
                : kind == "wall" ? ObstacleKind::Wall
                                 : ObstacleKind::Doorway;
     const bool box = out.kind == ObstacleKind::Box;
-    out.heading_rad = kRadPerDeg * obstacle.number("heading_deg", 0.0, kTurnDeg);
+    out.heading_rad = kRadPerDeg * obstacle.number("heading_deg", 0.0, kTurn_deg);
     out.length_m = obstacle.number("length_m", box ? out.length_m : 3.0, kSize);
     out.width_m = obstacle.number("width_m", box ? out.width_m : 0.12, kSize);
     out.height_m = obstacle.number("height_m", box ? out.height_m : 2.99, kSize);

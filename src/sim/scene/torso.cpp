@@ -20,8 +20,8 @@ constexpr Profile kProfile[] = {{0.620, 0.062, 0.060}, {0.595, 0.098, 0.072}, {0
                                 {0.260, 0.190, 0.124}, {0.140, 0.182, 0.119}, {0.020, 0.192, 0.126},
                                 {-0.080, 0.202, 0.132}};
 constexpr int kProfileCount = static_cast<int>(std::size(kProfile));
-constexpr double kTopM = kProfile[0].z_m;
-constexpr double kBottomM = kProfile[kProfileCount - 1].z_m;
+constexpr double kTop_m = kProfile[0].z_m;
+constexpr double kBottom_m = kProfile[kProfileCount - 1].z_m;
 constexpr double kBackCentreZM = 0.28;
 constexpr int kRings = 26;
 constexpr int kSegments = 48;
@@ -126,14 +126,14 @@ Torso::Torso(double depth) : depth_(depth) {
   const std::vector<double> around = equal_steps_around(depth);
   mesh_ = tube(kRings, kSegments, [&](int k, int j) {
     MeshVertex vertex;
-    const double z = kTopM + (kBottomM - kTopM) * k / (kRings - 1);
+    const double z = kTop_m + (kBottom_m - kTop_m) * k / (kRings - 1);
     const double a = around[static_cast<std::size_t>(j)];
     vertex.position_m = surface_point(a, z, depth).cast<float>();
     const Eigen::Vector3d along = surface_point(a + 1e-3, z, depth) - surface_point(a - 1e-3, z, depth);
     const Eigen::Vector3d up = surface_point(a, z + 1e-3, depth) - surface_point(a, z - 1e-3, depth);
     vertex.normal = along.cross(up).normalized().cast<float>();
     vertex.s_texel = static_cast<float>(kShirtWidthTexels) * static_cast<float>(j) / kSegments;
-    vertex.t_texel = static_cast<float>((kTopM - z) * kShirtTexelsPerM);
+    vertex.t_texel = static_cast<float>((kTop_m - z) * kShirtTexelsPerM);
     return vertex;
   });
   mesh_.texels_per_m = static_cast<float>(kShirtTexelsPerM);
@@ -151,7 +151,7 @@ Eigen::Vector3d Torso::back_centre_m() const {
 
 Eigen::Vector3d Torso::shirt_point_m(double s_texel, double t_texel, const ClothState& cloth) const {
   const double columns_per_texel = static_cast<double>(kSegments) / kShirtWidthTexels;
-  const double rows_per_texel = (kRings - 1) / ((kTopM - kBottomM) * kShirtTexelsPerM);
+  const double rows_per_texel = (kRings - 1) / ((kTop_m - kBottom_m) * kShirtTexelsPerM);
   double column = s_texel * columns_per_texel;
   double row = t_texel * rows_per_texel;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();

@@ -10,10 +10,10 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kStepS = 0.01;
+constexpr double kStep_s = 0.01;
 constexpr double kAccelerationM_S2 = 0.6;
 
-constexpr double kSittingDownS = 1.4;  ///< and as long to get up
+constexpr double kSittingDown_s = 1.4;  ///< and as long to get up
 
 /// Where a leg ends when it begins at `from`.
 WalkState after(const WalkState& from, double length_m, double curvature_1_m, double travel_rad) {
@@ -151,9 +151,9 @@ void Walk::move(const Leg& leg, double end_speed_m_s) {
   while (leg.length_m - gone_m > 1e-9) {
     const double remaining = leg.length_m - gone_m;
     const double braking = std::sqrt(end_speed_m_s * end_speed_m_s + 2.0 * kAccelerationM_S2 * remaining);
-    speed = std::min({speed + kAccelerationM_S2 * kStepS, leg.speed_m_s, braking});
-    gone_m = std::min(leg.length_m, gone_m + std::max(speed, 0.01) * kStepS);
-    stride += phase_sign * stride_rate_rad_s(speed) * kStepS;
+    speed = std::min({speed + kAccelerationM_S2 * kStep_s, leg.speed_m_s, braking});
+    gone_m = std::min(leg.length_m, gone_m + std::max(speed, 0.01) * kStep_s);
+    stride += phase_sign * stride_rate_rad_s(speed) * kStep_s;
     WalkState state = after(from, gone_m, leg.curvature_1_m, leg.travel_rad);
     state.speed_m_s = speed;
     state.stride_rad = stride;
@@ -168,27 +168,27 @@ void Walk::wait(const Leg& leg) {
   state.speed_m_s = 0.0;
   const double from_rad = state.heading_rad;
   if (leg.sits)
-    stools_.push_back({state.x_m - kSeatBehindFeetM * std::cos(from_rad),
-                       state.y_m - kSeatBehindFeetM * std::sin(from_rad), from_rad});
-  const int steps = static_cast<int>(std::lround(leg.wait_s / kStepS));
+    stools_.push_back({state.x_m - kSeatBehindFeet_m * std::cos(from_rad),
+                       state.y_m - kSeatBehindFeet_m * std::sin(from_rad), from_rad});
+  const int steps = static_cast<int>(std::lround(leg.wait_s / kStep_s));
   for (int i = 1; i <= steps; ++i) {
     const double share = static_cast<double>(i) / steps;
     state.heading_rad = from_rad + leg.turn_rad * smooth(share);
     if (leg.sits) {
-      const double t_s = kStepS * i;
-      state.seat = smooth(std::clamp(std::min(t_s, leg.wait_s - t_s) / kSittingDownS, 0.0, 1.0));
+      const double t_s = kStep_s * i;
+      state.seat = smooth(std::clamp(std::min(t_s, leg.wait_s - t_s) / kSittingDown_s, 0.0, 1.0));
     }
     samples_.push_back(state);
   }
 }
 
 double Walk::duration_s() const {
-  return kStepS * static_cast<double>(samples_.size() - 1);
+  return kStep_s * static_cast<double>(samples_.size() - 1);
 }
 
 WalkState Walk::at(double t_s) const {
   if (t_s <= 0.0) return samples_.front();
-  const double index = t_s / kStepS;
+  const double index = t_s / kStep_s;
   const auto low = static_cast<std::size_t>(index);
   if (low + 1 >= samples_.size()) {
     WalkState last = samples_.back();

@@ -41,9 +41,9 @@ struct WalkState {
 };
 
 /// Hips of a seated person stand this far behind their feet, over the middle of the stool.
-inline constexpr double kSeatBehindFeetM = 0.40;
-inline constexpr double kStoolSideM = 0.36;
-inline constexpr double kStoolHeightM = 0.44;
+inline constexpr double kSeatBehindFeet_m = 0.40;
+inline constexpr double kStoolSide_m = 0.36;
+inline constexpr double kStoolHeight_m = 0.44;
 
 /// The floor under the middle of a stool, and the way its sitter faces.
 struct StoolPlace {

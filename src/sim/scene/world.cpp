@@ -175,8 +175,8 @@ double World::range_m(double x_m, double y_m, double heading_rad, double t_s) co
   double nearest = std::numeric_limits<double>::infinity();
   const auto hear = [&](const std::vector<Footprint>& things) {
     for (const Footprint& thing : things) {
-      if ((thing.centre_m - from).norm() - thing.reach_m() > kSonarReachM) continue;
-      nearest = std::min(nearest, thing.in_cone_m(from, heading_rad, kSonarHalfBeamRad));
+      if ((thing.centre_m - from).norm() - thing.reach_m() > kSonarReach_m) continue;
+      nearest = std::min(nearest, thing.in_cone_m(from, heading_rad, kSonarHalfBeam_rad));
     }
   };
   hear(room_.footprints());

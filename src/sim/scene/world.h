@@ -105,15 +105,15 @@ class World {
                const std::function<Eigen::Vector3d(double t_s)>& point_m, Eigen::Vector2d& px) const;
 
   /// What a sonar at a place on the floor, heading `heading_rad`, hears: the distance to the nearest thing in
-  /// its beam, people included, infinity when there is none within kSonarReachM. Echoes that glance off are
-  /// heard as well.
+  /// its beam, people included, infinity when there is none within kSonarReach_m. SonarObstacles that glance
+  /// off are heard as well.
   double range_m(double x_m, double y_m, double heading_rad, double t_s) const;
   /// Everybody as sonars and bumpers meet them, the target first.
   std::vector<Footprint> people_footprints(double t_s) const;
 
  private:
-  static constexpr double kSonarHalfBeamRad = 0.26;
-  static constexpr double kSonarReachM = 5.0;
+  static constexpr double kSonarHalfBeam_rad = 0.26;
+  static constexpr double kSonarReach_m = 5.0;
   static constexpr double kNever = 1e18;
   bool occluded(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& point_m, double t_s) const;
 

@@ -9,19 +9,19 @@
 #include "heel/error.h"
 #include "heel/features.h"
 #include "vision/features/descriptor.h"
-#include "vision/features/enlarged_view.h"
 #include "vision/features/fast_hessian.h"
 #include "vision/features/integral_image.h"
 #include "vision/features/keypoint_selection.h"
 #include "vision/features/orientation.h"
+#include "vision/features/upsampled_region.h"
 
 namespace heel {
 namespace {
 
 // Keypoints kept before spreading, for each one wanted: enough that weak corners of the image are still in.
 constexpr int kCandidatesPerFeature = 4;
-// Of the frame round a region that is looked at closely: descriptors reach beyond it.
-constexpr int kSurroundingsPx = 16;
+// Of the frame round a region that is looked at upsample: descriptors reach beyond it.
+constexpr int kSurroundings_px = 16;
 
 Region clipped(const Region& region, int width_px, int height_px) {
   if (region.width_px == 0 && region.height_px == 0) return {0, 0, width_px, height_px};
@@ -32,8 +32,8 @@ Region clipped(const Region& region, int width_px, int height_px) {
 }
 
 Region with_surroundings(const Region& region, int width_px, int height_px) {
-  return clipped({region.x_px - kSurroundingsPx, region.y_px - kSurroundingsPx,
-                  region.width_px + 2 * kSurroundingsPx, region.height_px + 2 * kSurroundingsPx},
+  return clipped({region.x_px - kSurroundings_px, region.y_px - kSurroundings_px,
+                  region.width_px + 2 * kSurroundings_px, region.height_px + 2 * kSurroundings_px},
                  width_px, height_px);
 }
 
@@ -54,7 +54,7 @@ struct FeatureExtractor::Impl {
         max_height_px(height_px),
         max_features(given.max_features),
         enlarged(width_px, static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
-        integral(width_px, EnlargedView::kFactor * height_px),  // an enlarged view is taller than a frame
+        integral(width_px, UpsampledRegion::kFactor * height_px),  // an enlarged view is taller than a frame
         hessian(width_px),
         selection(static_cast<std::size_t>(given.max_features) * kCandidatesPerFeature) {
     downwards.reserve(static_cast<std::size_t>(given.max_features));
@@ -67,7 +67,7 @@ struct FeatureExtractor::Impl {
   FeatureSettings settings;
   int max_width_px, max_height_px;
   int max_features;  // memory is there for so many
-  EnlargedView enlarged;
+  UpsampledRegion enlarged;
   IntegralImage integral;
   FastHessian hessian;
   KeypointSelection selection;
@@ -134,7 +134,7 @@ void FeatureExtractor::extract(const FrameView& frame, const Region& region, Fea
   const Region searched = clipped(region, width_px, height_px);
   if (frame.grey == nullptr || searched.width_px == 0 || searched.height_px == 0) return;
   const Region part = with_surroundings(searched, width_px, height_px);
-  if (s.settings.closely && s.enlarged.has_room_for(part))
+  if (s.settings.upsample && s.enlarged.has_room_for(part))
     return s.extract_closely(frame, searched, part, out);
   s.extract(frame, searched, s.settings, out);
 }
@@ -160,7 +160,7 @@ void FeatureExtractor::Impl::extract(const FrameView& view, const Region& region
 /// `part`: the region with its surroundings, which is what is drawn larger.
 void FeatureExtractor::Impl::extract_closely(const FrameView& frame, const Region& region, const Region& part,
                                              FeatureSet& out) {
-  constexpr int k = EnlargedView::kFactor;
+  constexpr int k = UpsampledRegion::kFactor;
   FeatureSettings wanted = settings;
   wanted.sigma_min_px *= k;
   wanted.sigma_max_px *= k;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMaxNewtonSteps = 50;
 constexpr int kMaxHalvings = 30;
-constexpr double kConvergedPx = 1e-10;
+constexpr double kConverged_px = 1e-10;
 
 Eigen::Vector2d distort_normalised(const CameraModel& camera, const Eigen::Vector2d& point) {
   const double x = point.x(), y = point.y();
@@ -56,7 +56,7 @@ Eigen::Vector2d CameraModel::distort_px(const Eigen::Vector2d& undistorted_px) c
 Eigen::Vector2d CameraModel::undistort_px(const Eigen::Vector2d& distorted_px) const {
   if (!distorted() || !distorted_px.allFinite()) return distorted_px;
   const Eigen::Vector2d goal((distorted_px.x() - cx) / fx, (distorted_px.y() - cy) / fy);
-  const double converged = kConvergedPx / std::max(std::abs(fx), std::abs(fy));
+  const double converged = kConverged_px / std::max(std::abs(fx), std::abs(fy));
 
   // The pixel itself is a good start inside the fold; beyond it, the centre is always inside.
   Eigen::Vector2d point = goal;

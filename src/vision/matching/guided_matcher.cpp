@@ -10,7 +10,7 @@ namespace heel {
 namespace {
 
 constexpr int kMostCells = 128;  // either way
-constexpr double kFarthestPx = 1e9;
+constexpr double kFarthest_px = 1e9;
 
 float squared_distance(const Descriptor& a, const Descriptor& b) {
   const Eigen::Map<const Eigen::Matrix<float, kDescriptorSize, 1>> u(a.data()), v(b.data());
@@ -29,7 +29,7 @@ void GuidedMatcher::look_at(const FeatureSet& cur, std::span<const Eigen::Vector
   cur_ = &cur;
   taken_by_.resize(cur_px.size());
   // A lens model far outside its range may undistort to anything.
-  const auto somewhere = [](const Eigen::Vector2d& px) { return px.cwiseAbs().maxCoeff() < kFarthestPx; };
+  const auto somewhere = [](const Eigen::Vector2d& px) { return px.cwiseAbs().maxCoeff() < kFarthest_px; };
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& px : cur_px)
     if (px.allFinite() && somewhere(px)) box.extend(px);

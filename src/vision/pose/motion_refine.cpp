@@ -7,7 +7,7 @@
 
 #include "vision/optimisation/levenberg_marquardt.h"
 #include "vision/optimisation/projection.h"
-#include "vision/pose/rivals.h"
+#include "vision/pose/alternative_hypotheses.h"
 
 namespace heel {
 namespace {
@@ -213,12 +213,12 @@ FrontalPose FrontalPoseEstimator::estimate(const FrontalProblem& problem, const 
   const double chi2_excess =
       (other.cost_px2 - chosen.cost_px2) / std::max(chosen.noise_px * chosen.noise_px, 1e-12);
   const bool same = (chosen.R_cur_from_ref - other.R_cur_from_ref).norm() < kSameMinimum;
-  const Rival mirrored{other, same ? 0.0 : std::exp(-0.5 * std::max(0.0, chi2_excess))};
+  const AlternativeHypothesis mirrored{other, same ? 0.0 : std::exp(-0.5 * std::max(0.0, chi2_excess))};
 
   const Eigen::Vector3d gradient = yaw_gradient(chosen.R_cur_from_ref);
   pose.yaw_sigma_rad = std::sqrt(gradient.dot(pose.covariance.topLeftCorner<3, 3>() * gradient));
   pose.t_over_d_sigma = pose.covariance.diagonal().tail<3>().cwiseSqrt();
-  own_up_to({&mirrored, 1}, pose);
+  inflate_covariance({&mirrored, 1}, pose);
   return pose;
 }
 

@@ -52,7 +52,8 @@ struct FrontalPose {
   double yaw_rad = 0.0;
   double yaw_sigma_rad = 0.0;
   Eigen::Vector3d t_over_d_sigma = Eigen::Vector3d::Zero();
-  double ambiguity = 0.0;  ///< probability that another answer is the true one (rivals.h), 0…1
+  double ambiguity =
+      0.0;  ///< probability that another answer is the true one (alternative_hypotheses.h), 0…1
 };
 
 class FrontalPoseEstimator {

@@ -14,7 +14,7 @@
 #include "heel/motion.h"
 #include "vision/homography/shape_plausibility.h"
 #include "vision/matching/guided_matcher.h"
-#include "vision/pose/back_pose.h"
+#include "vision/pose/back_pose_selector.h"
 #include "vision/template/reference_view.h"
 
 namespace heel {
@@ -27,7 +27,7 @@ constexpr double kScaleMargin = 1.2;  // the template's distance is measured by 
 // Inliers' features change size as the homography says; those of a fit by chance change anyhow.
 constexpr double kMaxScaleDisagreement = 1.5;
 constexpr int kGuidedRounds = 2;
-constexpr double kSettledPx = 1.0;  // of the guide's radius of 8: the next round would pair the same
+constexpr double kSettled_px = 1.0;  // of the guide's radius of 8: the next round would pair the same
 // Round the expected view: what a homography found from few pairs is off at the outline, by share of its
 // size; and how far features' scales lie from what it predicts, with what the target may come nearer in a
 // second.
@@ -35,9 +35,9 @@ constexpr double kViewMargin = 0.1;
 constexpr double kViewScaleMargin = 1.3;
 constexpr double kApproach_1_s = 1.0;
 // A shirt smaller than this share of its template shows few of the template's features as large as the
-// smallest filter: then it is looked at closely. So many pairs, a guess as yet, are worth a second look.
+// smallest filter: then it is looked at upsample. So many pairs, a guess as yet, are worth a second look.
 constexpr double kSmall = 0.8;
-constexpr std::uint32_t kPairsOfAGuess = 5;
+constexpr std::uint32_t kMinPairsForUpsampling = 5;
 
 /// Smallest and largest magnification of the template for which the target is looked for.
 struct ScaleRange {
@@ -88,10 +88,10 @@ Eigen::Vector2d undistorted(const CameraModel& camera, const Feature& feature) {
 struct PoseEstimator::Impl {
   Impl(const ShirtTemplate& shirt, const CameraModel& current_camera, const VisionConfig& given);
 
-  void pair_up(const std::vector<Match>& from);
+  void make_pairs(const std::vector<Match>& from);
   PoseEstimate estimate(const FrameView& frame, const ExpectedView& search);
   ExpectedView expected_view(const Eigen::Matrix3d& H_cur_from_ref, double dt_s) const;
-  bool deserves_a_closer_look(const PoseEstimate& pose) const;
+  bool needs_upsampled_pass(const PoseEstimate& pose) const;
   PoseReason find_pairs(const FrameView& frame, const ExpectedView& search, PoseEstimate& pose);
   PoseReason find_homography(PoseEstimate& pose);
   PoseReason check_shape();
@@ -100,7 +100,7 @@ struct PoseEstimator::Impl {
   double moved_px(const Eigen::Matrix3d& guide) const;
   void predict_from_homography();
 
-  bool scales_agree();
+  bool feature_scales_agree();
   bool is_small(const Eigen::Matrix3d& H_cur_from_ref) const;
 
   CameraModel camera;
@@ -116,7 +116,7 @@ struct PoseEstimator::Impl {
   Matcher matcher;
   GuidedMatcher guided_matcher;
   HomographyEstimator homography_estimator;
-  BackPoseEstimator back_pose_estimator;
+  BackPoseSelector back_pose_selector;
   FeatureSet frame_features;
   std::vector<Eigen::Vector2d> frame_px;  // undistorted, one for each feature
   std::vector<Match> matches;
@@ -144,7 +144,7 @@ PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current
               MatchSettings{static_cast<float>(config.match_ratio), true}),
       guided_matcher(config.max_features, GuidedMatchSettings{}),
       homography_estimator(static_cast<int>(reference.px.size()), ransac_settings(config)),
-      back_pose_estimator(reference, K_cur, config) {
+      back_pose_selector(reference, K_cur, config) {
   const std::size_t count = reference.px.size();
   shape_limits.scale_min = range.min * kTiltShrink;
   shape_limits.scale_max = range.max * kScaleMargin;
@@ -187,7 +187,7 @@ ExpectedView PoseEstimator::Impl::expected_view(const Eigen::Matrix3d& H_cur_fro
   const double scale_margin = kViewScaleMargin * (1.0 + kApproach_1_s * dt_s);
   view.sigma_min_px = std::max(anywhere.sigma_min_px, smallest / scale_margin);
   view.sigma_max_px = std::min(anywhere.sigma_max_px, largest * scale_margin);
-  view.closely = is_small(H_cur_from_ref);
+  view.upsample = is_small(H_cur_from_ref);
   return view;
 }
 
@@ -195,8 +195,8 @@ bool PoseEstimator::Impl::is_small(const Eigen::Matrix3d& H_cur_from_ref) const 
   return local_scale(H_cur_from_ref, reference.centre_px) < kSmall;
 }
 
-bool PoseEstimator::Impl::deserves_a_closer_look(const PoseEstimate& pose) const {
-  if (pose.inliers < kPairsOfAGuess) return false;
+bool PoseEstimator::Impl::needs_upsampled_pass(const PoseEstimate& pose) const {
+  if (pose.inliers < kMinPairsForUpsampling) return false;
   const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> H(pose.H_cur_from_ref.data());
   return plausible_shape(H, reference.outline_px, shape_limits) && is_small(H);
 }
@@ -207,7 +207,7 @@ PoseReason PoseEstimator::Impl::find_pairs(const FrameView& frame, const Expecte
   FeatureSettings settings = extractor.settings();
   settings.sigma_min_px = static_cast<float>(search.sigma_min_px);
   settings.sigma_max_px = static_cast<float>(search.sigma_max_px);
-  settings.closely = search.closely;
+  settings.upsample = search.upsample;
   extractor.set_settings(settings);
   extractor.extract(frame, search.region, frame_features);
   frame_px.clear();
@@ -220,12 +220,12 @@ PoseReason PoseEstimator::Impl::find_pairs(const FrameView& frame, const Expecte
   if (matches.size() < 4) return PoseReason::TooFewMatches;
 
   for (const Feature& feature : frame_features.features) frame_px.push_back(undistorted(camera, feature));
-  pair_up(matches);
+  make_pairs(matches);
   mark(times, VisionStage::Undistortion);
   return PoseReason::Found;
 }
 
-void PoseEstimator::Impl::pair_up(const std::vector<Match>& from) {
+void PoseEstimator::Impl::make_pairs(const std::vector<Match>& from) {
   pairs.clear();
   for (const Match& match : from)
     pairs.push_back(
@@ -245,13 +245,14 @@ PoseReason PoseEstimator::Impl::find_homography(PoseEstimate& pose) {
 }
 
 PoseReason PoseEstimator::Impl::check_shape() {
-  if (!plausible_shape(homography.H_cur_from_ref, reference.outline_px, shape_limits) || !scales_agree())
+  if (!plausible_shape(homography.H_cur_from_ref, reference.outline_px, shape_limits) ||
+      !feature_scales_agree())
     return PoseReason::ImplausibleShape;
   return PoseReason::Found;
 }
 
 /// The inliers' features have grown or shrunk, by the median, as the homography says.
-bool PoseEstimator::Impl::scales_agree() {
+bool PoseEstimator::Impl::feature_scales_agree() {
   disagreement.clear();
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (inlier_mask[i] == 0) continue;
@@ -290,12 +291,12 @@ PoseReason PoseEstimator::Impl::match_again(PoseEstimate& pose) {
   for (int round = 0; round < kGuidedRounds; ++round) {
     predict_from_homography();
     guided_matcher.match(predicted, reference.set, matches);
-    pair_up(matches);
+    make_pairs(matches);
     mark(times, VisionStage::GuidedMatching);
     const Eigen::Matrix3d guide = homography.H_cur_from_ref;
     const PoseReason reason = find_homography(pose);
     if (reason != PoseReason::Found) return reason;
-    if (moved_px(guide) < kSettledPx) break;
+    if (moved_px(guide) < kSettled_px) break;
   }
   return pose.certainty < config.min_certainty ? PoseReason::TooFewInliers : PoseReason::Found;
 }
@@ -316,7 +317,7 @@ PoseReason PoseEstimator::Impl::find_motion(PoseEstimate& pose) {
 
   const PlaneMotion& start = motions.motions[static_cast<std::size_t>(choice.best)];
   const FrontalPose result =
-      back_pose_estimator.estimate({inliers, homography.H_cur_from_ref, start}, guided_matcher, frame_px);
+      back_pose_selector.estimate({inliers, homography.H_cur_from_ref, start}, guided_matcher, frame_px);
   const Eigen::Matrix3d& R = result.motion.R_cur_from_ref;
   const Eigen::Vector3d& t = result.motion.t_over_d;
   const Eigen::Vector3d centre_over_d = R * (reference.K_inverse * reference.centre_px.homogeneous()) + t;
@@ -355,8 +356,8 @@ ExpectedView PoseEstimator::expected_view(const PoseEstimate& last, TimeNs t_ns)
   return impl_->expected_view(H_cur_from_ref, seconds_from_ns(t_ns - last.t_capture_ns));
 }
 
-bool PoseEstimator::deserves_a_closer_look(const PoseEstimate& pose) const {
-  return impl_->deserves_a_closer_look(pose);
+bool PoseEstimator::needs_upsampled_pass(const PoseEstimate& pose) const {
+  return impl_->needs_upsampled_pass(pose);
 }
 
 void PoseEstimator::measure(StageTimes* times) {

@@ -19,7 +19,7 @@ bool PoseTracker::expects_it_in(const FrameView& frame) const {
 
 PoseEstimate PoseTracker::search(const FrameView& frame) {
   const PoseEstimate pose = estimator_.estimate(frame);
-  if (!estimator_.deserves_a_closer_look(pose)) return pose;
+  if (!estimator_.needs_upsampled_pass(pose)) return pose;
   const PoseEstimate closer =
       estimator_.estimate(frame, estimator_.expected_view(pose, frame.header.t_capture_ns));
   return closer.found() ? closer : pose;

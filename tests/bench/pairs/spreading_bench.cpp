@@ -13,7 +13,7 @@
 #include "heel/matching.h"
 #include "support/oxford_pairs.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 namespace {
 
 using test::OxfordPair;
@@ -107,7 +107,7 @@ int run(const std::vector<int>& budgets) {
 }
 
 }  // namespace
-}  // namespace heel::bench
+}  // namespace heel::evaluation
 
 int main(int argc, char** argv) {
   std::vector<int> budgets;
@@ -121,7 +121,7 @@ int main(int argc, char** argv) {
   }
   if (budgets.empty()) budgets = {200, 500, 1000};
   try {
-    return heel::bench::run(budgets);
+    return heel::evaluation::run(budgets);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "heel_bench_pairs: %s\n", error.what());
     return 2;

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-namespace heel::bench {
+namespace heel::evaluation {
 
 cv::Mat textured_image(cv::Size size) {
   const char* data = std::getenv("HEEL_TEST_DATA");
@@ -46,4 +46,4 @@ FrameView view_of(const cv::Mat& grey) {
   return frame;
 }
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

@@ -5,7 +5,7 @@
 
 #include "heel/flow.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 
 /// A 640 × 480 real scene (graf, image 1, resized); blurred noise without HEEL_TEST_DATA.
 cv::Mat textured_image(cv::Size size = {640, 480});
@@ -15,4 +15,4 @@ cv::Mat checkerboard_image(int period_px, cv::Size size = {640, 480});
 
 FrameView view_of(const cv::Mat& grey);
 
-}  // namespace heel::bench
+}  // namespace heel::evaluation

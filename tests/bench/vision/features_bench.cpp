@@ -14,7 +14,7 @@
 #include "vision/features/keypoint_selection.h"
 #include "vision/features/orientation.h"
 
-namespace heel::bench {
+namespace heel::evaluation {
 namespace {
 
 void extract_repeatedly(benchmark::State& state, const cv::Mat& grey, const FeatureSettings& settings,
@@ -160,7 +160,7 @@ BENCHMARK(match_opencv)->Unit(benchmark::kMillisecond);
 BENCHMARK(match_heel)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace heel::bench
+}  // namespace heel::evaluation
 
 int main(int argc, char** argv) {
   cv::setNumThreads(1);

@@ -15,7 +15,7 @@
 #include <string>
 #include <thread>
 
-#include "capture/made_frames.h"
+#include "capture/synthetic_frames.h"
 #include "heel/error.h"
 #include "realtime/clock.h"
 

@@ -232,7 +232,7 @@ TEST_F(V4l2SourceTest, SilenceIsATimeoutAndAStallIsLost) {
     result = source.wait_frame(kNsPerMs, frame_);
   }
   EXPECT_EQ(result, FrameResult::Lost);
-  EXPECT_GE(monotonic_now_ns() - opened_ns, V4l2Source::kStallNs);
+  EXPECT_GE(monotonic_now_ns() - opened_ns, V4l2Source::kStall_ns);
 }
 
 TEST_F(V4l2SourceTest, OpeningSaysAbsentOrRefusedAndWhy) {

@@ -20,8 +20,8 @@
 namespace heel {
 namespace {
 
-using experiment::StillRow;
-using report::StillSample;
+using evaluation::StillRow;
+using evaluation::StillSample;
 using test::TemporaryFolder;
 using ::testing::HasSubstr;
 
@@ -43,8 +43,8 @@ StillRow row_at(double x_m, double z_m, double yaw_rad, double yaw_error_rad, do
 
 std::vector<StillSample> written_and_read(const std::vector<StillRow>& rows) {
   const TemporaryFolder folder;
-  experiment::write_stills(rows, folder.file("rows.csv"));
-  return report::read_stills(folder.file("rows.csv"));
+  evaluation::write_stills(rows, folder.file("rows.csv"));
+  return evaluation::read_stills(folder.file("rows.csv"));
 }
 
 TEST(Stills, AreReadAsTheyWereWritten) {
@@ -81,10 +81,10 @@ TEST(Stills, FlippedAndWrong) {
 TEST(Steps, MeanDeviationAndCertaintyOfEachCommandedValue) {
   StillRow lost = row_at(0.0, 1.0, 0.2, 0.0);
   lost.pose.reason = PoseReason::TooFewMatches;
-  const auto steps =
-      report::steps_of(written_and_read({row_at(0.0, 1.0, 0.2, 0.01, 0.4), row_at(0.0, 1.0, 0.2, 0.03, 0.2),
-                                         lost, row_at(0.0, 1.0, -0.2, 0.0, 0.6)}),
-                       &StillSample::yaw_rad, &StillSample::yaw_est_rad, &StillSample::true_yaw_rad, 100.0);
+  const auto steps = evaluation::steps_of(
+      written_and_read({row_at(0.0, 1.0, 0.2, 0.01, 0.4), row_at(0.0, 1.0, 0.2, 0.03, 0.2), lost,
+                        row_at(0.0, 1.0, -0.2, 0.0, 0.6)}),
+      &StillSample::yaw_rad, &StillSample::yaw_est_rad, &StillSample::true_yaw_rad, 100.0);
   ASSERT_EQ(steps.size(), 2U);
   EXPECT_NEAR(steps[0].at, -20.0, 1e-9);
   EXPECT_EQ(steps[1].pictures, 3U);
@@ -98,8 +98,8 @@ TEST(Steps, MeanDeviationAndCertaintyOfEachCommandedValue) {
 TEST(Errors, BinsCountWhatBelongs) {
   const auto samples = written_and_read(
       {row_at(0, 2, 0.5, 0.1), row_at(0, 2, 0.5, -0.1), row_at(0, 2, 0.5, -1.0), row_at(0, 4, 0.5, 0.0)});
-  const report::ErrorBin bin =
-      report::error_bin("near", 2.0, samples, [](const StillSample& s) { return s.true_z_m < 3.0; });
+  const evaluation::ErrorBin bin =
+      evaluation::error_bin("near", 2.0, samples, [](const StillSample& s) { return s.true_z_m < 3.0; });
   EXPECT_EQ(bin.found, 3U);
   EXPECT_EQ(bin.flips, 1U);
   EXPECT_EQ(bin.wrong, 1U);
@@ -109,38 +109,38 @@ TEST(Errors, BinsCountWhatBelongs) {
 
 TEST(Errors, TheBandOfHonestDeviationsNarrowsWithTheNumber) {
   // chi-squared with 100 degrees of freedom: 2.5 % at 74.22, 97.5 % at 129.56.
-  EXPECT_NEAR(report::nees_band(100).low, 0.7422, 0.001);
-  EXPECT_NEAR(report::nees_band(100).high, 1.2956, 0.001);
+  EXPECT_NEAR(evaluation::nees_band(100).low, 0.7422, 0.001);
+  EXPECT_NEAR(evaluation::nees_band(100).high, 1.2956, 0.001);
 }
 
 TEST(Comparison, RSquaredAndMonotony) {
-  EXPECT_NEAR(report::r_squared({0, 1, 2, 3}, {1, 3, 5, 7}), 1.0, 1e-12);
-  EXPECT_NEAR(report::r_squared({0, 1, 2}, {0, 1, 0}), 0.0, 1e-12);
-  std::vector<report::Step> steps(4);
+  EXPECT_NEAR(evaluation::r_squared({0, 1, 2, 3}, {1, 3, 5, 7}), 1.0, 1e-12);
+  EXPECT_NEAR(evaluation::r_squared({0, 1, 2}, {0, 1, 0}), 0.0, 1e-12);
+  std::vector<evaluation::Step> steps(4);
   for (std::size_t i = 0; i < 4; ++i) {
     steps[i].at = static_cast<double>(i);
     steps[i].mean = static_cast<double>(i);
     steps[i].pictures = steps[i].found = 10;
   }
-  EXPECT_EQ(report::breaks_of_monotony(steps, "m"), "");
+  EXPECT_EQ(evaluation::breaks_of_monotony(steps, "m"), "");
   steps[2].mean = 0.5;
-  EXPECT_THAT(report::breaks_of_monotony(steps, "m"), HasSubstr("falls from 1 to 2 m"));
+  EXPECT_THAT(evaluation::breaks_of_monotony(steps, "m"), HasSubstr("falls from 1 to 2 m"));
   steps[2].found = 4;
-  EXPECT_THAT(report::breaks_of_monotony(steps, "m"),
+  EXPECT_THAT(evaluation::breaks_of_monotony(steps, "m"),
               HasSubstr("found in fewer than half of the pictures at 2 m"));
 }
 
 TEST(ExperimentReport, DrawsWhatThereIsAndSaysHowGoodItIs) {
   const TemporaryFolder folder;
   const std::string directory = folder.path().string();
-  EXPECT_FALSE(report::holds_experiments(directory));
+  EXPECT_FALSE(evaluation::holds_experiments(directory));
   std::vector<StillRow> lateral, yaw;
   for (int i = -4; i <= 4; ++i) lateral.push_back(row_at(0.2 * i, 2.0, 0.0, 0.01));
   for (int i = -3; i <= 3; ++i) yaw.push_back(row_at(0.0, 2.0, 0.3 * i, i == 3 ? -0.5 : 0.0));
-  experiment::write_stills(lateral, folder.file("lateral.csv"));
-  experiment::write_stills(yaw, folder.file("yaw.csv"));
-  ASSERT_TRUE(report::holds_experiments(directory));
-  const std::string summary = report::report_experiments(directory);
+  evaluation::write_stills(lateral, folder.file("lateral.csv"));
+  evaluation::write_stills(yaw, folder.file("yaw.csv"));
+  ASSERT_TRUE(evaluation::holds_experiments(directory));
+  const std::string summary = evaluation::report_experiments(directory);
   EXPECT_THAT(summary, HasSubstr("R2 1.00000 | yes"));
   EXPECT_THAT(summary, HasSubstr("wrong above 0.1: 6.2 % of 16"));
   for (const char* name : {"fig2_t_x.png", "fig4_yaw.png", "fig5_yaw_over_x.png"})
@@ -159,7 +159,7 @@ TEST(FitRows, TellConditionsAndErrorsOfWhatWasSeen) {
   StillRow seen = row_at(0.4, 2.0, 0.0, 0.02), tracked = seen;
   tracked.picture = 1;
   CameraModel camera{.width_px = 640, .height_px = 480, .fx = 554, .fy = 554, .cx = 320, .cy = 240};
-  const auto rows = report::still_fit_rows(written_and_read({lost, after_lost, seen, tracked}), camera);
+  const auto rows = evaluation::still_fit_rows(written_and_read({lost, after_lost, seen, tracked}), camera);
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_FALSE(rows[0].found);
   EXPECT_TRUE(rows[1].conditions.first_look) << "the picture before did not show it";
@@ -175,9 +175,9 @@ TEST(FitRows, TellConditionsAndErrorsOfWhatWasSeen) {
 }
 
 TEST(RunTable, CountsLossesAndHowLongTheyLasted) {
-  sim::MetricsCollector run;
+  evaluation::MetricsCollector run;
   for (int i = 0; i <= 100; ++i) {
-    sim::MotionSample sample;
+    evaluation::MotionSample sample;
     sample.t_s = 0.1 * i;
     sample.has_person = true;
     sample.person = {0.05 * i, 0.0, 0.0};
@@ -185,7 +185,7 @@ TEST(RunTable, CountsLossesAndHowLongTheyLasted) {
     sample.person_speed_m_s = 0.5;
     sample.back_in_view = i < 40 || i > 44;
     run.add(sample);
-    sim::PoseSample pose;
+    evaluation::PoseSample pose;
     pose.t_s = 0.1 * i;
     pose.found = (i < 40 || i > 46) && i != 70;
     pose.has_truth = pose.found;
@@ -193,7 +193,7 @@ TEST(RunTable, CountsLossesAndHowLongTheyLasted) {
     pose.yaw_rad = i == 80 ? 0.5 : 0.0;
     run.add(pose);
   }
-  const report::RunLine line = report::run_line("made up", run);
+  const evaluation::RunLine line = evaluation::run_line("made up", run);
   EXPECT_EQ(line.frames, 101U);
   EXPECT_EQ(line.found, 93U);
   EXPECT_EQ(line.visible, 96U);
@@ -201,18 +201,19 @@ TEST(RunTable, CountsLossesAndHowLongTheyLasted) {
   ASSERT_EQ(line.gaps_s.size(), 2U);
   EXPECT_NEAR(line.gaps_s[0], 0.8, 1e-9);
   EXPECT_NEAR(line.gaps_s[1], 0.2, 1e-9);
-  EXPECT_THAT(report::run_table({line}), HasSubstr("| 2 | 0.50 s, 0.80 s |"));
-  EXPECT_EQ(report::worlds_table({line}, {}), "");
-  EXPECT_THAT(report::worlds_table({line}, {line}), HasSubstr("| made up | 0.000, 0.000 m | 2.00, 2.00 m |"));
+  EXPECT_THAT(evaluation::run_table({line}), HasSubstr("| 2 | 0.50 s, 0.80 s |"));
+  EXPECT_EQ(evaluation::worlds_table({line}, {}), "");
+  EXPECT_THAT(evaluation::worlds_table({line}, {line}),
+              HasSubstr("| made up | 0.000, 0.000 m | 2.00, 2.00 m |"));
 }
 
 TEST(ExperimentReport, AMissingPictureOfAHardCaseIsNamed) {
   const TemporaryFolder folder;
   StillRow row = row_at(0, 2, 0, 0);
   row.picture = 1;
-  experiment::write_stills({row}, folder.file("hard.csv"));
+  evaluation::write_stills({row}, folder.file("hard.csv"));
   try {
-    report::hard_figure(folder.path().string());
+    evaluation::hard_figure(folder.path().string());
     FAIL();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("hard/000.png: cannot read (expected the picture of"));

@@ -12,7 +12,7 @@
 #include "heel/error.h"
 #include "sim/lockstep/lockstep.h"
 
-namespace heel::experiment {
+namespace heel::evaluation {
 namespace {
 
 sim::Scenario small_base() {
@@ -71,7 +71,7 @@ TEST(Board, HidesTheCommandedShareOfTheBack) {
   sim::Truth truth;
   truth.back_in_camera_m = {0.0, 0.0, 2.0};
   truth.back_px = {320.0, 240.0};
-  const double half_px = camera.fx * kBackHalfWidthM / 2.0;
+  const double half_px = camera.fx * kBackHalfWidth_m / 2.0;
   const auto covered = [&](double share) {
     std::vector<std::uint8_t> grey(640 * 480, 0);
     draw_board(truth, camera, share, 5, 1.0, grey);
@@ -102,4 +102,4 @@ TEST(StillCases, CoverWhatTheirNamesSay) {
 }
 
 }  // namespace
-}  // namespace heel::experiment
+}  // namespace heel::evaluation

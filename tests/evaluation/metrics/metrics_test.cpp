@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace heel::sim {
+namespace heel::evaluation {
 namespace {
 
 MotionSample motion(double t_s, double robot_x, double robot_y, double person_x, double speed) {
@@ -118,4 +118,4 @@ TEST(Metrics, Quantiles) {
 }
 
 }  // namespace
-}  // namespace heel::sim
+}  // namespace heel::evaluation

@@ -7,9 +7,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "evaluation/reports/made_up_run.h"
 #include "evaluation/reports/plot.h"
 #include "evaluation/reports/run_files.h"
+#include "evaluation/reports/synthetic_run.h"
 #include "files/template_file.h"
 #include "heel/shirt_template.h"
 
@@ -38,7 +38,7 @@ class Figures : public ::testing::Test {
  protected:
   Figures() {
     test::write_run(folder_);
-    run_ = report::read_run(folder_.path().string());
+    run_ = evaluation::read_run(folder_.path().string());
   }
 
   /// `frames` kept frames, the first of the run and then every fifth, and a template whose region is known.
@@ -56,11 +56,11 @@ class Figures : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  sim::MetricsCollector run_;
+  evaluation::MetricsCollector run_;
 };
 
 TEST_F(Figures, PathShowsBothPathsAndWhereTheTargetWasNotFound) {
-  const cv::Mat figure = report::path_figure(run_, run_.evaluate());
+  const cv::Mat figure = evaluation::path_figure(run_, run_.evaluate());
   EXPECT_EQ(figure.size(), cv::Size(1100, 740));
   EXPECT_GT(count(figure, kPersonLine), 400);
   EXPECT_GT(count(figure, kRobotLine), 400);
@@ -68,17 +68,17 @@ TEST_F(Figures, PathShowsBothPathsAndWhereTheTargetWasNotFound) {
 }
 
 TEST_F(Figures, ThereIsNoLegendForLostTargetsWhenNoneWasLost) {
-  sim::MetricsCollector found;
-  for (const sim::MotionSample& sample : run_.motion()) found.add(sample);
-  for (sim::PoseSample pose : run_.poses()) {
+  evaluation::MetricsCollector found;
+  for (const evaluation::MotionSample& sample : run_.motion()) found.add(sample);
+  for (evaluation::PoseSample pose : run_.poses()) {
     pose.found = true;
     found.add(pose);
   }
-  EXPECT_EQ(count(report::path_figure(found, found.evaluate()), kLostDot), 0);
+  EXPECT_EQ(count(evaluation::path_figure(found, found.evaluate()), kLostDot), 0);
 }
 
 TEST_F(Figures, ErrorsShowFivePanels) {
-  const cv::Mat figure = report::errors_figure(run_);
+  const cv::Mat figure = evaluation::errors_figure(run_);
   EXPECT_EQ(figure.size(), cv::Size(1100, 5 * 270));
   for (int i = 0; i < 5; ++i)
     EXPECT_GT(count(figure.rowRange(270 * i, 270 * (i + 1)), kRobotLine), 100) << "panel " << i;
@@ -86,9 +86,9 @@ TEST_F(Figures, ErrorsShowFivePanels) {
 }
 
 TEST_F(Figures, FramesFillWholeRowsAndShowTheRegion) {
-  EXPECT_TRUE(report::frames_figure(folder_.path().string()).empty()) << "none was kept";
+  EXPECT_TRUE(evaluation::frames_figure(folder_.path().string()).empty()) << "none was kept";
   keep_frames(17);
-  const cv::Mat sheet = report::frames_figure(folder_.path().string());
+  const cv::Mat sheet = evaluation::frames_figure(folder_.path().string());
   // Three rows of four, 400 × 300 each with a border of 2.
   ASSERT_EQ(sheet.size(), cv::Size(4 * 404, 3 * 304));
   const auto tile = [&](int i) { return sheet(cv::Rect(404 * (i % 4), 304 * (i / 4), 404, 304)); };
@@ -107,15 +107,15 @@ TEST_F(Figures, FramesFillWholeRowsAndShowTheRegion) {
 TEST_F(Figures, FewFramesStandInOneRowAndBrokenOnesAreLeftOut) {
   keep_frames(3);
   test::write_text(folder_.file("frames/000015.png"), "half a pict");
-  EXPECT_EQ(report::frames_figure(folder_.path().string()).size(), cv::Size(3 * 404, 304));
+  EXPECT_EQ(evaluation::frames_figure(folder_.path().string()).size(), cv::Size(3 * 404, 304));
 }
 
 TEST(Plot, EqualScaleHoldsWhateverTheShape) {
   for (const auto& [width_m, height_m] : {std::pair(6.0, 0.5), std::pair(1.0, 1.0), std::pair(1.0, 4.0)}) {
     SCOPED_TRACE(test::printed("%g x %g m", width_m, height_m));
-    const report::Series box{
+    const evaluation::Series box{
         "", kRed, {{0, 0}, {width_m, 0}, {width_m, height_m}, {0, height_m}, {0, 0}}, 1.0, false};
-    const cv::Mat figure = report::plot({"", "x", "y", true, false, {}}, {box}, 900, 500);
+    const cv::Mat figure = evaluation::plot({"", "x", "y", true, false, {}}, {box}, 900, 500);
     const cv::Rect drawn = cv::boundingRect(where(figure, kRed));
     const double px_per_m = std::max((drawn.width - 1) / width_m, (drawn.height - 1) / height_m);
     EXPECT_NEAR(drawn.width - 1, px_per_m * width_m, 2.5);
@@ -125,10 +125,10 @@ TEST(Plot, EqualScaleHoldsWhateverTheShape) {
 
 TEST(Plot, TheLegendStandsOutsideTheAxes) {
   // A curve along all four edges of the axes: no legend in any corner may cover it.
-  report::Series edge{"", kRed, {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}, 2.0, false};
-  const cv::Mat without = where(report::plot({"", "x", "y", false, false, {}}, {edge}, 900, 500), kRed);
+  evaluation::Series edge{"", kRed, {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}, 2.0, false};
+  const cv::Mat without = where(evaluation::plot({"", "x", "y", false, false, {}}, {edge}, 900, 500), kRed);
   edge.name = "a curve with a long name that takes its place";
-  cv::Mat with = where(report::plot({"", "x", "y", false, false, {}}, {edge}, 900, 500), kRed);
+  cv::Mat with = where(evaluation::plot({"", "x", "y", false, false, {}}, {edge}, 900, 500), kRed);
   cv::Mat covered = without & ~with;
   EXPECT_EQ(cv::countNonZero(covered), 0);
   EXPECT_GT(cv::countNonZero(with), cv::countNonZero(without)) << "the legend's sample of the line";

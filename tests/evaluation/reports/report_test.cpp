@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "evaluation/reports/made_up_run.h"
 #include "evaluation/reports/run_files.h"
+#include "evaluation/reports/synthetic_run.h"
 #include "tools/heel/run_heel.h"
 
 namespace heel {
@@ -31,7 +31,7 @@ Outcome report(const TemporaryFolder& folder, const std::vector<std::string>& op
 TEST(Report, MeasuresWhatWasWorkedOutByHand) {
   const TemporaryFolder folder;
   test::write_run(folder);
-  const sim::FollowMetrics m = report::read_run(folder.path().string()).evaluate();
+  const evaluation::FollowMetrics m = evaluation::read_run(folder.path().string()).evaluate();
   EXPECT_NEAR(m.t_walk_end_s - m.t_walk_begin_s, 8.0, 1e-9);
   EXPECT_NEAR(m.person_path_m, 4.0, 1e-6);
   // 79 steps of 0.05 m along x, and one that also goes 0.4 m sideways.
@@ -50,7 +50,7 @@ TEST(Report, MeasuresWhatWasWorkedOutByHand) {
   EXPECT_NEAR(m.yaw_error_rad.rms, std::sqrt((37 * 0.01 + 38 * 0.0036) / 75), 1e-6);
   EXPECT_NEAR(m.yaw_nees, (37 * 1.0 + 38 * 0.36) / 75, 1e-6);
   EXPECT_NEAR(m.x_error_m.rms, 0.0, 1e-9);
-  EXPECT_NEAR(m.z_error_m.mean, test::kZErrorM, 1e-9);
+  EXPECT_NEAR(m.z_error_m.mean, test::kZError_m, 1e-9);
 }
 
 TEST(Report, CountsStopsByReasonAndNotTheEndOfTheRun) {

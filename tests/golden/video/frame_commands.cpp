@@ -12,7 +12,7 @@
 #include "arcos/command_codec.h"
 #include "arcos/parser.h"
 
-namespace heel::golden {
+namespace heel::test {
 namespace {
 
 std::vector<std::uint8_t> bytes_of(const std::string& hex) {
@@ -136,4 +136,4 @@ FrameCommands read_golden(const std::string& path) {
   return commands;
 }
 
-}  // namespace heel::golden
+}  // namespace heel::test

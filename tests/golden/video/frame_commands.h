@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace heel::golden {
+namespace heel::test {
 
 struct Velocity {
   double vel_mm_s = 0.0;
@@ -57,4 +57,4 @@ std::string golden_text(const std::string& header, const FrameCommands& commands
 /// Every frame from the first row's to the last's. Lines that begin with # are skipped.
 FrameCommands read_golden(const std::string& path);
 
-}  // namespace heel::golden
+}  // namespace heel::test

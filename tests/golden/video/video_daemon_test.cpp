@@ -15,7 +15,7 @@
 #include "support/process.h"
 #include "support/sanitized.h"
 
-namespace heel::golden {
+namespace heel::test {
 namespace {
 
 using test::Process;
@@ -84,7 +84,7 @@ void drive(const VideoScene& scene, double gain_yaw_1_s) {
                 scene.file("robot.log"));
   ASSERT_TRUE(robot.says("ready at", 10.0)) << robot.output();
   Process daemon({HEELD_PROGRAM, "--config", config}, scene.file("heeld.log"));
-  const double video_s = (kLast - kFirst + 1) / kVideoRateHz;
+  const double video_s = (kLast - kFirst + 1) / kVideoRate_Hz;
   ASSERT_EQ(daemon.wait(video_s + 60.0), 0) << daemon.output() << robot.output();
   ASSERT_TRUE(robot.says("closed", 2.0)) << daemon.output() << robot.output();
   robot.signal(SIGTERM);
@@ -115,4 +115,4 @@ TEST_F(VideoDrivesHeeld, AndTheRobotReceivesTheGoldenCommands) {
 }
 
 }  // namespace
-}  // namespace heel::golden
+}  // namespace heel::test

@@ -17,7 +17,7 @@
 #include "golden/video/video_scene.h"
 #include "tools/heel/run_heel.h"
 
-namespace heel::golden {
+namespace heel::test {
 namespace {
 
 // Before and after these the person is not seen from behind, and the wheels have had time to stop.
@@ -124,4 +124,4 @@ TEST_F(VideoOnTheWire, AGainTenPercentOffIsNoticed) {
 }
 
 }  // namespace
-}  // namespace heel::golden
+}  // namespace heel::test

@@ -14,7 +14,7 @@
 #include "heel/camera_model.h"
 #include "tools/heel/run_heel.h"
 
-namespace heel::golden {
+namespace heel::test {
 
 std::string video_path() {
   const char* data = std::getenv("HEEL_TEST_DATA");
@@ -91,4 +91,4 @@ std::string VideoScene::cut_frames(int first, int last) const {
   return pictures;
 }
 
-}  // namespace heel::golden
+}  // namespace heel::test

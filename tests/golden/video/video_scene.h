@@ -7,10 +7,10 @@
 
 #include "support/temporary_folder.h"
 
-namespace heel::golden {
+namespace heel::test {
 
 inline constexpr const char* kGoldenFile = HEEL_SOURCE_DIR "/tests/golden/video/knit_back_commands.golden";
-inline constexpr double kVideoRateHz = 10.0;
+inline constexpr double kVideoRate_Hz = 10.0;
 inline constexpr int kVideoFrames = 1394;
 inline constexpr std::uint32_t kVideoCrc32 = 0x689d095d;
 
@@ -41,4 +41,4 @@ class VideoScene {
   test::TemporaryFolder folder_;
 };
 
-}  // namespace heel::golden
+}  // namespace heel::test

@@ -17,7 +17,7 @@ using sim::Fault;
 using sim::FaultKind;
 using Kind = SessionEventKind;
 
-constexpr TimeNs kTickNs = 20 * kNsPerMs;
+constexpr TimeNs kTick_ns = 20 * kNsPerMs;
 
 sim::P3AtSettings exact_robot() {
   sim::P3AtSettings settings;
@@ -45,7 +45,7 @@ class Bench {
   }
 
   void tick() {
-    now_ns += kTickNs;
+    now_ns += kTick_ns;
     robot.advance(now_ns);
     const auto heard = robot.take_output();
     if (!running) return;
@@ -174,11 +174,11 @@ TEST(SessionOnP3At, ANewCommandDoesNotWaitBehindOldOnes) {
       bench.v_m_s = 0.0;
       bench.run(1.0 + 0.02 * i);
       bench.v_m_s = 0.4;
-      const TimeNs t_asked_ns = bench.now_ns + kTickNs;
+      const TimeNs t_asked_ns = bench.now_ns + kTick_ns;
       bench.tick();
       TimeNs t_ns = t_asked_ns;
       for (; bench.robot.truth().v_m_s == 0.0 && t_ns < t_asked_ns + kNsPerS; t_ns += kNsPerMs) {
-        if (t_ns > t_asked_ns && (t_ns - t_asked_ns) % kTickNs == 0) bench.tick();
+        if (t_ns > t_asked_ns && (t_ns - t_asked_ns) % kTick_ns == 0) bench.tick();
         bench.robot.advance(t_ns + kNsPerMs);
       }
       // Its own 9 bytes, RVEL's before it, or at 9600 the tick in which it is RVEL's turn; two steps of the

@@ -102,9 +102,9 @@ TEST(Lockstep, RepeatsToTheBit) {
 TEST(Lockstep, FollowsAWalkingPerson) {
   if (test::kThreadSanitizer) GTEST_SKIP() << "RepeatsToTheBit runs the same threads for a shorter time";
   const LockstepSettings settings = short_walk();
-  RunRecord record("", settings);
+  evaluation::RunRecord record("", settings);
   const LockstepCounts counts = run_lockstep(settings, record);
-  const FollowMetrics metrics = record.metrics().evaluate();
+  const evaluation::FollowMetrics metrics = record.metrics().evaluate();
   EXPECT_EQ(counts.ticks, 401U);  // 50 Hz for 8 s, and the one that shuts down
   EXPECT_NEAR(static_cast<double>(counts.frames), 239.0, 1.0);
   EXPECT_GT(metrics.robot_path_m, 1.0);
@@ -120,7 +120,7 @@ TEST(Lockstep, SlowVisionLosesFramesButNotThePerson) {
   LockstepSettings settings = short_walk();
   settings.scenario.duration_s = 5.0;
   settings.scenario.vision_latency_ms = 80.0;  // every third frame can be looked at
-  RunRecord record("", settings);
+  evaluation::RunRecord record("", settings);
   const LockstepCounts counts = run_lockstep(settings, record);
   EXPECT_GT(counts.frames_overtaken, counts.frames / 3);
   EXPECT_GT(record.metrics().evaluate().robot_path_m, 0.3);

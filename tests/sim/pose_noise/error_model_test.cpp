@@ -9,18 +9,18 @@
 
 #include "core/random.h"
 #include "heel/error.h"
-#include "sim/pose_noise/drawn_poses.h"
 #include "sim/pose_noise/error_fit.h"
+#include "sim/pose_noise/sampled_poses.h"
 #include "support/temporary_folder.h"
 
-namespace heel::errors {
+namespace heel::sim {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kTrueSlope = -0.3, kTrueRangeShare = -0.02, kTrueSigmaRad = 0.04;
+constexpr double kTrueSlope = -0.3, kTrueRangeShare = -0.02, kTrueSigma_rad = 0.04;
 
-double found_probability(const Conditions& c) {
+double found_probability(const ViewConditions& c) {
   return 1.0 / (1.0 + std::exp(-(9.0 - 2.0 * c.distance_m)));
 }
 
@@ -39,7 +39,7 @@ std::vector<FitRow> made_up_rows(int count, std::uint64_t seed) {
                            0.01 * row.conditions.distance_m * random.normal();
     row.range_error_share = kTrueRangeShare + 0.005 * random.normal();
     row.bearing_error_rad = 0.001 * random.normal();
-    row.yaw_sigma_rad = kTrueSigmaRad;
+    row.yaw_sigma_rad = kTrueSigma_rad;
     row.vision_ms = row.found ? 10.0 : 25.0;
     rows.push_back(row);
   }
@@ -60,7 +60,7 @@ std::vector<FitRow> made_up_walk() {
     row.certainty = 0.4;
     row.aspect_error_rad = 0.02 * error;
     row.range_error_share = kTrueRangeShare + 0.005 * random.normal();
-    row.yaw_sigma_rad = kTrueSigmaRad;
+    row.yaw_sigma_rad = kTrueSigma_rad;
     rows.push_back(row);
   }
   return rows;
@@ -74,7 +74,7 @@ const ErrorModel& fitted() {
 TEST(ErrorFit, FindsBiasSpreadAndOddsAgain) {
   for (const double distance_m : {1.5, 3.0, 4.5})
     for (const double aspect_rad : {-1.0, -0.3, 0.0, 0.6}) {
-      Conditions c;
+      ViewConditions c;
       c.distance_m = distance_m;
       c.aspect_rad = aspect_rad;
       SCOPED_TRACE(std::to_string(distance_m) + " m, " + std::to_string(aspect_rad) + " rad");
@@ -83,7 +83,7 @@ TEST(ErrorFit, FindsBiasSpreadAndOddsAgain) {
       EXPECT_NEAR(fitted().found_probability(c), found_probability(c), 0.05);
       EXPECT_NEAR(std::exp(fitted().certainty.mean_log(c)), std::exp(-0.5 * distance_m), 0.01);
     }
-  Conditions near, far;
+  ViewConditions near, far;
   near.distance_m = 1.5;
   far.distance_m = 4.5;
   EXPECT_NEAR(fitted().aspect_rad.spread(far) / fitted().aspect_rad.spread(near), 3.0, 0.6);
@@ -126,7 +126,7 @@ TEST(ErrorModelFile, ComesBackAsItWasWritten) {
   const test::TemporaryFolder folder;
   write_error_model(fitted(), "a test", folder.file("model.toml"));
   const ErrorModel back = read_error_model(folder.file("model.toml"));
-  Conditions c;
+  ViewConditions c;
   c.aspect_rad = 0.4;
   c.hidden = 0.2;
   EXPECT_NEAR(back.aspect_rad.bias(c), fitted().aspect_rad.bias(c), 1e-6);
@@ -167,7 +167,7 @@ class DrawnFromMadeUp : public ::testing::Test {
   void look(int frames, const std::function<void(const PoseEstimate&, const sim::Truth&)>& see) {
     const sim::RobotMotion robot{-2.5, 0.4, 0.1, 0.0, 0.0};
     const sim::Truth truth = world_->truth(robot, 0.0);
-    DrawnPoses poses(fitted(), scenario_, 1.5, 9);
+    SampledPoses poses(fitted(), scenario_, 1.5, 9);
     for (int i = 1; i <= frames; ++i) {
       FrameHeader header;
       header.sequence = static_cast<std::uint64_t>(i);
@@ -183,7 +183,7 @@ class DrawnFromMadeUp : public ::testing::Test {
 TEST_F(DrawnFromMadeUp, MeanAndSpreadAreTheModels) {
   double sum = 0.0, squares = 0.0, range = 0.0;
   int found = 0, all = 20000;
-  Conditions c;
+  ViewConditions c;
   look(all, [&](const PoseEstimate& pose, const sim::Truth& truth) {
     c = conditions_of(truth.back_in_camera_m.x(), truth.back_in_camera_m.z(), truth.yaw_rad, 554, 322.5, 640,
                       0.0);
@@ -216,7 +216,7 @@ TEST_F(DrawnFromMadeUp, TheEstimateIsOfOnePiece) {
 
 TEST_F(DrawnFromMadeUp, AnAvertedBackIsNeverFound) {
   const sim::RobotMotion ahead{2.5, 0.0, M_PI, 0.0, 0.0};
-  DrawnPoses poses(fitted(), scenario_, 1.5, 9);
+  SampledPoses poses(fitted(), scenario_, 1.5, 9);
   for (int i = 1; i < 200; ++i) {
     FrameHeader header;
     header.t_capture_ns = i * kNsPerS / 30;
@@ -225,4 +225,4 @@ TEST_F(DrawnFromMadeUp, AnAvertedBackIsNeverFound) {
 }
 
 }  // namespace
-}  // namespace heel::errors
+}  // namespace heel::sim

@@ -69,8 +69,8 @@ struct Shared {
   double duration_s;
 };
 
-FollowMetrics run(const LockstepSettings& settings) {
-  RunRecord record("", settings);
+evaluation::FollowMetrics run(const LockstepSettings& settings) {
+  evaluation::RunRecord record("", settings);
   run_lockstep(settings, record);
   return record.metrics().evaluate();
 }
@@ -81,11 +81,11 @@ struct Averages {
 };
 
 Averages without_pictures(LockstepSettings settings, int seeds) {
-  settings.errors = errors::read_error_model(kModel);
+  settings.errors = sim::read_error_model(kModel);
   Averages mean;
   for (int i = 0; i < seeds; ++i) {
     settings.scenario.seed = static_cast<std::uint64_t>(100 + i);
-    const FollowMetrics m = run(settings);
+    const evaluation::FollowMetrics m = run(settings);
     mean.rms_m += m.lateral_m.rms / seeds;
     mean.separation_m += m.separation_m.mean / seeds;
     mean.path_m += m.robot_path_m / seeds;
@@ -102,7 +102,7 @@ TEST_P(BothWorlds, GiveTheSameFollowingFigures) {
   LockstepSettings settings = settings_for(GetParam().text, GetParam().duration_s);
   const Averages fast = without_pictures(settings, 20);
   settings.shirt = teach_from_world(settings.scenario, 1.5);
-  const FollowMetrics pictured = run(settings);
+  const evaluation::FollowMetrics pictured = run(settings);
   const double found = static_cast<double>(pictured.frames_found) / static_cast<double>(pictured.frames);
   std::cout << GetParam().name << ": pictured " << pictured.lateral_m.rms << " m RMS, "
             << pictured.separation_m.mean << " m behind, " << pictured.robot_path_m << " m driven, found "
@@ -138,7 +138,7 @@ TEST(TruthWithoutPictures, IsThePicturedWorldsToTheBit) {
 
 TEST(PosesWithoutPictures, RepeatToTheBitAndDifferBySeed) {
   LockstepSettings settings = settings_for(kBends, 6.0);
-  settings.errors = errors::read_error_model(kModel);
+  settings.errors = sim::read_error_model(kModel);
   const double first = run(settings).yaw_error_rad.mean;
   EXPECT_EQ(run(settings).yaw_error_rad.mean, first);
   settings.scenario.seed = 7;
@@ -147,9 +147,9 @@ TEST(PosesWithoutPictures, RepeatToTheBitAndDifferBySeed) {
 
 TEST(PosesWithoutPictures, NeedTheSimulatedWorld) {
   LockstepSettings settings = settings_for(kBends, 1.0);
-  settings.errors = errors::read_error_model(kModel);
+  settings.errors = sim::read_error_model(kModel);
   settings.scenario.camera.source = "file:walk.mp4";
-  RunRecord record("", settings);
+  evaluation::RunRecord record("", settings);
   EXPECT_THROW(run_lockstep(settings, record), Error);
 }
 

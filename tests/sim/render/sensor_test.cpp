@@ -25,7 +25,7 @@ TEST(Sensor, NoiseHasTheStatedStrength) {
   settings.vignetting = 0;
   settings.read_noise_grey = 1.5;
   settings.shot_noise_grey = 3.0;
-  Workers workers(2);
+  ThreadPool workers(2);
   Sensor sensor(RayTable(default_camera_model()), settings, 5, workers);
   std::vector<std::uint8_t> grey;
   for (const double level : {32.0, 128.0, 200.0}) {
@@ -48,7 +48,7 @@ TEST(Sensor, BlurSpreadsAPointAlongTheMotionAndKeepsItsLight) {
   settings.vignetting = 0;
   settings.read_noise_grey = 0;
   settings.shot_noise_grey = 0;
-  Workers workers(2);
+  ThreadPool workers(2);
   Sensor sensor(RayTable(default_camera_model()), settings, 5, workers);
   std::vector<float> radiance(640 * 480, 0.f);
   radiance[240 * 640 + 320] = 1000.f;
@@ -74,7 +74,7 @@ TEST(Sensor, CornersAreDarkerByTheVignetting) {
   settings.vignetting = 0.4;
   settings.read_noise_grey = 0;
   settings.shot_noise_grey = 0;
-  Workers workers(2);
+  ThreadPool workers(2);
   Sensor sensor(RayTable(default_camera_model()), settings, 5, workers);
   std::vector<std::uint8_t> grey;
   sensor.expose(std::vector<float>(640 * 480, 200.f), uniform_motion(0, 0), Exposure{}, 1, grey);
@@ -86,7 +86,7 @@ TEST(Sensor, CornersAreDarkerByTheVignetting) {
 /// Mean and deviation of an evenly lit picture.
 std::pair<double, double> evenly_lit(const SensorSettings& settings, float radiance,
                                      const Exposure& exposure) {
-  Workers workers(2);
+  ThreadPool workers(2);
   Sensor sensor(RayTable(default_camera_model()), settings, 5, workers);
   std::vector<std::uint8_t> grey;
   sensor.expose(std::vector<float>(640 * 480, radiance), uniform_motion(0, 0), exposure, 1, grey);
@@ -118,7 +118,7 @@ TEST(Sensor, GlareSpreadsFromWhatIsBright) {
   settings.read_noise_grey = 0;
   settings.shot_noise_grey = 0;
   settings.glare = 0.2;
-  Workers workers(2);
+  ThreadPool workers(2);
   Sensor sensor(RayTable(default_camera_model()), settings, 5, workers);
   std::vector<float> radiance(640 * 480, 20.f);
   for (int y = 200; y < 280; ++y)

@@ -80,8 +80,8 @@ TEST(Person, SeatedHipsAreOverTheStool) {
   walk.seat = 1.0;
   const PersonPose pose = person.pose(walk, 0.0);
   const Eigen::Vector3d hips = pose.world_from_part[kTorso].translation();
-  EXPECT_NEAR(hips.x(), -kSeatBehindFeetM, 1e-9);
-  EXPECT_NEAR(heights(person, pose, kTorso).first, kStoolHeightM, 0.04);
+  EXPECT_NEAR(hips.x(), -kSeatBehindFeet_m, 1e-9);
+  EXPECT_NEAR(heights(person, pose, kTorso).first, kStoolHeight_m, 0.04);
   EXPECT_NEAR(heights(person, pose, kLeftShin).first, 0.0, 0.06);
 }
 

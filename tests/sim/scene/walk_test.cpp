@@ -136,7 +136,7 @@ TEST(Walk, StopsBetweenAheadAndBackwards) {
 TEST(Walk, SitsOnAStoolBehindAndGetsUp) {
   const Walk walk(WalkState{}, {straight(2, 0.5), of(WalkStep::Sit, 0, 8), straight(1, 0.5)});
   ASSERT_EQ(walk.stools().size(), 1U);
-  EXPECT_NEAR(walk.stools()[0].x_m, 2.0 - kSeatBehindFeetM, 1e-6);
+  EXPECT_NEAR(walk.stools()[0].x_m, 2.0 - kSeatBehindFeet_m, 1e-6);
   double highest = 0, before = 0;
   for (double t = 0; t < walk.duration_s(); t += 0.01) {
     const double seat = walk.at(t).seat;

@@ -86,7 +86,8 @@ TEST_F(Simulate, SeveralGiveAListAndALimitThatIsNotMetNamesItsScenario) {
 
 // One run a core at a time: each is what it is alone, whichever ends first.
 TEST_F(Simulate, ManyRunsWithoutPicturesAreThoseOfTheirSeeds) {
-  const std::string walk = scenario("walk"), model = HEEL_SOURCE_DIR "/tools/heel-sim/pose_noise/pictured.toml";
+  const std::string walk = scenario("walk"),
+                    model = HEEL_SOURCE_DIR "/tools/heel-sim/pose_noise/pictured.toml";
   const Outcome many =
       simulate({walk, "--json", "--error-model", model, "--seed", "7", "--duration", "9", "--runs", "4"});
   ASSERT_EQ(many.status, 0) << many.err;

@@ -31,10 +31,10 @@ TEST(FeaturesMemory, ExtractAndMatchTakeNone) {
     matcher.match(ref, cur, matches);
     extractor.extract(texture.view(), ref);
     matcher.match(ref, cur, matches);
-    settings.closely = true;
+    settings.upsample = true;
     extractor.set_settings(settings);
     extractor.extract(texture.view(), Region{100, 80, 120, 70}, cur);
-    settings.closely = false;
+    settings.upsample = false;
   }
   EXPECT_EQ(allocations_of_this_thread() - before, 0U);
   EXPECT_EQ(ref.features.size(), 100U);

@@ -20,18 +20,18 @@ using heel::PointPair;
 
 inline const Eigen::Matrix3d K = plain_camera().K();
 inline const Eigen::Matrix3d K_inverse = K.inverse();
-inline const Eigen::Vector2d kCentrePx(320.0, 240.0);  // of the region in which heel::test::inlier_pairs lie
+inline const Eigen::Vector2d kCentre_px(320.0, 240.0);  // of the region in which heel::test::inlier_pairs lie
 
-inline constexpr double kDistanceM = 1.5;
+inline constexpr double kDistance_m = 1.5;
 
-/// A back at kDistanceM with the given curvature κ, which departs from its curve by `shape_sigma_m`.
+/// A back at kDistance_m with the given curvature κ, which departs from its curve by `shape_sigma_m`.
 inline BackSurface back(double curvature_1_m, double shape_sigma_m = 0.0) {
   BackSurface surface;
-  surface.bend = curvature_1_m * kDistanceM;
-  surface.axis_x = (K_inverse * kCentrePx.homogeneous()).x();
-  surface.axis_y = (K_inverse * kCentrePx.homogeneous()).y();
+  surface.bend = curvature_1_m * kDistance_m;
+  surface.axis_x = (K_inverse * kCentre_px.homogeneous()).x();
+  surface.axis_y = (K_inverse * kCentre_px.homogeneous()).y();
   surface.half_size = {100.0 / 600.0, 150.0 / 605.0};
-  surface.shape_sigma = shape_sigma_m / kDistanceM;
+  surface.shape_sigma = shape_sigma_m / kDistance_m;
   return surface;
 }
 
@@ -62,7 +62,7 @@ inline heel::Vector5d drawn_departures(Random& random) {
 
 inline FrontalProblem problem_of(const std::vector<PointPair>& pairs, const View& view,
                                  const BackSurface& surface) {
-  return {pairs, K, K, view.H, kCentrePx, surface};
+  return {pairs, K, K, view.H, kCentre_px, surface};
 }
 
 inline PlaneMotion motion_of(const View& view) {

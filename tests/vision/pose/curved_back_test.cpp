@@ -63,7 +63,7 @@ TEST(CurvedBack, IsSeenAsTurnedAsItIs) {
     Random random(seed);
     const View view = view_at(0.7, 1.3);
     std::vector<PointPair> pairs = pairs_on(back(1.5), random, view, 160, 0.5);
-    std::erase_if(pairs, [](const PointPair& pair) { return pair.ref_px.x() < kCentrePx.x(); });
+    std::erase_if(pairs, [](const PointPair& pair) { return pair.ref_px.x() < kCentre_px.x(); });
     FrontalPoseEstimator estimator(pairs.size());
     const auto error_deg = [&](double assumed_curvature) {
       const FrontalPose pose =

@@ -1,5 +1,5 @@
-// See line_keeper.h.
-#include "robot/line_keeper.h"
+// See link_connector.h.
+#include "robot/link_connector.h"
 
 #include <algorithm>
 #include <chrono>
@@ -7,28 +7,28 @@
 
 namespace heel {
 
-LineKeeper::LineKeeper(RobotAddress address, TimeNs pause_ns)
+LinkConnector::LinkConnector(RobotAddress address, TimeNs pause_ns)
     : address_(std::move(address)), pause_ns_(pause_ns), thread_([this] { run(); }) {}
 
-LineKeeper::~LineKeeper() {
+LinkConnector::~LinkConnector() {
   quit_.store(true);
   owner_.store(Owner::Quit, std::memory_order_release);
   owner_.notify_one();
   thread_.join();
 }
 
-void LineKeeper::hand_over(Owner to, int baud) {
+void LinkConnector::hand_over(Owner to, int baud) {
   baud_ = baud;
   owner_.store(to, std::memory_order_release);
   owner_.notify_one();
 }
 
-std::string LineKeeper::last_error() const {
+std::string LinkConnector::last_error() const {
   const std::lock_guard lock(error_mutex_);
   return error_;
 }
 
-void LineKeeper::run() {
+void LinkConnector::run() {
   while (!quit_.load()) {
     const Owner owner = owner_.load(std::memory_order_acquire);
     if (owner == Owner::Nobody || owner == Owner::Caller) {
@@ -43,7 +43,7 @@ void LineKeeper::run() {
   }
 }
 
-bool LineKeeper::open_until_it_works() {
+bool LinkConnector::open_until_it_works() {
   line_.close();
   while (!quit_.load()) {
     if (tried_before_) pause();
@@ -58,10 +58,10 @@ bool LineKeeper::open_until_it_works() {
   return false;
 }
 
-void LineKeeper::pause() {
-  constexpr TimeNs kStepNs = 20 * kNsPerMs;  // quitting does not wait for the whole pause
-  for (TimeNs waited_ns = 0; waited_ns < pause_ns_ && !quit_.load(); waited_ns += kStepNs) {
-    std::this_thread::sleep_for(std::chrono::nanoseconds(std::min(kStepNs, pause_ns_ - waited_ns)));
+void LinkConnector::pause() {
+  constexpr TimeNs kStep_ns = 20 * kNsPerMs;  // quitting does not wait for the whole pause
+  for (TimeNs waited_ns = 0; waited_ns < pause_ns_ && !quit_.load(); waited_ns += kStep_ns) {
+    std::this_thread::sleep_for(std::chrono::nanoseconds(std::min(kStep_ns, pause_ns_ - waited_ns)));
   }
 }
 

@@ -1,5 +1,5 @@
 // The way from the camera to the floor, against poses built from X_cur = R X_ref + t.
-#include "estimate/sighting.h"
+#include "estimate/target_measurement.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -26,11 +26,11 @@ TEST(RobotFromCamera, PositivePitchLooksUpAndStaysARotation) {
   EXPECT_NEAR(R.determinant(), 1.0, 1e-12);
 }
 
-TEST(Sighting, PersonAheadTurnedToTheImagesRightIsAClockwiseYaw) {
+TEST(TargetMeasurement, PersonAheadTurnedToTheImagesRightIsAClockwiseYaw) {
   const CameraMount mount;
-  const auto pose = truth::measured({3.0, 0.0, -0.5}, {}, mount, {});
+  const auto pose = test::measured({3.0, 0.0, -0.5}, {}, mount, {});
   EXPECT_NEAR(pose.yaw_rad, 0.5, 1e-12);  // the image's convention
-  const auto sighting = sighting_from_pose(pose, mount);
+  const auto sighting = measurement_from_pose(pose, mount);
   ASSERT_TRUE(sighting.has_value());
   EXPECT_NEAR(sighting->yaw_rad, -0.5, 1e-12);  // the robot's
 }
@@ -39,19 +39,19 @@ double between(double low, double high) {
   return low + (high - low) * *rc::gen::inRange(0, 1000001) / 1e6;
 }
 
-RC_GTEST_PROP(Sighting, RecoversThePersonForEveryMountAndTemplate, ()) {
+RC_GTEST_PROP(TargetMeasurement, RecoversThePersonForEveryMountAndTemplate, ()) {
   CameraMount mount;
   mount.x_m = between(-0.5, 0.5);
   mount.y_m = between(-0.3, 0.3);
   mount.z_m = between(0.2, 1.5);
   mount.pitch_rad = between(-0.5, 0.5);
-  const truth::Reference reference{{between(-0.3, 0.3), between(-0.3, 0.3), between(1.0, 4.0)}};
+  const test::Reference reference{{between(-0.3, 0.3), between(-0.3, 0.3), between(1.0, 4.0)}};
   const Pose2 person{between(1.0, 6.0), between(-2.0, 2.0), between(-1.2, 1.2)};
   // The camera sees the back, not the front: the plane of the back is ahead of it.
   const Eigen::Vector2d walking(std::cos(person.heading_rad), std::sin(person.heading_rad));
   const Eigen::Vector2d from_camera_m(person.x_m - mount.x_m, person.y_m - mount.y_m);
   RC_PRE(walking.dot(from_camera_m) > 0.05);
-  const auto sighting = sighting_from_pose(truth::measured(person, {}, mount, reference), mount);
+  const auto sighting = measurement_from_pose(test::measured(person, {}, mount, reference), mount);
   RC_ASSERT(sighting.has_value());
   RC_ASSERT(std::abs(sighting->position_m.x() - person.x_m) < 1e-9);
   RC_ASSERT(std::abs(sighting->position_m.y() - person.y_m) < 1e-9);
@@ -60,32 +60,32 @@ RC_GTEST_PROP(Sighting, RecoversThePersonForEveryMountAndTemplate, ()) {
   RC_ASSERT(std::abs(sighting->in_reference_view_m.y() + reference.centre_m.x()) < 1e-9);
 }
 
-TEST(Sighting, RefusesAPlaneSeenFromTheFront) {
+TEST(TargetMeasurement, RefusesAPlaneSeenFromTheFront) {
   const CameraMount mount = mount_of(CameraConfig{});
   const Pose2 facing_us{3.0, 0.0, 3.0};
-  EXPECT_FALSE(sighting_from_pose(truth::measured(facing_us, {}, mount, {}), mount).has_value());
+  EXPECT_FALSE(measurement_from_pose(test::measured(facing_us, {}, mount, {}), mount).has_value());
 }
 
-TEST(Sighting, RefusesWhatCannotBeUsed) {
+TEST(TargetMeasurement, RefusesWhatCannotBeUsed) {
   const CameraMount mount;
-  const PoseEstimate good = truth::measured({3.0, 0.2, 0.1}, {}, mount, {});
-  ASSERT_TRUE(sighting_from_pose(good, mount).has_value());
+  const PoseEstimate good = test::measured({3.0, 0.2, 0.1}, {}, mount, {});
+  ASSERT_TRUE(measurement_from_pose(good, mount).has_value());
 
   PoseEstimate pose = good;
   pose.reason = PoseReason::TooFewInliers;
-  EXPECT_FALSE(sighting_from_pose(pose, mount).has_value());
+  EXPECT_FALSE(measurement_from_pose(pose, mount).has_value());
   pose = good;
   pose.has_distance = false;
-  EXPECT_FALSE(sighting_from_pose(pose, mount).has_value());
+  EXPECT_FALSE(measurement_from_pose(pose, mount).has_value());
   pose = good;
   pose.position_m[1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(sighting_from_pose(pose, mount).has_value());
+  EXPECT_FALSE(measurement_from_pose(pose, mount).has_value());
   pose = good;
   pose.yaw_sigma_rad = std::numeric_limits<double>::infinity();
-  EXPECT_FALSE(sighting_from_pose(pose, mount).has_value());
+  EXPECT_FALSE(measurement_from_pose(pose, mount).has_value());
   pose = good;
   pose.R_cur_from_ref = {1, 0, 0, 0, 0, 1, 0, -1, 0};  // the back lies flat: no direction on the floor
-  EXPECT_FALSE(sighting_from_pose(pose, mount).has_value());
+  EXPECT_FALSE(measurement_from_pose(pose, mount).has_value());
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The record queue: in order, nothing twice, and what did not fit is counted.
-#include "realtime/record_queue.h"
+#include "realtime/spsc_queue.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 namespace heel {
 namespace {
 
-TEST(RecordQueue, FirstInFirstOutAcrossTheWrap) {
-  RecordQueue<int> queue(4);
+TEST(SpscQueue, FirstInFirstOutAcrossTheWrap) {
+  SpscQueue<int> queue(4);
   int out = 0;
   EXPECT_FALSE(queue.pop(out));
   for (int round = 0; round < 10; ++round) {
@@ -26,8 +26,8 @@ TEST(RecordQueue, FirstInFirstOutAcrossTheWrap) {
   EXPECT_EQ(queue.dropped(), 0u);
 }
 
-TEST(RecordQueue, WhenFullTheNewRecordIsDroppedAndCounted) {
-  RecordQueue<int> queue(4);
+TEST(SpscQueue, WhenFullTheNewRecordIsDroppedAndCounted) {
+  SpscQueue<int> queue(4);
   for (int i = 0; i < 4; ++i) ASSERT_TRUE(queue.push(i));
   EXPECT_FALSE(queue.push(4));
   EXPECT_FALSE(queue.push(5));
@@ -38,10 +38,10 @@ TEST(RecordQueue, WhenFullTheNewRecordIsDroppedAndCounted) {
   EXPECT_TRUE(queue.push(6));
 }
 
-TEST(RecordQueue, CapacityIsRoundedUpToAPowerOfTwo) {
-  EXPECT_EQ(RecordQueue<int>(0).capacity(), 2u);
-  EXPECT_EQ(RecordQueue<int>(5).capacity(), 8u);
-  EXPECT_EQ(RecordQueue<int>(8).capacity(), 8u);
+TEST(SpscQueue, CapacityIsRoundedUpToAPowerOfTwo) {
+  EXPECT_EQ(SpscQueue<int>(0).capacity(), 2u);
+  EXPECT_EQ(SpscQueue<int>(5).capacity(), 8u);
+  EXPECT_EQ(SpscQueue<int>(8).capacity(), 8u);
 }
 
 struct Record {
@@ -49,8 +49,8 @@ struct Record {
   std::array<std::uint64_t, 12> copies{};
 };
 
-TEST(RecordQueue, StressOrderKeptWholeAndCountsAddUpExactly) {
-  RecordQueue<Record> queue(32);
+TEST(SpscQueue, StressOrderKeptWholeAndCountsAddUpExactly) {
+  SpscQueue<Record> queue(32);
   constexpr std::uint64_t kRecords = 200'000;
   std::uint64_t pushed = 0;
   std::atomic<bool> done{false};

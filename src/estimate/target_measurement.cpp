@@ -1,4 +1,4 @@
-#include "estimate/sighting.h"
+#include "estimate/target_measurement.h"
 
 #include <cmath>
 
@@ -18,7 +18,7 @@ Eigen::Matrix3d R_robot_from_camera(double pitch_rad) {
   return R;
 }
 
-std::optional<Sighting> sighting_from_pose(const PoseEstimate& pose, const CameraMount& mount) {
+std::optional<TargetMeasurement> measurement_from_pose(const PoseEstimate& pose, const CameraMount& mount) {
   if (!pose.found() || !pose.has_distance) return std::nullopt;
   const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R_cur_from_ref(
       pose.R_cur_from_ref.data());
@@ -37,7 +37,7 @@ std::optional<Sighting> sighting_from_pose(const PoseEstimate& pose, const Camer
   const Eigen::Vector3d position_robot_m =
       Eigen::Vector3d(mount.x_m, mount.y_m, mount.z_m) + R_robot_from_cur * position_m;
 
-  Sighting sighting;
+  TargetMeasurement sighting;
   sighting.position_m = position_robot_m.head<2>();
   sighting.yaw_rad = std::atan2(walking.y(), walking.x());
   sighting.yaw_sigma_rad = pose.yaw_sigma_rad;

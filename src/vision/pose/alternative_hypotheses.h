@@ -9,14 +9,14 @@
 
 namespace heel {
 
-struct Rival {
+struct AlternativeHypothesis {
   FrontalMotion motion;
   double odds = 0.0;  ///< of being true, against the pose that was chosen
 };
 
-/// Adds to the pose's deviations, and to its ambiguity, what it would be off by if one of the rivals were
-/// true.
-void own_up_to(std::span<const Rival> rivals, FrontalPose& pose);
+/// Adds to the pose's deviations, and to its ambiguity, what it would be off by if one of the
+/// alternative_hypotheses were true.
+void inflate_covariance(std::span<const AlternativeHypothesis> alternative_hypotheses, FrontalPose& pose);
 
 /// How far apart two motions' yaws are, 0…π.
 double yaw_between(const FrontalMotion& a, const FrontalMotion& b);

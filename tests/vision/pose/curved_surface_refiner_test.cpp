@@ -1,5 +1,5 @@
 // The whole back, found again from one facet of it; and what could as well be true.
-#include "vision/pose/surface_follower.h"
+#include "vision/pose/curved_surface_refiner.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <iostream>
 
 #include "support/allocation_count.h"
+#include "vision/pose/alternative_hypotheses.h"
 #include "vision/pose/curved_back.h"
-#include "vision/pose/rivals.h"
 
 namespace {
 
@@ -54,7 +54,7 @@ struct FeaturedBack {
           heel::image_derivative(surface, K_inverse, K * view.R, K * view.t_over_d, ray).determinant();
       add(reference, reference_px, pair.ref_px, 3.0, descriptor);
       add(frame, frame_px, pair.cur_px, 3.0 * std::sqrt(std::max(area, 0.01)), descriptor);
-      if (std::abs(pair.ref_px.x() - kCentrePx.x()) < 33.0) facet.push_back(pair);
+      if (std::abs(pair.ref_px.x() - kCentre_px.x()) < 33.0) facet.push_back(pair);
     }
     for (int i = 0; i < kClutter; ++i)
       add(frame, frame_px, {random.uniform(0.0, 640.0), random.uniform(0.0, 480.0)}, 4.0,
@@ -62,7 +62,7 @@ struct FeaturedBack {
   }
 };
 
-TEST(SurfaceFollower, FindsTheWholeBackFromOneFacetAndEitherMinimum) {
+TEST(CurvedSurfaceRefiner, FindsTheWholeBackFromOneFacetAndEitherMinimum) {
   const BackSurface surface = back(1.5);
   double of_facet_deg = 0.0, of_back_deg = 0.0;
   constexpr int kTrials = 60;
@@ -73,7 +73,7 @@ TEST(SurfaceFollower, FindsTheWholeBackFromOneFacetAndEitherMinimum) {
     FrontalPoseEstimator estimator(shown.reference_px.size());
     heel::GuidedMatcher matcher(FeaturedBack::kFeatures + FeaturedBack::kClutter, {});
     matcher.look_at(shown.frame, shown.frame_px);
-    heel::SurfaceFollower follower({shown.reference, shown.reference_px, K_inverse}, estimator);
+    heel::CurvedSurfaceRefiner follower({shown.reference, shown.reference_px, K_inverse}, estimator);
     const FrontalProblem problem = problem_of(shown.facet, view, surface);
     const FrontalPose start = estimator.estimate(problem, motion_of(view));
     FrontalPose swapped = start;
@@ -93,7 +93,7 @@ TEST(SurfaceFollower, FindsTheWholeBackFromOneFacetAndEitherMinimum) {
 
 // Few features are seen again, and a strip of the back alone: the start is as wrong as noise makes it, both
 // its minima with it. What fits of the rest of the back still tells.
-TEST(SurfaceFollower, TriesTheWholeRangeOfYawWhereLittleFits) {
+TEST(CurvedSurfaceRefiner, TriesTheWholeRangeOfYawWhereLittleFits) {
   const BackSurface surface = back(1.5);
   int wrong_start = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -106,7 +106,7 @@ TEST(SurfaceFollower, TriesTheWholeRangeOfYawWhereLittleFits) {
     FrontalPoseEstimator estimator(shown.reference_px.size());
     heel::GuidedMatcher matcher(FeaturedBack::kFeatures + FeaturedBack::kClutter, {});
     matcher.look_at(shown.frame, shown.frame_px);
-    heel::SurfaceFollower follower({shown.reference, shown.reference_px, K_inverse}, estimator);
+    heel::CurvedSurfaceRefiner follower({shown.reference, shown.reference_px, K_inverse}, estimator);
 
     // Both minima turned away from the truth about the strip in the middle.
     FrontalPose start = estimator.estimate(problem_of(shown.facet, view, surface), motion_of(view));
@@ -129,7 +129,7 @@ TEST(SurfaceFollower, TriesTheWholeRangeOfYawWhereLittleFits) {
   EXPECT_EQ(wrong_start, 40);
 }
 
-TEST(SurfaceFollower, KeepsItsStartWhereNothingFits) {
+TEST(CurvedSurfaceRefiner, KeepsItsStartWhereNothingFits) {
   Random random(8);
   const View view = view_at(0.2, 1.5);
   const FeaturedBack shown(random, view, back(1.5));
@@ -137,20 +137,20 @@ TEST(SurfaceFollower, KeepsItsStartWhereNothingFits) {
   heel::GuidedMatcher matcher(10, {});
   const heel::FeatureSet nothing;
   matcher.look_at(nothing, {});
-  heel::SurfaceFollower follower({shown.reference, shown.reference_px, K_inverse}, estimator);
+  heel::CurvedSurfaceRefiner follower({shown.reference, shown.reference_px, K_inverse}, estimator);
   const FrontalProblem problem = problem_of(shown.facet, view, back(1.5));
   const FrontalPose start = estimator.estimate(problem, motion_of(view));
   EXPECT_EQ(follower.follow(problem, start, matcher, {}).yaw_rad, start.yaw_rad);
 }
 
-TEST(SurfaceFollower, AllocatesNothing) {
+TEST(CurvedSurfaceRefiner, AllocatesNothing) {
   if (!heel::test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   Random random(9);
   const View view = view_at(0.5, 1.3);
   FeaturedBack shown(random, view, back(1.5));
   FrontalPoseEstimator estimator(shown.reference_px.size());
   heel::GuidedMatcher matcher(FeaturedBack::kFeatures + FeaturedBack::kClutter, {});
-  heel::SurfaceFollower follower({shown.reference, shown.reference_px, K_inverse}, estimator);
+  heel::CurvedSurfaceRefiner follower({shown.reference, shown.reference_px, K_inverse}, estimator);
   const FrontalProblem problem = problem_of(shown.facet, view, back(1.5, 0.005));
   for (const bool few : {false, true}) {
     // So few that the whole range of yaw is tried.
@@ -168,10 +168,10 @@ TEST(SurfaceFollower, AllocatesNothing) {
 // No back is as curved as is assumed, and folds have moved it. The deviation knows, of one that is seen whole
 // and where a board hides all but a strip at its edge, and half of that is not found again: it looks much the
 // same turned otherwise.
-TEST(SurfaceFollower, OwnsUpToWhatAStripOfTheBackCannotTell) {
+TEST(CurvedSurfaceRefiner, OwnsUpToWhatAStripOfTheBackCannotTell) {
   constexpr int kTrials = 300;
   BackSurface assumed = back(1.5, 0.002);
-  assumed.bend_sigma = 0.35 * kDistanceM;  // of a curvature drawn evenly from 0.9 to 2.1
+  assumed.bend_sigma = 0.35 * kDistance_m;  // of a curvature drawn evenly from 0.9 to 2.1
   for (const bool whole : {true, false}) {
     int beyond_3 = 0, beyond_3_without = 0, doubted = 0;
     for (std::uint64_t seed = 1; seed <= kTrials; ++seed) {
@@ -180,7 +180,7 @@ TEST(SurfaceFollower, OwnsUpToWhatAStripOfTheBackCannotTell) {
       FeaturedBack shown(random, view, back(random.uniform(0.9, 2.1), 0.002), drawn_departures(random));
       std::vector<PointPair> seen;
       for (std::size_t i = 0; i < shown.reference_px.size(); ++i) {
-        if (whole || (i % 2 == 0 && shown.reference_px[i].x() < kCentrePx.x() - 30.0)) {
+        if (whole || (i % 2 == 0 && shown.reference_px[i].x() < kCentre_px.x() - 30.0)) {
           seen.push_back({shown.reference_px[i], shown.frame_px[i]});
         } else {
           shown.frame.descriptors[i] = FeaturedBack::random_descriptor(random);
@@ -189,7 +189,7 @@ TEST(SurfaceFollower, OwnsUpToWhatAStripOfTheBackCannotTell) {
       FrontalPoseEstimator estimator(shown.reference_px.size());
       heel::GuidedMatcher matcher(FeaturedBack::kFeatures + FeaturedBack::kClutter, {});
       matcher.look_at(shown.frame, shown.frame_px);
-      heel::SurfaceFollower follower({shown.reference, shown.reference_px, K_inverse}, estimator);
+      heel::CurvedSurfaceRefiner follower({shown.reference, shown.reference_px, K_inverse}, estimator);
       const FrontalProblem problem = problem_of(seen, view, assumed);
       FrontalPose start = estimator.estimate(problem, motion_of(view));
       if (seed % 2 == 0) std::swap(start.motion, start.other);
@@ -218,15 +218,15 @@ TEST(Rivals, AddWhatTheAnswerWouldBeOffBy) {
   pose.yaw_sigma_rad = 0.02;
   pose.t_over_d_sigma = {0.01, 0.02, 0.03};
   const FrontalPose alone = pose;
-  own_up_to({}, pose);
+  inflate_covariance({}, pose);
   EXPECT_EQ(pose.yaw_sigma_rad, alone.yaw_sigma_rad);
   EXPECT_EQ(pose.ambiguity, 0.0);
 
-  heel::Rival rival;
+  heel::AlternativeHypothesis rival;
   rival.motion.R_cur_from_ref = heel::test::rotation(-0.1, 0.0, 0.0);
   rival.motion.t_over_d = {0.2, 0.0, 0.2};
   rival.odds = 0.25;  // true one time in five
-  own_up_to({&rival, 1}, pose);
+  inflate_covariance({&rival, 1}, pose);
   EXPECT_NEAR(pose.ambiguity, 0.2, 1e-12);
   EXPECT_NEAR(pose.yaw_sigma_rad, std::sqrt(0.02 * 0.02 + 0.2 * 0.4 * 0.4), 1e-9);
   EXPECT_NEAR(pose.t_over_d_sigma.x(), std::sqrt(0.01 * 0.01 + 0.2 * 0.1 * 0.1), 1e-12);

@@ -1,17 +1,17 @@
-#include "sim/render/workers.h"
+#include "sim/render/thread_pool.h"
 
 #include <algorithm>
 
 namespace heel::sim {
 
-Workers::Workers(int threads) {
+ThreadPool::ThreadPool(int threads) {
   constexpr int kMost = 4;  // beyond, the parts that are not shared decide
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int wanted = threads > 0 ? threads : std::min(cores, kMost);
   for (int i = 1; i < wanted; ++i) helpers_.emplace_back([this] { help(); });
 }
 
-Workers::~Workers() {
+ThreadPool::~ThreadPool() {
   {
     const std::scoped_lock lock(mutex_);
     stop_ = true;
@@ -20,7 +20,7 @@ Workers::~Workers() {
   for (std::thread& helper : helpers_) helper.join();
 }
 
-void Workers::share(int count, int piece, const std::function<void(int begin, int end)>& work) {
+void ThreadPool::parallel_for(int count, int piece, const std::function<void(int begin, int end)>& work) {
   if (helpers_.empty()) {
     work(0, count);
     return;
@@ -42,7 +42,7 @@ void Workers::share(int count, int piece, const std::function<void(int begin, in
   done_.wait(lock, [this] { return busy_ == 0; });
 }
 
-void Workers::help() {
+void ThreadPool::help() {
   std::uint64_t seen = 0;
   while (true) {
     {
@@ -59,7 +59,7 @@ void Workers::help() {
   }
 }
 
-void Workers::take_pieces() {
+void ThreadPool::take_pieces() {
   while (true) {
     const int begin = next_.fetch_add(piece_);
     if (begin >= count_) return;

@@ -10,13 +10,13 @@
 
 namespace heel {
 
-class EnlargedView {
+class UpsampledRegion {
  public:
   static constexpr int kFactor = 2;
 
   /// Takes all memory here, for a picture of at most this width and this many pixels: as large as a frame, so
   /// that it costs no more, but taller, as a torso is.
-  EnlargedView(int max_width_px, std::size_t max_area_px);
+  UpsampledRegion(int max_width_px, std::size_t max_area_px);
 
   bool has_room_for(const Region& part) const;
   /// `part` inside the frame, and not too large. The picture is valid until the next call; its pixel (x, y)

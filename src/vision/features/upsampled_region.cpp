@@ -1,16 +1,16 @@
-#include "vision/features/enlarged_view.h"
+#include "vision/features/upsampled_region.h"
 
 #include <algorithm>
 #include <cstddef>
 
 namespace heel {
 
-EnlargedView::EnlargedView(int max_width_px, std::size_t max_area_px)
+UpsampledRegion::UpsampledRegion(int max_width_px, std::size_t max_area_px)
     : max_width_px_(max_width_px),
       pixels_(max_area_px),
       row_(static_cast<std::size_t>(max_width_px) / kFactor + 2) {}
 
-bool EnlargedView::has_room_for(const Region& part) const {
+bool UpsampledRegion::has_room_for(const Region& part) const {
   const auto width = static_cast<std::size_t>(part.width_px),
              height = static_cast<std::size_t>(part.height_px);
   return kFactor * part.width_px <= max_width_px_ && kFactor * kFactor * width * height <= pixels_.size();
@@ -18,7 +18,7 @@ bool EnlargedView::has_room_for(const Region& part) const {
 
 // Bilinear. Each new pixel's centre lies a quarter of a pixel from the nearest old one, so that the weights
 // are 3/4 and 1/4 in either direction: sixteenths in all, exact in integers. Edges are carried on outwards.
-FrameView EnlargedView::draw(const FrameView& frame, const Region& part) {
+FrameView UpsampledRegion::draw(const FrameView& frame, const Region& part) {
   part_ = part;
   const auto width = static_cast<std::size_t>(part.width_px);
   const auto stride = static_cast<std::size_t>(frame.stride_bytes);

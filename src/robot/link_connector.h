@@ -15,13 +15,13 @@
 
 namespace heel {
 
-class LineKeeper {
+class LinkConnector {
  public:
   /// The thread starts at once and waits; `pause_ns` is kept before every attempt to open but the first.
-  LineKeeper(RobotAddress address, TimeNs pause_ns);
-  ~LineKeeper();
-  LineKeeper(const LineKeeper&) = delete;
-  LineKeeper& operator=(const LineKeeper&) = delete;
+  LinkConnector(RobotAddress address, TimeNs pause_ns);
+  ~LinkConnector();
+  LinkConnector(const LinkConnector&) = delete;
+  LinkConnector& operator=(const LinkConnector&) = delete;
 
   /// The line, when it is the caller's; else nullptr. Wait-free.
   SerialLine* line() { return owner_.load(std::memory_order_acquire) == Owner::Caller ? &line_ : nullptr; }

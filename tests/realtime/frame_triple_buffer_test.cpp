@@ -1,5 +1,5 @@
 // The frame ring: freshest wins, nothing torn, and every frame accounted for.
-#include "realtime/frame_ring.h"
+#include "realtime/frame_triple_buffer.h"
 
 #include <gtest/gtest.h>
 
@@ -42,15 +42,15 @@ bool whole(const FrameView& frame) {
   return true;
 }
 
-TEST(FrameRing, EmptyAtFirst) {
-  FrameRing ring(kWidth, kHeight);
+TEST(FrameTripleBuffer, EmptyAtFirst) {
+  FrameTripleBuffer ring(kWidth, kHeight);
   EXPECT_EQ(ring.take(), nullptr);
   EXPECT_FALSE(ring.wait(0));
   EXPECT_EQ(ring.captured(), 0u);
 }
 
-TEST(FrameRing, ReaderGetsTheNewestAndTheOvertakenAreCounted) {
-  FrameRing ring(kWidth, kHeight);
+TEST(FrameTripleBuffer, ReaderGetsTheNewestAndTheOvertakenAreCounted) {
+  FrameTripleBuffer ring(kWidth, kHeight);
   for (std::uint64_t sequence = 1; sequence <= 5; ++sequence) {
     fill(ring.writable(), sequence);
     ring.publish();
@@ -65,8 +65,8 @@ TEST(FrameRing, ReaderGetsTheNewestAndTheOvertakenAreCounted) {
   EXPECT_EQ(ring.dropped(), 4u);
 }
 
-TEST(FrameRing, TheHeldFrameIsNeverTouchedHoweverManyPass) {
-  FrameRing ring(kWidth, kHeight);
+TEST(FrameTripleBuffer, TheHeldFrameIsNeverTouchedHoweverManyPass) {
+  FrameTripleBuffer ring(kWidth, kHeight);
   fill(ring.writable(), 1);
   ring.publish();
   const FrameView* held = ring.take();
@@ -80,8 +80,8 @@ TEST(FrameRing, TheHeldFrameIsNeverTouchedHoweverManyPass) {
   EXPECT_EQ(ring.take()->header.sequence, 49u);
 }
 
-TEST(FrameRing, PushCopiesRowsOfAnotherStrideAndRefusesTooLargeFrames) {
-  FrameRing ring(kWidth, kHeight);
+TEST(FrameTripleBuffer, PushCopiesRowsOfAnotherStrideAndRefusesTooLargeFrames) {
+  FrameTripleBuffer ring(kWidth, kHeight);
   const std::uint32_t stride = 100;
   std::vector<std::uint8_t> pixels(stride * kHeight);
   FrameHeader header;
@@ -100,8 +100,8 @@ TEST(FrameRing, PushCopiesRowsOfAnotherStrideAndRefusesTooLargeFrames) {
   EXPECT_EQ(ring.take(), nullptr);
 }
 
-TEST(FrameRing, WaitEndsWithAFrameAWakeOrTheTimeout) {
-  FrameRing ring(kWidth, kHeight);
+TEST(FrameTripleBuffer, WaitEndsWithAFrameAWakeOrTheTimeout) {
+  FrameTripleBuffer ring(kWidth, kHeight);
   const TimeNs before_ns = monotonic_now_ns();
   EXPECT_FALSE(ring.wait(20 * kNsPerMs));
   EXPECT_GE(monotonic_now_ns() - before_ns, 19 * kNsPerMs);
@@ -124,8 +124,8 @@ TEST(FrameRing, WaitEndsWithAFrameAWakeOrTheTimeout) {
 }
 
 // Writer and reader at full speed; the reader now and then as slow as vision is.
-TEST(FrameRing, StressNothingTornAndCountsAddUpExactly) {
-  FrameRing ring(kWidth, kHeight);
+TEST(FrameTripleBuffer, StressNothingTornAndCountsAddUpExactly) {
+  FrameTripleBuffer ring(kWidth, kHeight);
   constexpr std::uint64_t kFrames = 40'000;
   std::atomic<bool> done{false};
   std::jthread writer([&] {

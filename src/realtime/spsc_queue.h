@@ -9,21 +9,21 @@
 #include <type_traits>
 #include <vector>
 
-#include "realtime/slot_exchange.h"
+#include "realtime/triple_buffer.h"
 
 namespace heel {
 
 template <typename T>
-class RecordQueue {
+class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>, "records cross threads as bytes");
 
  public:
   /// Takes all its memory here. The capacity is rounded up to a power of two.
-  explicit RecordQueue(std::size_t capacity)
+  explicit SpscQueue(std::size_t capacity)
       : records_(std::bit_ceil(capacity < 2 ? std::size_t{2} : capacity)), mask_(records_.size() - 1) {}
 
-  RecordQueue(const RecordQueue&) = delete;
-  RecordQueue& operator=(const RecordQueue&) = delete;
+  SpscQueue(const SpscQueue&) = delete;
+  SpscQueue& operator=(const SpscQueue&) = delete;
 
   /// Writer. False: the queue was full, the record is dropped and counted.
   bool push(const T& record) {

@@ -11,30 +11,30 @@
 #include "heel/vision_config.h"
 #include "vision/matching/guided_matcher.h"
 #include "vision/pose/back_surface.h"
+#include "vision/pose/curved_surface_refiner.h"
 #include "vision/pose/motion_refine.h"
-#include "vision/pose/surface_follower.h"
 #include "vision/template/reference_view.h"
 
 namespace heel {
 
 /// What both poses start from: the homography's inliers, and a motion of the plane that explains them.
-struct PlaneSighting {
+struct PlaneSolution {
   std::span<const PointPair> inliers;  ///< undistorted pixels
   Eigen::Matrix3d H_cur_from_ref;
   PlaneMotion motion;
 };
 
-class BackPoseEstimator {
+class BackPoseSelector {
  public:
   /// Without a distance of the reference view the back's curvature has no scale: then it is a plane, and its
   /// deviations are those of pixels alone. `reference` is to outlive this. Memory is taken once.
-  BackPoseEstimator(const ReferenceView& reference, const Eigen::Matrix3d& K_cur, const VisionConfig& config);
+  BackPoseSelector(const ReferenceView& reference, const Eigen::Matrix3d& K_cur, const VisionConfig& config);
 
-  BackPoseEstimator(const BackPoseEstimator&) = delete;
-  BackPoseEstimator& operator=(const BackPoseEstimator&) = delete;
+  BackPoseSelector(const BackPoseSelector&) = delete;
+  BackPoseSelector& operator=(const BackPoseSelector&) = delete;
 
   /// `matcher` looks at the frame's features, `frame_px` are their undistorted pixels.
-  FrontalPose estimate(const PlaneSighting& seen, GuidedMatcher& matcher,
+  FrontalPose estimate(const PlaneSolution& seen, GuidedMatcher& matcher,
                        std::span<const Eigen::Vector2d> frame_px);
 
  private:
@@ -42,7 +42,7 @@ class BackPoseEstimator {
   Eigen::Vector2d centre_px_;
   BackSurface flat_, curved_;
   FrontalPoseEstimator frontal_estimator_;
-  SurfaceFollower surface_follower_;
+  CurvedSurfaceRefiner surface_refiner_;
 };
 
 }  // namespace heel

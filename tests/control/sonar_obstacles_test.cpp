@@ -1,5 +1,5 @@
 // The way ahead: which echoes lie on it, how far away, and what is remembered between two of them.
-#include "control/echoes.h"
+#include "control/sonar_obstacles.h"
 
 #include <gtest/gtest.h>
 
@@ -13,42 +13,43 @@ constexpr double kEndless_m = std::numeric_limits<double>::infinity();
 constexpr double kBumper_m = 0.313;
 constexpr TimeNs kHeard_ns = 20 * kNsPerS;
 
-Echoes one(double x_m, double y_m) {
-  Echoes echoes;
+SonarObstacles one(double x_m, double y_m) {
+  SonarObstacles echoes;
   echoes.add({x_m, y_m});
   return echoes;
 }
 
-TEST(Echoes, StraightAheadCountsFromTheBumper) {
-  EXPECT_NEAR(one(1.5, 0.2).free_way_m(0.5, 0.0), 1.5 - kBumper_m, 1e-12);
-  EXPECT_NEAR(one(1.5, -0.2).free_way_m(0.1, 0.0), 1.5 - kBumper_m, 1e-12);
+TEST(SonarObstacles, StraightAheadCountsFromTheBumper) {
+  EXPECT_NEAR(one(1.5, 0.2).free_distance_m(0.5, 0.0), 1.5 - kBumper_m, 1e-12);
+  EXPECT_NEAR(one(1.5, -0.2).free_distance_m(0.1, 0.0), 1.5 - kBumper_m, 1e-12);
 }
 
-TEST(Echoes, TheNearestCounts) {
-  Echoes echoes = one(2.0, 0.0);
+TEST(SonarObstacles, TheNearestCounts) {
+  SonarObstacles echoes = one(2.0, 0.0);
   echoes.add({1.0, 0.1});
   echoes.add({3.0, 0.0});
-  EXPECT_NEAR(echoes.free_way_m(0.5, 0.0), 1.0 - kBumper_m, 1e-12);
+  EXPECT_NEAR(echoes.free_distance_m(0.5, 0.0), 1.0 - kBumper_m, 1e-12);
 }
 
-TEST(Echoes, WhatIsBesideOrBehindOrNobodyDrivesToIsNotInTheWay) {
-  EXPECT_EQ(one(1.5, 0.34).free_way_m(0.5, 0.0), kEndless_m);
-  EXPECT_EQ(one(-1.5, 0.0).free_way_m(0.5, 0.0), kEndless_m);
-  EXPECT_EQ(one(0.2, 0.3).free_way_m(0.5, 0.0), kEndless_m);  // beside the body
-  EXPECT_EQ(one(1.5, 0.0).free_way_m(0.0, 0.5), kEndless_m);
-  EXPECT_EQ(Echoes().free_way_m(0.5, 0.0), kEndless_m);
+TEST(SonarObstacles, WhatIsBesideOrBehindOrNobodyDrivesToIsNotInTheWay) {
+  EXPECT_EQ(one(1.5, 0.34).free_distance_m(0.5, 0.0), kEndless_m);
+  EXPECT_EQ(one(-1.5, 0.0).free_distance_m(0.5, 0.0), kEndless_m);
+  EXPECT_EQ(one(0.2, 0.3).free_distance_m(0.5, 0.0), kEndless_m);  // beside the body
+  EXPECT_EQ(one(1.5, 0.0).free_distance_m(0.0, 0.5), kEndless_m);
+  EXPECT_EQ(SonarObstacles().free_distance_m(0.5, 0.0), kEndless_m);
 }
 
-TEST(Echoes, AtTheBumperNothingIsFree) {
-  EXPECT_EQ(one(kBumper_m, 0.0).free_way_m(0.5, 0.0), 0.0);
-  EXPECT_EQ(one(0.28, 0.2).free_way_m(0.5, 0.0), 0.0);  // nearer than it can be: pressed
+TEST(SonarObstacles, AtTheBumperNothingIsFree) {
+  EXPECT_EQ(one(kBumper_m, 0.0).free_distance_m(0.5, 0.0), 0.0);
+  EXPECT_EQ(one(0.28, 0.2).free_distance_m(0.5, 0.0), 0.0);  // nearer than it can be: pressed
 }
 
-TEST(Echoes, BackwardsIsTheMirrorImageOfForwards) {
+TEST(SonarObstacles, BackwardsIsTheMirrorImageOfForwards) {
   for (const double x_m : {0.5, 1.0, 2.0})
     for (const double y_m : {-0.9, -0.2, 0.1, 0.6})
       for (const double rate_rad_s : {-0.6, 0.0, 0.4})
-        EXPECT_EQ(one(-x_m, y_m).free_way_m(-0.5, -rate_rad_s), one(x_m, y_m).free_way_m(0.5, rate_rad_s));
+        EXPECT_EQ(one(-x_m, y_m).free_distance_m(-0.5, -rate_rad_s),
+                  one(x_m, y_m).free_distance_m(0.5, rate_rad_s));
 }
 
 /// By driving the arc in small steps until a disc as wide as the corridor meets the point.
@@ -68,13 +69,13 @@ double driven_m(double x_m, double y_m, double v_m_s, double rate_rad_s) {
   return kEndless_m;
 }
 
-TEST(Echoes, OnAnArcAsByDrivingIt) {
+TEST(SonarObstacles, OnAnArcAsByDrivingIt) {
   int in_the_way = 0;
   for (const double rate_rad_s : {-0.8, -0.3, 0.2, 0.7})
     for (double x_m = 0.35; x_m < 1.6; x_m += 0.11)
       for (double y_m = -1.2; y_m < 1.2; y_m += 0.13) {
         const double driven = driven_m(x_m, y_m, 0.6, rate_rad_s);
-        const double free_m = one(x_m, y_m).free_way_m(0.6, rate_rad_s);
+        const double free_m = one(x_m, y_m).free_distance_m(0.6, rate_rad_s);
         if (driven == kEndless_m) {
           EXPECT_EQ(free_m, kEndless_m) << x_m << " " << y_m << " " << rate_rad_s;
         } else {
@@ -93,7 +94,7 @@ RobotState robot_at(double x_m, double y_m, double heading_rad, TimeNs t_ns) {
   return robot;
 }
 
-TEST(EchoMemory, PlacesEveryBeamWhereTheManualPutsItsSonar) {
+TEST(SonarObstacleMap, PlacesEveryBeamWhereTheManualPutsItsSonar) {
   struct Row {
     std::size_t sonar;
     double x_m, y_m;  // of an echo at 1 m
@@ -107,51 +108,51 @@ TEST(EchoMemory, PlacesEveryBeamWhereTheManualPutsItsSonar) {
                       {11, -0.241 - std::cos(0.1745329), -0.027 - std::sin(0.1745329)},
                       {15, -0.144, 1.136}};
   for (const Row& row : rows) {
-    EchoMemory memory;
+    SonarObstacleMap memory;
     RobotState robot = robot_at(0, 0, 0, kHeard_ns);
     robot.sonar[row.sonar] = {kHeard_ns, 1.0};
     memory.see(robot);
-    const Echoes echoes = memory.at(kHeard_ns, robot.odometry);
+    const SonarObstacles echoes = memory.at(kHeard_ns, robot.odometry);
     ASSERT_EQ(echoes.points().size(), 1u);
     EXPECT_NEAR(echoes.points()[0].x_m, row.x_m, 1e-6) << row.sonar;
     EXPECT_NEAR(echoes.points()[0].y_m, row.y_m, 1e-6) << row.sonar;
   }
 }
 
-TEST(EchoMemory, AnEchoStaysInItsPlaceWhileTheRobotDrivesAndTurns) {
-  EchoMemory memory;
+TEST(SonarObstacleMap, AnEchoStaysInItsPlaceWhileTheRobotDrivesAndTurns) {
+  SonarObstacleMap memory;
   RobotState robot = robot_at(1.0, 2.0, 0.5, kHeard_ns);
   robot.sonar[0] = {kHeard_ns, 1.0};  // to the left: 1.136 m
   memory.see(robot);
   robot.odometry = {kHeard_ns + 300 * kNsPerMs, 1.0, 2.0, 0.5 + M_PI / 2, 0.0, 0.0};  // turned to it
   memory.see(robot);                                                                  // nothing new
-  const Echoes echoes = memory.at(kHeard_ns + 300 * kNsPerMs, robot.odometry);
+  const SonarObstacles echoes = memory.at(kHeard_ns + 300 * kNsPerMs, robot.odometry);
   ASSERT_EQ(echoes.points().size(), 1u);
   EXPECT_NEAR(echoes.points()[0].x_m, 1.136, 1e-9);
   EXPECT_NEAR(echoes.points()[0].y_m, -0.147, 1e-9);
 }
 
-TEST(EchoMemory, BetweenPacketsTheRobotGoesOn) {
-  EchoMemory memory;
+TEST(SonarObstacleMap, BetweenPacketsTheRobotGoesOn) {
+  SonarObstacleMap memory;
   RobotState robot = robot_at(0, 0, 0, kHeard_ns);
   robot.odometry.v_m_s = 0.5;
   robot.sonar[3] = {kHeard_ns, 1.0};
   memory.see(robot);
-  const double then_m = memory.at(kHeard_ns, robot.odometry).free_way_m(0.5, 0.0);
-  const double later_m = memory.at(kHeard_ns + 100 * kNsPerMs, robot.odometry).free_way_m(0.5, 0.0);
+  const double then_m = memory.at(kHeard_ns, robot.odometry).free_distance_m(0.5, 0.0);
+  const double later_m = memory.at(kHeard_ns + 100 * kNsPerMs, robot.odometry).free_distance_m(0.5, 0.0);
   EXPECT_NEAR(then_m - later_m, 0.05, 1e-9);
 }
 
-TEST(EchoMemory, ANewEchoTakesThePlaceOfTheOldAndAnOldOneIsForgotten) {
-  EchoMemory memory;
+TEST(SonarObstacleMap, ANewEchoTakesThePlaceOfTheOldAndAnOldOneIsForgotten) {
+  SonarObstacleMap memory;
   RobotState robot = robot_at(0, 0, 0, kHeard_ns);
   robot.sonar[3] = {kHeard_ns, 0.5};
   memory.see(robot);
-  EXPECT_LT(memory.at(kHeard_ns, robot.odometry).free_way_m(0.5, 0.0), 0.5);
+  EXPECT_LT(memory.at(kHeard_ns, robot.odometry).free_distance_m(0.5, 0.0), 0.5);
   robot.sonar[3] = {kHeard_ns + 1, 5.0};
   memory.see(robot);
-  EXPECT_GT(memory.at(kHeard_ns, robot.odometry).free_way_m(0.5, 0.0), 4.0);
-  EXPECT_EQ(memory.at(kHeard_ns + EchoMemory::kKept_ns + 2, robot.odometry).points().size(), 0u);
+  EXPECT_GT(memory.at(kHeard_ns, robot.odometry).free_distance_m(0.5, 0.0), 4.0);
+  EXPECT_EQ(memory.at(kHeard_ns + SonarObstacleMap::kKept_ns + 2, robot.odometry).points().size(), 0u);
   memory.clear();
   EXPECT_EQ(memory.at(kHeard_ns, robot.odometry).points().size(), 0u);
 }

@@ -1,4 +1,4 @@
-#include "sim/pose_noise/drawn_poses.h"
+#include "sim/pose_noise/sampled_poses.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -8,7 +8,7 @@
 #include "core/angles.h"
 #include "sim/pose_noise/error_fit.h"
 
-namespace heel::errors {
+namespace heel::sim {
 namespace {
 
 constexpr TimeNs kForgotten_ns = kNsPerS / 2;  ///< as PoseTracker
@@ -34,13 +34,13 @@ Eigen::Matrix3d rotation_of(const Eigen::Isometry3d& world_from_camera, double h
 
 }  // namespace
 
-DrawnPoses::DrawnPoses(const ErrorModel& model, const sim::Scenario& scenario, double distance_m,
-                       std::uint64_t seed)
+SampledPoses::SampledPoses(const ErrorModel& model, const Scenario& scenario, double distance_m,
+                           std::uint64_t seed)
     : model_(model),
       camera_(scenario.camera.model),
       exposure_s_(1e-3 * scenario.camera.sensor.exposure_ms),
       light_(scenario.light.level),
-      other_print_(scenario.person.shirt != sim::ShirtDesign::Bold),
+      other_print_(scenario.person.shirt != ShirtDesign::Bold),
       distance_m_(distance_m),
       mount_z_m_(scenario.camera.mount_z_m),
       random_(seed) {
@@ -55,23 +55,23 @@ DrawnPoses::DrawnPoses(const ErrorModel& model, const sim::Scenario& scenario, d
   begin(bearing_, model.bearing_rad);
 }
 
-double DrawnPoses::next(Memory& memory, double dt_s) {
+double SampledPoses::next(Memory& memory, double dt_s) {
   const double kept = memory.memory_s > 0.0 ? std::exp(-dt_s / memory.memory_s) : 0.0;
   memory.fading = kept * memory.fading + std::sqrt(1.0 - kept * kept) * random_.normal();
   return std::sqrt(memory.share_for_good) * memory.for_good +
          std::sqrt(1.0 - memory.share_for_good) * memory.fading;
 }
 
-double DrawnPoses::drawn(const SpreadModel& model, const Conditions& conditions, Memory& memory,
-                         double dt_s) {
+double SampledPoses::drawn(const SpreadModel& model, const ViewConditions& conditions, Memory& memory,
+                           double dt_s) {
   const double residual = quantile(model.residual, normal_share_below(next(memory, dt_s)));
   return model.bias(conditions) + model.spread(conditions) * residual;
 }
 
-Conditions DrawnPoses::conditions_now(const sim::RobotMotion& robot, const sim::Truth& truth) const {
+ViewConditions SampledPoses::conditions_now(const RobotMotion& robot, const Truth& truth) const {
   const Eigen::Vector3d& back = truth.back_in_camera_m;
-  Conditions now = conditions_of(back.x(), back.z(), truth.yaw_rad, camera_.fx, camera_.cx,
-                                 static_cast<double>(camera_.width_px), 0.0);
+  ViewConditions now = conditions_of(back.x(), back.z(), truth.yaw_rad, camera_.fx, camera_.cx,
+                                     static_cast<double>(camera_.width_px), 0.0);
   // The camera's own turning smears most; walking adds little at two metres.
   const double sideways_m_s = truth.person.speed_m_s * std::sin(now.aspect_rad) +
                               robot.v_m_s * std::sin(std::atan2(back.x(), back.z()));
@@ -82,8 +82,7 @@ Conditions DrawnPoses::conditions_now(const sim::RobotMotion& robot, const sim::
   return now;
 }
 
-PoseEstimate DrawnPoses::estimate(const FrameHeader& header, const sim::RobotMotion& robot,
-                                  const sim::Truth& truth) {
+PoseEstimate SampledPoses::estimate(const FrameHeader& header, const RobotMotion& robot, const Truth& truth) {
   const TimeNs t_ns = header.t_capture_ns;
   const double dt_s = started_ ? seconds_from_ns(t_ns - t_last_ns_) : 1e9;
   if (!started_) back_z_m_ = truth.back_m.z();
@@ -94,7 +93,7 @@ PoseEstimate DrawnPoses::estimate(const FrameHeader& header, const sim::RobotMot
   pose.t_capture_ns = t_ns;
   pose.template_features = kTemplateFeatures;
 
-  Conditions now = conditions_now(robot, truth);
+  ViewConditions now = conditions_now(robot, truth);
   now.first_look = !ever_found_ || t_ns - t_last_found_ns_ > kForgotten_ns;
   // Every value moves on with every frame, so that what is drawn for one does not shift the others.
   const double found = normal_share_below(next(found_, dt_s));
@@ -129,8 +128,8 @@ PoseEstimate DrawnPoses::estimate(const FrameHeader& header, const sim::RobotMot
   return pose;
 }
 
-void DrawnPoses::fill(const sim::Truth& truth, double yaw_rad, double bearing_rad, double range_m,
-                      PoseEstimate& pose) const {
+void SampledPoses::fill(const Truth& truth, double yaw_rad, double bearing_rad, double range_m,
+                        PoseEstimate& pose) const {
   const Eigen::Vector3d& back = truth.back_in_camera_m;
   const double nearer = range_m / std::hypot(back.x(), back.z());
   const Eigen::Vector3d position(range_m * std::sin(bearing_rad), nearer * back.y(),
@@ -155,4 +154,4 @@ void DrawnPoses::fill(const sim::Truth& truth, double yaw_rad, double bearing_ra
   Eigen::Map<Eigen::Vector3d>(pose.position_m.data()) = position;
 }
 
-}  // namespace heel::errors
+}  // namespace heel::sim

@@ -12,18 +12,18 @@
 
 namespace heel::sim {
 
-class Workers {
+class ThreadPool {
  public:
   /// `threads` in all, the caller among them; 0: one a core, four at most.
-  explicit Workers(int threads);
-  ~Workers();
-  Workers(const Workers&) = delete;
-  Workers& operator=(const Workers&) = delete;
+  explicit ThreadPool(int threads);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
 
   int threads() const { return static_cast<int>(helpers_.size()) + 1; }
   /// Calls work(begin, end) for pieces of [0, count) of at most `piece`, and returns when all are done.
   /// `work` must not throw.
-  void share(int count, int piece, const std::function<void(int begin, int end)>& work);
+  void parallel_for(int count, int piece, const std::function<void(int begin, int end)>& work);
 
  private:
   void help();

@@ -1,4 +1,6 @@
 // A part of the frame looked at in a picture twice as large.
+#include "vision/features/upsampled_region.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "heel/features.h"
-#include "vision/features/enlarged_view.h"
 #include "vision/features/extracted.h"
 #include "vision/features/test_image.h"
 
@@ -26,9 +27,9 @@ double level_at(const TestImage& image, const Region& part, double x, double y) 
          v * ((1 - u) * at(left, top + 1) + u * at(left + 1, top + 1));
 }
 
-TEST(EnlargedView, IsTheBilinearPictureOfItsPart) {
+TEST(UpsampledRegion, IsTheBilinearPictureOfItsPart) {
   const TestImage image = noise_image(90, 70, 3);
-  EnlargedView enlarged(90, 90 * 70);
+  UpsampledRegion enlarged(90, 90 * 70);
   for (const Region& part :
        {Region{0, 0, 45, 35}, Region{45, 35, 45, 35}, Region{30, 0, 22, 70}, Region{20, 11, 1, 7}}) {
     const FrameView view = enlarged.draw(image.view(), part);
@@ -44,8 +45,8 @@ TEST(EnlargedView, IsTheBilinearPictureOfItsPart) {
   }
 }
 
-TEST(EnlargedView, HasRoomForAQuarterOfThePictureTallerOrNot) {
-  const EnlargedView enlarged(90, 90 * 70);
+TEST(UpsampledRegion, HasRoomForAQuarterOfThePictureTallerOrNot) {
+  const UpsampledRegion enlarged(90, 90 * 70);
   EXPECT_TRUE(enlarged.has_room_for({5, 5, 45, 35}));
   EXPECT_TRUE(enlarged.has_room_for({0, 0, 22, 70}));
   EXPECT_FALSE(enlarged.has_room_for({0, 0, 46, 10}));
@@ -59,7 +60,7 @@ TEST(FeaturesClosely, FindsABlobTooSmallForTheSmallestFilterWhereItIs) {
   const Region region{40, 30, 45, 40};
   FeatureSettings settings;
   EXPECT_TRUE(extract(image, settings, region).features.empty());
-  settings.closely = true;
+  settings.upsample = true;
   const FeatureSet found = extract(image, settings, region);
   ASSERT_FALSE(found.features.empty());
   const Feature& feature = found.features.front();
@@ -69,7 +70,7 @@ TEST(FeaturesClosely, FindsABlobTooSmallForTheSmallestFilterWhereItIs) {
   EXPECT_LT(feature.sigma_px, 1.6f);
 }
 
-// The same scene from half as near and looked at closely: mostly the same features, half as large, and alike
+// The same scene from half as near and looked at upsample: mostly the same features, half as large, and alike
 // enough in their descriptors to be matched.
 TEST(FeaturesClosely, SeesInHalfThePictureWhatTheWholeOneShows) {
   const BlobField field(240, 200, 400, 5);
@@ -83,7 +84,7 @@ TEST(FeaturesClosely, SeesInHalfThePictureWhatTheWholeOneShows) {
   FeatureSettings settings;
   settings.max_features = 150;
   const FeatureSet near_features = extract(whole, settings, {40, 40, 140, 100});
-  settings.closely = true;
+  settings.upsample = true;
   const FeatureSet far_features = extract(far, settings, {20, 20, 70, 50});
   int again = 0;
   for (std::size_t i = 0; i < near_features.features.size(); ++i) {
@@ -108,17 +109,17 @@ TEST(FeaturesClosely, ARegionTooLargeToEnlargeIsLookedAtAsItIs) {
   const TestImage image = image_of(160, 120, BlobField(160, 120, 150, 8));
   FeatureSettings settings;
   const FeatureSet plain = extract(image, settings, {10, 10, 120, 90});
-  settings.closely = true;
-  const FeatureSet closely = extract(image, settings, {10, 10, 120, 90});
-  ASSERT_EQ(closely.features.size(), plain.features.size());
-  EXPECT_EQ(closely.descriptors, plain.descriptors);
+  settings.upsample = true;
+  const FeatureSet upsample = extract(image, settings, {10, 10, 120, 90});
+  ASSERT_EQ(upsample.features.size(), plain.features.size());
+  EXPECT_EQ(upsample.descriptors, plain.descriptors);
 }
 
 // As the region of a torso is: its picture is twice as tall as the frame.
 TEST(FeaturesClosely, FindsTheSameInATallRegionAsInItsParts) {
   const TestImage image = image_of(240, 200, BlobField(240, 200, 600, 12));
   FeatureSettings settings;
-  settings.closely = true;
+  settings.upsample = true;
   settings.sigma_max_px = 2.f;
   const auto inner = [](const FeatureSet& set, int top, int bottom) {
     std::vector<std::pair<float, float>> at_px;
@@ -146,7 +147,7 @@ TEST(FeaturesClosely, KeepsToTheRegionAndTheScalesAsked) {
   const TestImage image = image_of(240, 200, BlobField(240, 200, 600, 9));
   for (const Region& region : {Region{-20, -20, 70, 60}, Region{190, 160, 80, 80}, Region{50, 40, 50, 30}}) {
     FeatureSettings settings;
-    settings.closely = true;
+    settings.upsample = true;
     settings.sigma_min_px = 1.2f;
     settings.sigma_max_px = 2.f;
     const FeatureSet found = extract(image, settings, region);

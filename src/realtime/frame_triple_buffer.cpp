@@ -1,4 +1,4 @@
-#include "realtime/frame_ring.h"
+#include "realtime/frame_triple_buffer.h"
 
 #include <cstddef>
 #include <cstring>
@@ -21,34 +21,34 @@ void add_one(std::atomic<std::uint64_t>& single_writer_count) {
 
 }  // namespace
 
-FrameRing::FrameRing(std::uint32_t max_width_px, std::uint32_t max_height_px)
+FrameTripleBuffer::FrameTripleBuffer(std::uint32_t max_width_px, std::uint32_t max_height_px)
     : max_width_px_(max_width_px),
       max_height_px_(max_height_px),
       stride_bytes_(round_up_to_cache_line(max_width_px)) {
   const std::size_t slot_bytes = std::size_t{stride_bytes_} * max_height_px_;
   // Writing zeros also brings every page in, so that the first frames cause no page faults.
-  pixels_.assign(slot_bytes * SlotExchange::kSlots + kCacheLineBytes, 0);
+  pixels_.assign(slot_bytes * TripleBuffer::kSlots + kCacheLineBytes, 0);
   const auto address = reinterpret_cast<std::uintptr_t>(pixels_.data());
   const std::size_t to_alignment = (kCacheLineBytes - address % kCacheLineBytes) % kCacheLineBytes;
-  for (std::uint32_t slot = 0; slot < SlotExchange::kSlots; ++slot) {
+  for (std::uint32_t slot = 0; slot < TripleBuffer::kSlots; ++slot) {
     slot_pixels_[slot] = pixels_.data() + to_alignment + slot * slot_bytes;
     slots_[slot].grey = slot_pixels_[slot];
     slots_[slot].stride_bytes = stride_bytes_;
   }
 }
 
-WritableFrame FrameRing::writable() {
+WritableFrame FrameTripleBuffer::writable() {
   const std::uint32_t slot = exchange_.write_slot();
   return {&slots_[slot].header, slot_pixels_[slot], stride_bytes_};
 }
 
-void FrameRing::publish() {
+void FrameTripleBuffer::publish() {
   add_one(captured_);
   if (exchange_.publish()) add_one(dropped_);
   wake();
 }
 
-bool FrameRing::push(const FrameView& frame) {
+bool FrameTripleBuffer::push(const FrameView& frame) {
   if (frame.header.width_px > max_width_px_ || frame.header.height_px > max_height_px_) return false;
   const WritableFrame slot = writable();
   *slot.header = frame.header;
@@ -60,13 +60,13 @@ bool FrameRing::push(const FrameView& frame) {
   return true;
 }
 
-const FrameView* FrameRing::take() {
+const FrameView* FrameTripleBuffer::take() {
   if (!exchange_.take()) return nullptr;
   add_one(consumed_);
   return &slots_[exchange_.read_slot()];
 }
 
-bool FrameRing::wait(TimeNs timeout_ns) const {
+bool FrameTripleBuffer::wait(TimeNs timeout_ns) const {
   // The signal is read before the look: a frame published between look and sleep changes it, and the sleep
   // does not begin.
   const std::uint32_t seen = signal_.load(std::memory_order_acquire);
@@ -75,7 +75,7 @@ bool FrameRing::wait(TimeNs timeout_ns) const {
   return exchange_.has_fresh();
 }
 
-void FrameRing::wake() {
+void FrameTripleBuffer::wake() {
   signal_.fetch_add(1, std::memory_order_release);
   futex_wake_all(signal_, FutexScope::Process);
 }

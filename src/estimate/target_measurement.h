@@ -23,7 +23,7 @@ CameraMount mount_of(const CameraConfig& camera);
 Eigen::Matrix3d R_robot_from_camera(double pitch_rad);
 
 /// The person as one frame saw them, robot frame at capture.
-struct Sighting {
+struct TargetMeasurement {
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< centre of the back
   double yaw_rad = 0.0;        ///< walking direction against the robot's heading, counter-clockwise +
   double yaw_sigma_rad = 0.0;  ///< as vision states it
@@ -33,6 +33,6 @@ struct Sighting {
 
 /// Nothing when the pose was not found, is not metric, is not finite, or shows no walking direction (a back
 /// that lies flat).
-std::optional<Sighting> sighting_from_pose(const PoseEstimate& pose, const CameraMount& mount);
+std::optional<TargetMeasurement> measurement_from_pose(const PoseEstimate& pose, const CameraMount& mount);
 
 }  // namespace heel

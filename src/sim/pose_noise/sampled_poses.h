@@ -8,16 +8,16 @@
 #include "sim/pose_noise/error_model.h"
 #include "sim/scene/world.h"
 
-namespace heel::errors {
+namespace heel::sim {
 
-class DrawnPoses {
+class SampledPoses {
  public:
   /// `distance_m` is the template's. The same seed and the same truths give the same poses.
-  DrawnPoses(const ErrorModel& model, const sim::Scenario& scenario, double distance_m, std::uint64_t seed);
+  SampledPoses(const ErrorModel& model, const Scenario& scenario, double distance_m, std::uint64_t seed);
 
   /// What vision makes of the frame whose exposure is centred on `header.t_capture_ns`. `truth` and `robot`
   /// are of that moment.
-  PoseEstimate estimate(const FrameHeader& header, const sim::RobotMotion& robot, const sim::Truth& truth);
+  PoseEstimate estimate(const FrameHeader& header, const RobotMotion& robot, const Truth& truth);
   /// Time the last estimate took over that for a person straight ahead at 2 m, tracked.
   double time_share() const { return time_share_; }
 
@@ -29,10 +29,9 @@ class DrawnPoses {
   };
 
   double next(Memory& memory, double dt_s);
-  double drawn(const SpreadModel& model, const Conditions& conditions, Memory& memory, double dt_s);
-  Conditions conditions_now(const sim::RobotMotion& robot, const sim::Truth& truth) const;
-  void fill(const sim::Truth& truth, double yaw_rad, double bearing_rad, double range_m,
-            PoseEstimate& pose) const;
+  double drawn(const SpreadModel& model, const ViewConditions& conditions, Memory& memory, double dt_s);
+  ViewConditions conditions_now(const RobotMotion& robot, const Truth& truth) const;
+  void fill(const Truth& truth, double yaw_rad, double bearing_rad, double range_m, PoseEstimate& pose) const;
 
   ErrorModel model_;
   CameraModel camera_;
@@ -50,4 +49,4 @@ class DrawnPoses {
   double back_z_m_ = 0.0;  ///< height of the middle of the back when first seen
 };
 
-}  // namespace heel::errors
+}  // namespace heel::sim

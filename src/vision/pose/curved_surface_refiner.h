@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "vision/matching/guided_matcher.h"
+#include "vision/pose/alternative_hypotheses.h"
 #include "vision/pose/back_surface.h"
 #include "vision/pose/motion_refine.h"
-#include "vision/pose/rivals.h"
 
 namespace heel {
 
@@ -23,10 +23,10 @@ struct ReferenceFeatures {
   Eigen::Matrix3d K_inverse;
 };
 
-class SurfaceFollower {
+class CurvedSurfaceRefiner {
  public:
   /// What `reference` refers to is to outlive this. Memory is taken once.
-  SurfaceFollower(const ReferenceFeatures& reference, FrontalPoseEstimator& estimator);
+  CurvedSurfaceRefiner(const ReferenceFeatures& reference, FrontalPoseEstimator& estimator);
 
   /// `problem`: as the homography's pairs posed it, `start` its solution; its pairs are replaced by those
   /// that fit the surface. `matcher` looks at the frame's features, `frame_px` are their undistorted pixels.
@@ -50,7 +50,7 @@ class SurfaceFollower {
   FrontalMotion turned(const FrontalProblem& problem, const FrontalMotion& motion, double angle_rad) const;
   void attempt(const FrontalProblem& problem, const FrontalMotion& start, GuidedMatcher& matcher,
                std::span<const Eigen::Vector2d> frame_px);
-  void own_up_to_other_fits(FrontalPose& pose);
+  void inflate_covariance_by_other_fits(FrontalPose& pose);
   Fit improve(FrontalProblem problem, const FrontalMotion& start, GuidedMatcher& matcher,
               std::span<const Eigen::Vector2d> frame_px);
 
@@ -61,7 +61,7 @@ class SurfaceFollower {
   std::vector<PointPair> fitting_, best_fitting_;
   Fit best_;
   std::vector<Fit> fits_;  // all that were tried
-  std::vector<Rival> rivals_;
+  std::vector<AlternativeHypothesis> alternatives_;
 };
 
 }  // namespace heel

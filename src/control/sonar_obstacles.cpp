@@ -1,4 +1,4 @@
-#include "control/echoes.h"
+#include "control/sonar_obstacles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ Mount mount_of_sonar(std::size_t number) {
   return {twin.x_m, -twin.y_m, -twin.heading_deg};
 }
 
-EchoPoint in_robot_frame(std::size_t sonar, double range_m) {
+ObstaclePoint in_robot_frame(std::size_t sonar, double range_m) {
   const Mount mount = mount_of_sonar(sonar);
   const double heading_rad = mount.heading_deg * std::numbers::pi / 180.0;
   return {mount.x_m + range_m * std::cos(heading_rad), mount.y_m + range_m * std::sin(heading_rad)};
@@ -46,7 +46,7 @@ struct OnArc {
   double along_m, beside_m;
 };
 
-OnArc on_arc(EchoPoint point, double curvature_1_m) {
+OnArc on_arc(ObstaclePoint point, double curvature_1_m) {
   if (std::abs(curvature_1_m) < kStraight_1_m) return {point.x_m, std::abs(point.y_m)};
   const double radius_m = 1.0 / curvature_1_m;  // the arc's centre is this far to the left
   const double side = std::copysign(1.0, radius_m);
@@ -57,13 +57,13 @@ OnArc on_arc(EchoPoint point, double curvature_1_m) {
 
 }  // namespace
 
-double Echoes::free_way_m(double v_m_s, double yaw_rate_rad_s) const {
+double SonarObstacles::free_distance_m(double v_m_s, double yaw_rate_rad_s) const {
   double free_m = std::numeric_limits<double>::infinity();
   if (v_m_s == 0.0) return free_m;
   const double direction = std::copysign(1.0, v_m_s);
-  for (const EchoPoint& point : points()) {
+  for (const ObstaclePoint& point : points()) {
     // Backwards is forwards in a frame that is mirrored in x, where turns go the other way.
-    const EchoPoint ahead{direction * point.x_m, point.y_m};
+    const ObstaclePoint ahead{direction * point.x_m, point.y_m};
     const bool beside_body = ahead.x_m < kFromMiddleToBumper_m && std::abs(ahead.y_m) > kHalfWidth_m;
     if (ahead.x_m <= 0.0 || beside_body) continue;
     const OnArc place = on_arc(ahead, yaw_rate_rad_s / v_m_s);
@@ -73,22 +73,22 @@ double Echoes::free_way_m(double v_m_s, double yaw_rate_rad_s) const {
   return free_m;
 }
 
-void EchoMemory::see(const RobotState& robot) {
+void SonarObstacleMap::see(const RobotState& robot) {
   const Odometry& at = robot.odometry;
   const double c = std::cos(at.heading_rad), s = std::sin(at.heading_rad);
   for (std::size_t sonar = 0; sonar < kSonars; ++sonar) {
     const SonarEcho& echo = robot.sonar[sonar];
     if (echo.t_ns == places_[sonar].t_ns) continue;
-    const EchoPoint point = in_robot_frame(sonar, echo.range_m);
+    const ObstaclePoint point = in_robot_frame(sonar, echo.range_m);
     places_[sonar] = {echo.t_ns, at.x_m + c * point.x_m - s * point.y_m,
                       at.y_m + s * point.x_m + c * point.y_m};
   }
 }
 
-Echoes EchoMemory::at(TimeNs now_ns, const Odometry& newest) const {
-  const Pose2 robot = carried_on(newest, std::max(0.0, seconds_from_ns(now_ns - newest.t_ns)));
+SonarObstacles SonarObstacleMap::at(TimeNs now_ns, const Odometry& newest) const {
+  const Pose2 robot = extrapolated(newest, std::max(0.0, seconds_from_ns(now_ns - newest.t_ns)));
   const double c = std::cos(robot.heading_rad), s = std::sin(robot.heading_rad);
-  Echoes echoes;
+  SonarObstacles echoes;
   for (const Place& place : places_) {
     if (place.t_ns == 0 || now_ns - place.t_ns > kKept_ns) continue;
     const double dx_m = place.x_m - robot.x_m, dy_m = place.y_m - robot.y_m;

@@ -1,4 +1,4 @@
-#include "vision/pose/rivals.h"
+#include "vision/pose/alternative_hypotheses.h"
 
 #include <cmath>
 
@@ -11,10 +11,10 @@ double yaw_between(const FrontalMotion& a, const FrontalMotion& b) {
   return std::abs(wrap_angle_rad(yaw_of_rotation(a.R_cur_from_ref) - yaw_of_rotation(b.R_cur_from_ref)));
 }
 
-void own_up_to(std::span<const Rival> rivals, FrontalPose& pose) {
+void inflate_covariance(std::span<const AlternativeHypothesis> alternative_hypotheses, FrontalPose& pose) {
   double odds = 0.0, yaw_rad2 = 0.0;
   Eigen::Vector3d t_over_d2 = Eigen::Vector3d::Zero();
-  for (const Rival& rival : rivals) {
+  for (const AlternativeHypothesis& rival : alternative_hypotheses) {
     const double apart_rad = yaw_between(rival.motion, pose.motion);
     odds += rival.odds;
     yaw_rad2 += rival.odds * apart_rad * apart_rad;

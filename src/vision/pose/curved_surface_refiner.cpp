@@ -1,4 +1,4 @@
-#include "vision/pose/surface_follower.h"
+#include "vision/pose/curved_surface_refiner.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -10,24 +10,24 @@ namespace heel {
 namespace {
 
 constexpr std::size_t kLeastPairs = 6;  // twice what six unknowns need
-constexpr double kSettledRad = 3e-3, kSettledOverD = 3e-3;
+constexpr double kSettled_rad = 3e-3, kSettledOverD = 3e-3;
 
 // Pairs and pose improve by turns: no use in descending to the minimum of pairs that are to change.
 constexpr int kRounds = 4, kStepsInRound = 2;
 // Of the whitened residual, whose noise is 1 px where features are as well placed as usual. The first pose
 // may be off at the back's edges.
-constexpr double kFirstLimitPx = 5.0, kLimitPx = 3.0;
+constexpr double kFirstLimit_px = 5.0, kLimit_px = 3.0;
 
 // Few pairs, of one facet, hardly tell how the back is turned: unless this share of the template's features
 // fits, the whole range is tried.
 constexpr double kSureShare = 0.3;
-constexpr std::array kOtherYawsRad{-1.0, -0.6, -0.2, 0.2, 0.6, 1.0};
-constexpr std::size_t kMostFits = 2 + kOtherYawsRad.size();
+constexpr std::array kOtherYaws_rad{-1.0, -0.6, -0.2, 0.2, 0.6, 1.0};
+constexpr std::size_t kMostFits = 2 + kOtherYaws_rad.size();
 
 // Fits whose yaws differ by less are the same. One that has so much less support is e times less likely: by
 // noise alone it were a fifth of a pair, but folds, and which features happen to be found again, decide over
 // one or two.
-constexpr double kSameYawRad = 0.1;
+constexpr double kSameYaw_rad = 0.1;
 constexpr double kDoubtfulSupport = 1.5;
 
 PlaneMotion as_start(const FrontalMotion& motion) {
@@ -39,23 +39,24 @@ PlaneMotion as_start(const FrontalMotion& motion) {
 
 bool settled(const FrontalMotion& before, const FrontalMotion& after) {
   // |R − R'|, of a small turn, is √2 times its angle.
-  return (after.R_cur_from_ref - before.R_cur_from_ref).norm() < std::sqrt(2.0) * kSettledRad &&
+  return (after.R_cur_from_ref - before.R_cur_from_ref).norm() < std::sqrt(2.0) * kSettled_rad &&
          (after.t_over_d - before.t_over_d).norm() < kSettledOverD;
 }
 
 }  // namespace
 
-SurfaceFollower::SurfaceFollower(const ReferenceFeatures& reference, FrontalPoseEstimator& estimator)
+CurvedSurfaceRefiner::CurvedSurfaceRefiner(const ReferenceFeatures& reference,
+                                           FrontalPoseEstimator& estimator)
     : reference_(reference), estimator_(estimator), predicted_(reference.px.size()) {
   matches_.reserve(reference.px.size());
   fitting_.reserve(reference.px.size());
   best_fitting_.reserve(reference.px.size());
   fits_.reserve(kMostFits);
-  rivals_.reserve(kMostFits);
+  alternatives_.reserve(kMostFits);
 }
 
 /// Where the surface puts the features, those on the side turned away excepted.
-void SurfaceFollower::predict(const FrontalProblem& problem, const FrontalMotion& motion) {
+void CurvedSurfaceRefiner::predict(const FrontalProblem& problem, const FrontalMotion& motion) {
   const Eigen::Matrix3d KR = problem.K_cur * motion.R_cur_from_ref;
   const Eigen::Vector3d Kt = problem.K_cur * motion.t_over_d;
   for (std::size_t i = 0; i < predicted_.size(); ++i) {
@@ -66,8 +67,8 @@ void SurfaceFollower::predict(const FrontalProblem& problem, const FrontalMotion
   }
 }
 
-void SurfaceFollower::keep_what_fits(const FrontalProblem& problem, const FrontalMotion& motion,
-                                     double limit_px, std::span<const Eigen::Vector2d> frame_px) {
+void CurvedSurfaceRefiner::keep_what_fits(const FrontalProblem& problem, const FrontalMotion& motion,
+                                          double limit_px, std::span<const Eigen::Vector2d> frame_px) {
   const Eigen::Matrix3d KR = problem.K_cur * motion.R_cur_from_ref;
   const Eigen::Vector3d Kt = problem.K_cur * motion.t_over_d;
   fitting_.clear();
@@ -82,27 +83,27 @@ void SurfaceFollower::keep_what_fits(const FrontalProblem& problem, const Fronta
   }
 }
 
-SurfaceFollower::Fit SurfaceFollower::improve(FrontalProblem problem, const FrontalMotion& start,
-                                              GuidedMatcher& matcher,
-                                              std::span<const Eigen::Vector2d> frame_px) {
+CurvedSurfaceRefiner::Fit CurvedSurfaceRefiner::improve(FrontalProblem problem, const FrontalMotion& start,
+                                                        GuidedMatcher& matcher,
+                                                        std::span<const Eigen::Vector2d> frame_px) {
   Fit fit{start, -1.0};
   for (int round = 0; round < kRounds; ++round) {
     const FrontalMotion before = fit.motion;
     predict(problem, before);
     matcher.match(predicted_, reference_.features, matches_);
-    keep_what_fits(problem, before, round == 0 ? kFirstLimitPx : kLimitPx, frame_px);
+    keep_what_fits(problem, before, round == 0 ? kFirstLimit_px : kLimit_px, frame_px);
     if (fitting_.size() < kLeastPairs) return {start, -1.0};
     problem.pairs = fitting_;
     fit.motion = estimator_.refine(problem, as_start(before), kStepsInRound);
     if (round > 0 && settled(before, fit.motion)) break;
   }
-  fit.support = static_cast<double>(fitting_.size()) - fit.motion.cost_px2 / (kLimitPx * kLimitPx);
+  fit.support = static_cast<double>(fitting_.size()) - fit.motion.cost_px2 / (kLimit_px * kLimit_px);
   return fit;
 }
 
 /// The target turned by `angle_rad` to the image's right about the upright axis through what the pairs show.
-FrontalMotion SurfaceFollower::turned(const FrontalProblem& problem, const FrontalMotion& motion,
-                                      double angle_rad) const {
+FrontalMotion CurvedSurfaceRefiner::turned(const FrontalProblem& problem, const FrontalMotion& motion,
+                                           double angle_rad) const {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const PointPair& pair : problem.pairs)
     middle += problem.surface.point(reference_.K_inverse * pair.ref_px.homogeneous());
@@ -114,8 +115,8 @@ FrontalMotion SurfaceFollower::turned(const FrontalProblem& problem, const Front
   return turned;
 }
 
-void SurfaceFollower::attempt(const FrontalProblem& problem, const FrontalMotion& start,
-                              GuidedMatcher& matcher, std::span<const Eigen::Vector2d> frame_px) {
+void CurvedSurfaceRefiner::attempt(const FrontalProblem& problem, const FrontalMotion& start,
+                                   GuidedMatcher& matcher, std::span<const Eigen::Vector2d> frame_px) {
   fits_.push_back(improve(problem, start, matcher, frame_px));
   if (!(fits_.back().support > best_.support)) return;
   best_ = fits_.back();
@@ -123,24 +124,25 @@ void SurfaceFollower::attempt(const FrontalProblem& problem, const FrontalMotion
 }
 
 /// Of fits with the same yaw the best counts.
-void SurfaceFollower::own_up_to_other_fits(FrontalPose& pose) {
+void CurvedSurfaceRefiner::inflate_covariance_by_other_fits(FrontalPose& pose) {
   std::sort(fits_.begin(), fits_.end(), [](const Fit& a, const Fit& b) { return a.support > b.support; });
-  rivals_.clear();
+  alternatives_.clear();
   for (const Fit& fit : fits_) {
     if (fit.support <= 0.0) break;
     const auto same = [&](const FrontalMotion& other) {
-      return yaw_between(fit.motion, other) < kSameYawRad;
+      return yaw_between(fit.motion, other) < kSameYaw_rad;
     };
     if (same(pose.motion) ||
-        std::any_of(rivals_.begin(), rivals_.end(), [&](const Rival& rival) { return same(rival.motion); }))
+        std::any_of(alternatives_.begin(), alternatives_.end(),
+                    [&](const AlternativeHypothesis& rival) { return same(rival.motion); }))
       continue;
-    rivals_.push_back({fit.motion, std::exp((fit.support - best_.support) / kDoubtfulSupport)});
+    alternatives_.push_back({fit.motion, std::exp((fit.support - best_.support) / kDoubtfulSupport)});
   }
-  own_up_to(rivals_, pose);
+  inflate_covariance(alternatives_, pose);
 }
 
-FrontalPose SurfaceFollower::follow(const FrontalProblem& problem, const FrontalPose& start,
-                                    GuidedMatcher& matcher, std::span<const Eigen::Vector2d> frame_px) {
+FrontalPose CurvedSurfaceRefiner::follow(const FrontalProblem& problem, const FrontalPose& start,
+                                         GuidedMatcher& matcher, std::span<const Eigen::Vector2d> frame_px) {
   best_ = {start.motion, -1.0};
   best_fitting_.clear();
   fits_.clear();
@@ -148,7 +150,7 @@ FrontalPose SurfaceFollower::follow(const FrontalProblem& problem, const Frontal
   if (!settled(start.motion, start.other)) attempt(problem, start.other, matcher, frame_px);
   if (best_.support < kSureShare * static_cast<double>(reference_.px.size())) {
     const double yaw_rad = yaw_of_rotation(start.motion.R_cur_from_ref);
-    for (const double other_yaw_rad : kOtherYawsRad)
+    for (const double other_yaw_rad : kOtherYaws_rad)
       attempt(problem, turned(problem, start.motion, other_yaw_rad - yaw_rad), matcher, frame_px);
   }
   if (best_.support < 0.0) {
@@ -158,7 +160,7 @@ FrontalPose SurfaceFollower::follow(const FrontalProblem& problem, const Frontal
   FrontalProblem of_surface = problem;
   of_surface.pairs = best_fitting_;
   FrontalPose pose = estimator_.estimate(of_surface, as_start(best_.motion));
-  own_up_to_other_fits(pose);
+  inflate_covariance_by_other_fits(pose);
   return pose;
 }
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "heel/flow.h"
-#include "realtime/frame_ring.h"
+#include "realtime/frame_triple_buffer.h"
 
 namespace heel::test {
 

@@ -14,9 +14,9 @@
 
 namespace heel::test {
 
-inline constexpr double kEvenYawErrorRad = 0.1, kOddYawErrorRad = -0.06, kYawSigmaRad = 0.1;
-inline constexpr double kZErrorM = 0.05;
-inline constexpr double kClockS = 1000.0;  ///< the monotonic clock at the run's beginning
+inline constexpr double kEvenYawError_rad = 0.1, kOddYawError_rad = -0.06, kYawSigma_rad = 0.1;
+inline constexpr double kZError_m = 0.05;
+inline constexpr double kClock_s = 1000.0;  ///< the monotonic clock at the run's beginning
 
 template <typename... Values>
 std::string printed(const char* format, Values... values) {
@@ -31,7 +31,7 @@ inline std::string truth_csv() {
       "person_speed_m_s,target_x_m,target_y_m,target_z_m,target_yaw_rad,target_in_view\n";
   for (int i = 0; i <= 100; ++i) {
     const double person_x_m = i < 20 ? 0.0 : 0.05 * (i - 20);
-    text += printed("%.1f,%.1f,%.2f,%.1f,0,%.2f,0,0,%.1f,0,-0.1,2.0,%.2f,1\n", 0.1 * i, kClockS + 0.1 * i,
+    text += printed("%.1f,%.1f,%.2f,%.1f,0,%.2f,0,0,%.1f,0,-0.1,2.0,%.2f,1\n", 0.1 * i, kClock_s + 0.1 * i,
                     person_x_m - 2.0, i < 60 ? 0.3 : -0.1, person_x_m, i < 20 ? 0.0 : 0.5, 0.02 * i);
   }
   return text;
@@ -41,7 +41,7 @@ inline std::string ticks_csv() {
   std::string text = "t_s,tick,stop_reason,command_v_m_s,command_yaw_rate_rad_s\n";
   for (int i = 0; i <= 100; ++i) {
     const char* reason = i >= 95 ? "shutting down" : i >= 30 && i < 35 ? "target lost" : "following";
-    text += printed("%.1f,%d,%s,%.1f,-0.2\n", kClockS + 0.1 * i, i, reason, reason[0] == 'f' ? 0.5 : 0.0);
+    text += printed("%.1f,%d,%s,%.1f,-0.2\n", kClock_s + 0.1 * i, i, reason, reason[0] == 'f' ? 0.5 : 0.0);
   }
   return text;
 }
@@ -51,14 +51,14 @@ inline std::string poses_csv() {
       "t_s,frame,reason,found,certainty,yaw_rad,yaw_sigma_rad,position_m_0,position_m_1,position_m_2";
   for (int i = 0; i < 9; ++i) text += ",H_cur_from_ref_" + std::to_string(i);
   for (int k = 0; k < 100; ++k) {
-    const double t_s = kClockS + 0.1 * k + 0.05;
+    const double t_s = kClock_s + 0.1 * k + 0.05;
     if (k >= 50 && k < 55) {
       text += printed("\n%.2f,%d,too few inliers,0,0.02,nan,nan,nan,nan,nan,0,0,0,0,0,0,0,0,0", t_s, k);
       continue;
     }
-    const double yaw_rad = 0.02 * (k + 0.5) + (k % 2 == 0 ? kEvenYawErrorRad : kOddYawErrorRad);
+    const double yaw_rad = 0.02 * (k + 0.5) + (k % 2 == 0 ? kEvenYawError_rad : kOddYawError_rad);
     text += printed("\n%.2f,%d,found,1,0.3,%.3f,%.1f,0,-0.1,%.2f,1,0,0,0,1,0,0,0,1", t_s, k, yaw_rad,
-                    kYawSigmaRad, 2.0 + kZErrorM);
+                    kYawSigma_rad, 2.0 + kZError_m);
   }
   return text + "\n";
 }

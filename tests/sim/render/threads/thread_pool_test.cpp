@@ -1,5 +1,5 @@
 // Work shared among threads: every piece is done once, whoever does it, and the picture is the same.
-#include "sim/render/workers.h"
+#include "sim/render/thread_pool.h"
 
 #include <gtest/gtest.h>
 
@@ -12,14 +12,14 @@
 namespace heel::sim {
 namespace {
 
-TEST(Workers, EveryPieceIsDoneOnce) {
+TEST(ThreadPool, EveryPieceIsDoneOnce) {
   for (const int threads : {1, 2, 5}) {
-    Workers workers(threads);
+    ThreadPool workers(threads);
     EXPECT_EQ(workers.threads(), threads);
     for (const int count : {0, 1, 7, 480})
       for (int round = 0; round < 50; ++round) {
         std::vector<std::atomic<int>> done(static_cast<std::size_t>(count));
-        workers.share(count, 3, [&](int begin, int end) {
+        workers.parallel_for(count, 3, [&](int begin, int end) {
           for (int i = begin; i < end; ++i) ++done[static_cast<std::size_t>(i)];
         });
         for (const std::atomic<int>& times : done) ASSERT_EQ(times, 1);
@@ -27,9 +27,9 @@ TEST(Workers, EveryPieceIsDoneOnce) {
   }
 }
 
-TEST(Workers, AtLeastTheCallerWorks) {
-  EXPECT_GE(Workers(0).threads(), 1);
-  EXPECT_LE(Workers(0).threads(), 4);
+TEST(ThreadPool, AtLeastTheCallerWorks) {
+  EXPECT_GE(ThreadPool(0).threads(), 1);
+  EXPECT_LE(ThreadPool(0).threads(), 4);
 }
 
 TEST(WorldPicture, IsTheSameForAnyNumberOfThreads) {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "heel/flow.h"
-#include "realtime/slot_exchange.h"
+#include "realtime/triple_buffer.h"
 
 namespace heel {
 
@@ -22,13 +22,13 @@ struct WritableFrame {
   std::uint32_t stride_bytes = 0;
 };
 
-class FrameRing {
+class FrameTripleBuffer {
  public:
   /// Takes all memory here, for frames of at most this size.
-  FrameRing(std::uint32_t max_width_px, std::uint32_t max_height_px);
+  FrameTripleBuffer(std::uint32_t max_width_px, std::uint32_t max_height_px);
 
-  FrameRing(const FrameRing&) = delete;
-  FrameRing& operator=(const FrameRing&) = delete;
+  FrameTripleBuffer(const FrameTripleBuffer&) = delete;
+  FrameTripleBuffer& operator=(const FrameTripleBuffer&) = delete;
 
   std::uint32_t max_width_px() const { return max_width_px_; }
   std::uint32_t max_height_px() const { return max_height_px_; }
@@ -60,10 +60,10 @@ class FrameRing {
   std::uint32_t max_height_px_;
   std::uint32_t stride_bytes_;
   std::vector<std::uint8_t> pixels_;  // of all slots
-  std::array<FrameView, SlotExchange::kSlots> slots_;
-  std::array<std::uint8_t*, SlotExchange::kSlots> slot_pixels_{};
+  std::array<FrameView, TripleBuffer::kSlots> slots_;
+  std::array<std::uint8_t*, TripleBuffer::kSlots> slot_pixels_{};
 
-  SlotExchange exchange_;
+  TripleBuffer exchange_;
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> captured_{0};  // written by the writer
   std::atomic<std::uint64_t> dropped_{0};                            // written by the writer
   std::atomic<std::uint32_t> signal_{0};                             // changes with every publish and wake

@@ -15,7 +15,7 @@ namespace heel {
 
 inline constexpr std::size_t kCacheLineBytes = 64;
 
-class SlotExchange {
+class TripleBuffer {
  public:
   static constexpr std::uint32_t kSlots = 3;
 

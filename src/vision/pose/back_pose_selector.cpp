@@ -1,9 +1,9 @@
-#include "vision/pose/back_pose.h"
+#include "vision/pose/back_pose_selector.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "vision/pose/rivals.h"
+#include "vision/pose/alternative_hypotheses.h"
 
 namespace heel {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 constexpr double kFlatter = 1.25;
 constexpr double kFlatness =
     4.0;  // then the odds of the curve are two in five, at twice as well one in sixteen
-constexpr double kLeastNoisePx = 0.3;  // no fit is better for less
+constexpr double kLeastNoise_px = 0.3;  // no fit is better for less
 
 BackSurface flat_surface(const ReferenceView& reference, const VisionConfig& config) {
   const Eigen::Vector3d first = reference.K_inverse * reference.outline_px[0].homogeneous();
@@ -27,38 +27,38 @@ BackSurface flat_surface(const ReferenceView& reference, const VisionConfig& con
 
 /// How well a pose explains what is seen: by many pairs and little error.
 double explained(std::size_t pairs, const FrontalPose& pose) {
-  return static_cast<double>(pairs) / std::max(kLeastNoisePx, pose.motion.noise_px);
+  return static_cast<double>(pairs) / std::max(kLeastNoise_px, pose.motion.noise_px);
 }
 
 }  // namespace
 
-BackPoseEstimator::BackPoseEstimator(const ReferenceView& reference, const Eigen::Matrix3d& K_cur,
-                                     const VisionConfig& config)
+BackPoseSelector::BackPoseSelector(const ReferenceView& reference, const Eigen::Matrix3d& K_cur,
+                                   const VisionConfig& config)
     : K_ref_(reference.K),
       K_cur_(K_cur),
       centre_px_(reference.centre_px),
       flat_(flat_surface(reference, config)),
       curved_(flat_),
       frontal_estimator_(reference.px.size()),
-      surface_follower_({reference.set, reference.px, reference.K_inverse}, frontal_estimator_) {
+      surface_refiner_({reference.set, reference.px, reference.K_inverse}, frontal_estimator_) {
   if (!(reference.distance_m > 0.0)) return;
   curved_.bend = config.back_curvature_1_m * reference.distance_m;
   curved_.bend_sigma = config.back_curvature_sigma_1_m * reference.distance_m;
 }
 
-FrontalPose BackPoseEstimator::estimate(const PlaneSighting& seen, GuidedMatcher& matcher,
-                                        std::span<const Eigen::Vector2d> frame_px) {
+FrontalPose BackPoseSelector::estimate(const PlaneSolution& seen, GuidedMatcher& matcher,
+                                       std::span<const Eigen::Vector2d> frame_px) {
   FrontalProblem problem{seen.inliers, K_ref_, K_cur_, seen.H_cur_from_ref, centre_px_, flat_};
   FrontalPose of_plane = frontal_estimator_.estimate(problem, seen.motion);
   if (curved_.bend == 0.0) return of_plane;
   problem.surface = curved_;
   const FrontalPose of_curve =
-      surface_follower_.follow(problem, frontal_estimator_.estimate(problem, seen.motion), matcher, frame_px);
+      surface_refiner_.follow(problem, frontal_estimator_.estimate(problem, seen.motion), matcher, frame_px);
   const double better =
-      explained(seen.inliers.size(), of_plane) / explained(surface_follower_.pairs(), of_curve);
+      explained(seen.inliers.size(), of_plane) / explained(surface_refiner_.pairs(), of_curve);
   if (!(better >= kFlatter)) return of_curve;
-  const Rival curved{of_curve.motion, std::pow(better, -kFlatness)};
-  own_up_to({&curved, 1}, of_plane);
+  const AlternativeHypothesis curved{of_curve.motion, std::pow(better, -kFlatness)};
+  inflate_covariance({&curved, 1}, of_plane);
   return of_plane;
 }
 
