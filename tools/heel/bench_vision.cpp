@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -11,6 +12,8 @@
 
 #include "commands.h"
 #include "evaluation/benchmarks/vision_report.h"
+#include "evaluation/reports/plots.h"
+#include "files/atomic_file.h"
 #include "files/camera_info.h"
 #include "files/frame_input.h"
 #include "files/image_file.h"
@@ -92,6 +95,14 @@ void show_progress(std::size_t frame, std::size_t frames) {
   std::fprintf(stderr, frame == frames ? "\r\033[K" : "\rframe %zu of %zu", frame, frames);
 }
 
+/// P.png of the numbers in P.json.
+void draw(const nlohmann::ordered_json& json, const std::string& picture) {
+  const std::string numbers = std::filesystem::path(picture).replace_extension(".json").string();
+  write_file_atomically(numbers, json.dump(2) + "\n");
+  if (const std::string why_not = evaluation::draw_figures({numbers, picture}); !why_not.empty())
+    throw Error(why_not);
+}
+
 void run_bench_vision(const BenchVisionOptions& options) {
   if (!options.picture.empty()) require_writable_picture_name(options.picture);
   choose_simd(options.simd);
@@ -104,7 +115,7 @@ void run_bench_vision(const BenchVisionOptions& options) {
   report.bench =
       evaluation::measure_vision(input, [&](std::size_t frame) { show_progress(frame, report.frames); });
   std::cout << (options.json ? evaluation::to_json(report).dump(2) + "\n" : evaluation::table(report));
-  if (!options.picture.empty()) write_picture(options.picture, evaluation::bars(report));
+  if (!options.picture.empty()) draw(evaluation::to_json(report), options.picture);
 }
 
 }  // namespace
@@ -136,7 +147,11 @@ void add_bench_vision_command(CLI::App& bench) {
                    "instruction set heel's vision runs with (default: the best this processor has)")
       ->type_name("NAME");
   command->add_flag("--json", options->json, "one JSON object (default: a table)");
-  command->add_option("--picture", options->picture, "draw the times as bars")->type_name("P.png");
+  command
+      ->add_option("--picture", options->picture,
+                   "draw the times as bars: P.png and P.svg from P.json, which needs\n"
+                   "the Debian package python3-matplotlib")
+      ->type_name("P.png");
   command->callback([options] { run_bench_vision(*options); });
 }
 

@@ -1,15 +1,13 @@
-// heel report: figures and a summary from a finished run's folder, or from a folder of experiments.
+// heel report: a summary, numbers and figures of a finished run's folder, or of a folder of experiments.
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <opencv2/imgcodecs.hpp>
+#include <string>
 
 #include "commands.h"
 #include "evaluation/reports/experiment_report.h"
-#include "evaluation/reports/figures.h"
+#include "evaluation/reports/plots.h"
 #include "evaluation/reports/run_files.h"
-#include "evaluation/reports/summary.h"
-#include "heel/error.h"
+#include "evaluation/reports/run_report.h"
 
 namespace heel::cli {
 namespace {
@@ -20,35 +18,25 @@ struct ReportOptions {
   evaluation::FollowCriteria criteria;
 };
 
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  if (!file.flush()) throw Error(path + ": cannot write (expected a writable folder)");
-}
-
-void write_figure(const std::string& path, const cv::Mat& figure) {
-  if (figure.empty()) return;
-  if (!cv::imwrite(path, figure)) throw Error(path + ": cannot write (expected a writable folder)");
+/// The numbers stand even where nothing can draw them.
+void draw(const std::string& directory) {
+  if (const std::string why_not = evaluation::draw_figures({directory}); !why_not.empty())
+    std::cerr << "heel report: " << why_not << '\n';
 }
 
 void run_report(const ReportOptions& options) {
   const std::string& directory = options.directory;
   if (!std::filesystem::exists(directory + "/truth.csv") && evaluation::holds_experiments(directory)) {
-    std::cout << evaluation::report_experiments(directory);
+    std::cout << evaluation::report_experiments(directory) << std::flush;
+    draw(directory);
     return;
   }
   const evaluation::MetricsCollector run = evaluation::read_run(directory);
   const evaluation::FollowMetrics metrics = run.evaluate();
   const auto failed = evaluation::failed_criteria(metrics, options.criteria);
-  const std::string summary = evaluation::summary_text(metrics, failed);
-  nlohmann::ordered_json json = evaluation::to_json(metrics);
-  json["failed"] = failed;
-  write_text(directory + "/summary.txt", summary);
-  write_text(directory + "/summary.json", json.dump(2) + "\n");
-  write_figure(directory + "/path.png", evaluation::path_figure(run, metrics));
-  write_figure(directory + "/errors.png", evaluation::errors_figure(run));
-  write_figure(directory + "/frames.png", evaluation::frames_figure(directory));
-  std::cout << (options.json ? json.dump(2) + "\n" : summary);
+  const evaluation::RunReport report = evaluation::write_run_report(directory, run, metrics, failed);
+  std::cout << (options.json ? report.json.dump(2) + "\n" : report.text) << std::flush;
+  draw(directory);
   for (const std::string& reason : failed) std::cerr << "heel report: " << reason << '\n';
   if (!failed.empty()) throw CLI::RuntimeError(kExitNo);
 }
@@ -57,10 +45,12 @@ void run_report(const ReportOptions& options) {
 
 void add_report_command(CLI::App& app) {
   auto options = std::make_shared<ReportOptions>();
-  CLI::App* command = app.add_subcommand("report",
-                                         "Draws path.png, errors.png and frames.png and writes summary.txt "
-                                         "and summary.json into a run's folder; fig1 ... fig8 and summary.md "
-                                         "into a folder of `heel experiment`");
+  CLI::App* command =
+      app.add_subcommand("report",
+                         "Writes summary.txt, summary.json and the figures path, errors and "
+                         "frames into a run's folder; summary.md and fig1 ... fig8 into a "
+                         "folder of `heel experiment`. Figures are PNG and SVG with their "
+                         "numbers as CSV; drawing needs the Debian package python3-matplotlib");
   command
       ->add_option("directory", options->directory,
                    "holds truth.csv, ticks.csv and poses.csv; or experiments")

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <future>
 #include <iostream>
 #include <set>
@@ -18,9 +17,9 @@
 #include "evaluation/experiments/many_runs.h"
 #include "evaluation/experiments/run_record.h"
 #include "evaluation/metrics/metrics.h"
-#include "evaluation/reports/figures.h"
-#include "evaluation/reports/overview_figure.h"
-#include "files/image_file.h"
+#include "evaluation/reports/plots.h"
+#include "evaluation/reports/run_report.h"
+#include "files/atomic_file.h"
 #include "files/template_file.h"
 #include "heel/error.h"
 #include "sim/lockstep/lockstep.h"
@@ -115,22 +114,20 @@ void run_one(const SimulateOptions& options, const sim::Scenario& scenario) {
   if (report_failed({run})) throw CLI::RuntimeError(kExitNo);
 }
 
-/// A run's figures into its folder, and its band of the overview.
-evaluation::OverviewBand draw(const SimulatedRun& run, const evaluation::MetricsCollector& samples,
-                              const std::string& folder) {
-  evaluation::OverviewBand band{run.scenario, run.shows, evaluation::path_figure(samples, run.metrics),
-                                evaluation::frames_figure(folder)};
-  write_picture(folder + "/path.png", band.path);
-  write_picture(folder + "/errors.png", evaluation::errors_figure(samples));
-  if (!band.frames.empty()) write_picture(folder + "/frames.png", band.frames);
-  return band;
+/// What the runs came to, and what each scenario shows: overview.png is drawn from it.
+void write_overview(const std::vector<SimulatedRun>& runs, const std::string& out) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const SimulatedRun& run : runs) {
+    all.push_back(to_json(run));
+    all.back()["shows"] = run.shows;
+  }
+  write_file_atomically(out + "/overview.json", all.dump(2) + "\n");
 }
 
 /// All of them, each into a folder of its own under `out`; a shirt that cannot be followed is a result too.
 void run_several(const SimulateOptions& options, const std::vector<sim::Scenario>& scenarios) {
   const std::string out = options.out.empty() ? kDefaultOut : options.out;
   std::vector<SimulatedRun> runs;
-  std::vector<evaluation::OverviewBand> bands;
   for (const sim::Scenario& scenario : scenarios) {
     const std::string folder = out + "/" + scenario.name;
     std::filesystem::remove_all(folder + "/frames");  // of an earlier run
@@ -141,20 +138,17 @@ void run_several(const SimulateOptions& options, const std::vector<sim::Scenario
     } catch (const Error& error) {
       runs.push_back(description_of(scenario));
       runs.back().refused = error.what();
-      bands.push_back({scenario.name, scenario.shows + " (refused)", {}, {}});
       continue;
     }
     evaluation::RunRecord record(folder, settings);
     runs.push_back(simulated(options, settings, record));
     record.flush();
-    bands.push_back(draw(runs.back(), record.metrics(), folder));
+    evaluation::write_run_report(folder, record.metrics(), runs.back().metrics, runs.back().failed);
   }
   const std::string table = table_text(runs);
   std::filesystem::create_directories(out);
-  std::ofstream file(out + "/table.txt");
-  file << table;
-  if (!file.flush()) throw Error(out + "/table.txt: cannot write (expected a writable folder)");
-  write_picture(out + "/overview.png", evaluation::overview_figure(bands));
+  write_file_atomically(out + "/table.txt", table);
+  write_overview(runs, out);
   if (options.json) {
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     for (const SimulatedRun& run : runs) all.push_back(to_json(run));
@@ -162,6 +156,9 @@ void run_several(const SimulateOptions& options, const std::vector<sim::Scenario
   } else {
     std::cout << table << "pictures and recordings: " << out << '\n';
   }
+  std::cout << std::flush;
+  if (const std::string why_not = evaluation::draw_figures({out}); !why_not.empty())
+    std::cerr << "heel simulate: " << why_not << '\n';
   if (report_failed(runs)) throw CLI::RuntimeError(kExitNo);
 }
 

@@ -28,7 +28,5 @@ struct VisionReport {
 
 nlohmann::ordered_json to_json(const VisionReport& report);
 std::string table(const VisionReport& report);
-/// Bars: search and tracking by stage, OpenCV's features beneath, on one time axis.
-cv::Mat bars(const VisionReport& report);
 
 }  // namespace heel::evaluation

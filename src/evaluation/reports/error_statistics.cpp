@@ -1,20 +1,20 @@
 #include "evaluation/reports/error_statistics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 
+#include "core/angles.h"
 #include "evaluation/metrics/metrics.h"
-#include "evaluation/reports/style.h"
-#include "heel/error.h"
+#include "evaluation/reports/csv_file.h"
 
 namespace heel::evaluation {
 namespace {
 
 constexpr double kNormal95 = 1.959964;
 // Where a curve shows one condition, the others stay where the robot follows: near enough and not averted.
-constexpr double kEasyZM = 3.0, kEasyAspect_rad = 45.0 / kDeg;
+constexpr double kEasyZM = 3.0, kEasyAspect_rad = 45.0 / kDegPerRad;
 
 double square(double value) {
   return value * value;
@@ -103,7 +103,7 @@ std::vector<ErrorCurve> error_curves(const std::vector<StillSample>& samples) {
       }));
   curves.push_back(curve_over(
       "angle to the line of sight", "deg", {0, 10, 20, 30, 40, 50, 60, 70, 80, 105}, samples,
-      [](const StillSample& s) { return kDeg * std::abs(s.aspect_rad()); },
+      [](const StillSample& s) { return kDegPerRad * std::abs(s.aspect_rad()); },
       [&](const StillSample& s) { return bold(s) && s.undisturbed() && s.true_z_m < kEasyZM; }));
   curves.push_back(curve_over(
       "blur", "px", {0.0, 0.5, 2, 4, 6, 9.1}, samples, [](const StillSample& s) { return s.blur_px; },
@@ -129,24 +129,47 @@ std::vector<ErrorCurve> error_curves(const std::vector<StillSample>& samples) {
 }
 
 void write_errors(const std::vector<ErrorCurve>& curves, const std::string& path) {
-  std::ofstream file(path);
-  file << "condition,bin,pictures,found,wrong,with_sign,flips,certainty,yaw_mean_deg,yaw_outward_mean_deg,"
-          "yaw_deviation_deg,"
-          "yaw_mean_abs_deg,yaw_p95_deg,x_mean_m,x_deviation_m,z_mean_m,z_deviation_m,yaw_nees,t_x_nees,"
-          "t_z_nees\n";
+  CsvFile file(path,
+               "condition,unit,middle,bin,pictures,found,wrong,with_sign,flips,certainty,yaw_mean_deg,"
+               "yaw_outward_mean_deg,yaw_deviation_deg,yaw_mean_abs_deg,yaw_p95_deg,x_mean_m,x_deviation_m,"
+               "z_mean_m,z_deviation_m,yaw_nees,t_x_nees,t_z_nees");
   for (const ErrorCurve& curve : curves)
     for (const ErrorBin& b : curve.bins) {
-      char line[320];
-      std::snprintf(
-          line, sizeof line,
-          "%s,%s,%zu,%zu,%zu,%zu,%zu,%.4f,%.3f,%.3f,%.3f,%.3f,%.3f,%.4f,%.4f,%.4f,%.4f,%.2f,%.2f,%.2f\n",
-          curve.condition.c_str(), b.name.c_str(), b.pictures, b.found, b.wrong, b.signed_pictures, b.flips,
-          b.certainty, kDeg * b.yaw_mean_rad, kDeg * b.yaw_outward_mean_rad, kDeg * b.yaw_deviation_rad,
-          kDeg * b.yaw_mean_abs_rad, kDeg * b.yaw_p95_rad, b.x_mean_m, b.x_deviation_m, b.z_mean_m,
-          b.z_deviation_m, b.yaw_nees, b.t_x_nees, b.t_z_nees);
-      file << line;
+      file.text(curve.condition).text(curve.unit).number(b.middle, 3).text(b.name);
+      file.count(b.pictures).count(b.found).count(b.wrong).count(b.signed_pictures).count(b.flips);
+      file.number(b.certainty, 4);
+      for (const double yaw_rad :
+           {b.yaw_mean_rad, b.yaw_outward_mean_rad, b.yaw_deviation_rad, b.yaw_mean_abs_rad, b.yaw_p95_rad})
+        file.number(kDegPerRad * yaw_rad, 3);
+      for (const double position_m : {b.x_mean_m, b.x_deviation_m, b.z_mean_m, b.z_deviation_m})
+        file.number(position_m, 4);
+      for (const double nees : {b.yaw_nees, b.t_x_nees, b.t_z_nees}) file.number(nees, 3);
+      file.end_row();
     }
-  if (!file.flush()) throw Error(path + ": cannot write (expected a writable folder)");
+  file.close();
+}
+
+void write_error_map(const std::vector<StillSample>& samples, const std::string& path) {
+  constexpr std::array kDistances_m{0.9, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.6};
+  constexpr std::array kAngles_deg{-80.0, -60.0, -45.0, -30.0, -15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 80.0};
+  CsvFile file(path,
+               "distance_from_m,distance_to_m,angle_from_deg,angle_to_deg,pictures,found,yaw_mean_deg,"
+               "yaw_deviation_deg,yaw_mean_abs_deg");
+  for (std::size_t r = 0; r + 1 < kDistances_m.size(); ++r)
+    for (std::size_t c = 0; c + 1 < kAngles_deg.size(); ++c) {
+      const ErrorBin bin = error_bin("", 0.0, samples, [&](const StillSample& s) {
+        const double angle_deg = kDegPerRad * s.aspect_rad();
+        return s.undisturbed() && s.shirt == "bold" && s.true_z_m >= kDistances_m[r] &&
+               s.true_z_m < kDistances_m[r + 1] && angle_deg >= kAngles_deg[c] &&
+               angle_deg < kAngles_deg[c + 1];
+      });
+      file.number(kDistances_m[r], 1).number(kDistances_m[r + 1], 1);
+      file.number(kAngles_deg[c], 0).number(kAngles_deg[c + 1], 0).count(bin.pictures).count(bin.found);
+      for (const double yaw_rad : {bin.yaw_mean_rad, bin.yaw_deviation_rad, bin.yaw_mean_abs_rad})
+        file.number(kDegPerRad * yaw_rad, 3);
+      file.end_row();
+    }
+  file.close();
 }
 
 NeesBand nees_band(std::size_t count) {

@@ -42,8 +42,11 @@ struct ErrorCurve {
 };
 std::vector<ErrorCurve> error_curves(const std::vector<StillSample>& samples);
 
-/// One row a bin.
+/// One row a bin; `middle` is in the curve's unit.
 void write_errors(const std::vector<ErrorCurve>& curves, const std::string& path);
+
+/// One row a cell of distance × angle to the line of sight, undisturbed.
+void write_error_map(const std::vector<StillSample>& samples, const std::string& path);
 
 /// 95 % of means of `count` squared standard normal values lie between `low` and `high` (normal approximation
 /// of the chi-squared distribution, Wilson–Hilferty).

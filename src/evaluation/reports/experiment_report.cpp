@@ -2,76 +2,72 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
-#include "evaluation/reports/error_figures.h"
+#include "core/angles.h"
+#include "evaluation/reports/error_statistics.h"
 #include "evaluation/reports/paper_comparison.h"
-#include "evaluation/reports/paper_figures.h"
+#include "evaluation/reports/paper_numbers.h"
 #include "evaluation/reports/real_report.h"
 #include "evaluation/reports/run_files.h"
-#include "evaluation/reports/style.h"
-#include "heel/error.h"
+#include "files/atomic_file.h"
 
 namespace heel::evaluation {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Writer {
+/// The figures of a folder: the numbers of each in its own file, and all of them in the summary.
+class Figures {
  public:
-  explicit Writer(std::string directory) : directory_(std::move(directory)) {}
+  explicit Figures(std::string directory) : directory_(std::move(directory)) {}
 
-  void figure(const std::string& name, const cv::Mat& picture, const std::string& caption) {
-    if (picture.empty()) return;
-    if (!cv::imwrite(directory_ + "/" + name, picture,
-                     {cv::IMWRITE_PNG_COMPRESSION, 9, cv::IMWRITE_JPEG_QUALITY, 62}))
-      throw Error(directory_ + "/" + name + ": cannot write (expected a writable folder)");
-    figures_ += "![" + caption + "](" + name + ")\n\n";
+  void add(const std::string& name, const std::string& caption) {
+    links_ += "![" + caption + "](" + name + ")\n\n";
   }
-  void steps(const std::string& name, const std::vector<Step>& steps, const StepFigure& what,
-             const std::string& unit) {
+  void add_steps(const std::string& name, const std::vector<Step>& steps, const std::string& unit,
+                 const std::string& caption) {
     write_steps(steps, unit, directory_ + "/" + name + ".csv");
-    figure(name + ".png", step_figure(what, steps), what.title);
+    add(name + ".png", caption);
   }
-  const std::string& figures() const { return figures_; }
+  const std::string& directory() const { return directory_; }
+  const std::string& links() const { return links_; }
 
  private:
   std::string directory_;
-  std::string figures_;
+  std::string links_;
 };
 
 std::vector<StillSample> stills_if_any(const std::string& path) {
   return fs::exists(path) ? read_stills(path) : std::vector<StillSample>{};
 }
 
-void draw_stills(const ExperimentData& data, Writer& writer) {
+void add_stills(const ExperimentData& data, Figures& figures) {
   using S = StillSample;
   if (!data.lateral.empty())
-    writer.steps("fig2_t_x", steps_of(data.lateral, &S::x_m, &S::x_est_m, &S::true_x_m),
-                 {"Figure 2: t_x at sideways offsets, 2 m away", "sideways offset in m", "t_x in m"}, "m");
+    figures.add_steps("fig2_t_x", steps_of(data.lateral, &S::x_m, &S::x_est_m, &S::true_x_m), "m",
+                      "Figure 2: t_x at sideways offsets, 2 m away");
   if (!data.distance.empty())
-    writer.steps("fig3_t_z", steps_of(data.distance, &S::z_m, &S::z_est_m, &S::true_z_m),
-                 {"Figure 3: t_z over the distance", "distance in m", "t_z in m"}, "m");
+    figures.add_steps("fig3_t_z", steps_of(data.distance, &S::z_m, &S::z_est_m, &S::true_z_m), "m",
+                      "Figure 3: t_z over the distance");
   if (!data.yaw.empty())
-    writer.steps("fig4_yaw", steps_of(data.yaw, &S::yaw_rad, &S::yaw_est_rad, &S::true_yaw_rad, kDeg),
-                 {"Figure 4: yaw of the back, 2 m away", "true yaw in degrees", "estimated yaw in degrees"},
-                 "deg");
+    figures.add_steps("fig4_yaw",
+                      steps_of(data.yaw, &S::yaw_rad, &S::yaw_est_rad, &S::true_yaw_rad, kDegPerRad), "deg",
+                      "Figure 4: yaw of the back, 2 m away");
 }
 
 /// The yaw of a person who does not turn, over where they are: Figures 5 and 6.
-void draw_pure_translation(const std::vector<StillSample>& samples, const std::string& name, Member place,
-                           const std::string& title, const std::string& x_label, Writer& writer) {
+void add_pure_translation(const std::vector<StillSample>& samples, const std::string& name, Member place,
+                          const std::string& caption, Figures& figures) {
   if (samples.empty()) return;
   // Degrees for the estimate, metres for the place.
   std::vector<StillSample> in_degrees = samples;
   for (StillSample& sample : in_degrees) {
-    sample.yaw_est_rad *= kDeg;
-    sample.true_yaw_rad *= kDeg;
+    sample.yaw_est_rad *= kDegPerRad;
+    sample.true_yaw_rad *= kDegPerRad;
   }
-  writer.steps(name, steps_of(in_degrees, place, &StillSample::yaw_est_rad, &StillSample::true_yaw_rad),
-               {title, x_label, "estimated yaw in degrees"}, "deg");
+  figures.add_steps(name, steps_of(in_degrees, place, &StillSample::yaw_est_rad, &StillSample::true_yaw_rad),
+                    "deg", caption);
 }
 
 /// Runs in the folders below, by name.
@@ -84,15 +80,15 @@ std::vector<std::string> run_names(const std::string& directory) {
   return names;
 }
 
-void draw_runs(const std::string& directory, ExperimentData& data, std::vector<RunLine>& lines,
-               Writer& writer) {
+void add_runs(ExperimentData& data, std::vector<RunLine>& lines, Figures& figures) {
   std::optional<MetricsCollector> walk, position_only;
-  for (const std::string& name : run_names(directory + "/runs")) {
-    const MetricsCollector run = read_run(directory + "/runs/" + name);
+  for (const std::string& name : run_names(figures.directory() + "/runs")) {
+    const MetricsCollector run = read_run(figures.directory() + "/runs/" + name);
     lines.push_back(run_line(name, run));
-    if (name == "response")
-      writer.figure("fig7_response.png", response_figure(run),
-                    "Figure 7: the robot's response to an offset line at another heading");
+    if (name == "response") {
+      write_response(figures.directory(), run);
+      figures.add("fig7_response.png", "Figure 7: the robot's response to an offset line at another heading");
+    }
     if (name == "walk") {
       walk = run;
       data.walk = lines.back();
@@ -102,9 +98,17 @@ void draw_runs(const std::string& directory, ExperimentData& data, std::vector<R
       data.walk_position_only = lines.back();
     }
   }
-  if (walk)
-    writer.figure("fig8_walk.png", walk_figure(*walk, position_only ? &*position_only : nullptr),
-                  "Figure 8: both paths of a long walk");
+  if (!walk) return;
+  write_walk(figures.directory(), *walk, position_only ? &*position_only : nullptr);
+  figures.add("fig8_walk.png", "Figure 8: both paths of a long walk");
+}
+
+void add_errors(const std::vector<StillSample>& samples, Figures& figures) {
+  if (samples.empty()) return;
+  write_errors(error_curves(samples), figures.directory() + "/errors_over_conditions.csv");
+  write_error_map(samples, figures.directory() + "/errors_map.csv");
+  figures.add("errors_over_conditions.png", "Errors over distance, angle, blur, light and occlusion");
+  figures.add("errors_map.png", "Yaw error over distance and angle");
 }
 
 }  // namespace
@@ -116,28 +120,24 @@ bool holds_experiments(const std::string& directory) {
 }
 
 std::string report_experiments(const std::string& directory) {
-  Writer writer(directory);
+  Figures figures(directory);
   ExperimentData data;
   data.lateral = stills_if_any(directory + "/lateral.csv");
   data.distance = stills_if_any(directory + "/distance.csv");
   data.yaw = stills_if_any(directory + "/yaw.csv");
   data.errors = stills_if_any(directory + "/errors.csv");
 
-  writer.figure("fig1_hard.jpg", hard_figure(directory), "Figure 1: the shirt found in twelve hard cases");
-  draw_stills(data, writer);
-  draw_pure_translation(data.lateral, "fig5_yaw_over_x", &StillSample::x_m,
-                        "Figure 5: yaw of a person who only moves sideways", "sideways offset in m", writer);
-  draw_pure_translation(data.distance, "fig6_yaw_over_z", &StillSample::z_m,
-                        "Figure 6: yaw of a person who only moves away", "distance in m", writer);
+  if (fs::exists(directory + "/hard.csv"))
+    figures.add("fig1_hard.jpg", "Figure 1: the shirt found in twelve hard cases");
+  add_stills(data, figures);
+  add_pure_translation(data.lateral, "fig5_yaw_over_x", &StillSample::x_m,
+                       "Figure 5: yaw of a person who only moves sideways", figures);
+  add_pure_translation(data.distance, "fig6_yaw_over_z", &StillSample::z_m,
+                       "Figure 6: yaw of a person who only moves away", figures);
   std::vector<RunLine> lines;
-  draw_runs(directory, data, lines, writer);
-  if (!data.errors.empty()) {
-    const auto curves = error_curves(data.errors);
-    write_errors(curves, directory + "/errors_over_conditions.csv");
-    writer.figure("errors_over_conditions.png", errors_over_conditions_figure(curves),
-                  "Errors over distance, angle, blur, light and occlusion");
-    writer.figure("errors_map.png", error_map_figure(data.errors), "Yaw error over distance and angle");
-  }
+  add_runs(data, lines, figures);
+  add_errors(data.errors, figures);
+  if (fs::exists(directory + "/real_video.csv")) figures.add("real_video.png", "Certainty over a real video");
 
   std::string summary = "# Experiments\n\n## Beside the paper\n\n" + paper_table(data) +
                         "\n## Goals of the design\n\n" + goals_table(data) + "\n";
@@ -151,12 +151,8 @@ std::string report_experiments(const std::string& directory) {
     without.push_back(run_line(name, read_run(directory + "/without-pictures/" + name)));
   if (const std::string table = worlds_table(lines, without); !table.empty())
     summary += "## Both worlds on the same scenarios\n\n" + table + "\n";
-  writer.figure("real_video.png", video_figure(directory), "Certainty over a real video");
-  summary += real_section(directory) + "\n";
-  summary += "## Figures\n\n" + writer.figures();
-  std::ofstream file(directory + "/summary.md");
-  file << summary;
-  if (!file.flush()) throw Error(directory + "/summary.md: cannot write (expected a writable folder)");
+  summary += real_section(directory) + "\n## Figures\n\n" + figures.links();
+  write_file_atomically(directory + "/summary.md", summary);
   return summary;
 }
 

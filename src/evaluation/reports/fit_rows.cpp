@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/angles.h"
-#include "evaluation/reports/style.h"
 
 namespace heel::evaluation {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "core/angles.h"
 #include "evaluation/reports/error_statistics.h"
-#include "evaluation/reports/style.h"
 
 namespace heel::evaluation {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 constexpr double kPaperReliable = 0.1, kPaperRarely = 0.6;
 constexpr double kTrustedShare = 0.95;  ///< of the pictures at an angle: found, with certainty above 0.1
 constexpr double kGoalYaw_deg = 2.0, kGoalFlips = 0.001, kGoalRSquared = 0.999, kGoalFollow_m = 0.15;
-constexpr double kGoalNear_m = 1.0, kGoalFar_m = 4.0, kGoalYawRange_rad = 60.0 / kDeg;
+constexpr double kGoalNear_m = 1.0, kGoalFar_m = 4.0, kGoalYawRange_rad = 60.0 / kDegPerRad;
 constexpr double kMonotoneFar_m = 5.0;
 
 [[gnu::format(printf, 1, 2)]] std::string printed(const char* format, ...) {
@@ -67,11 +67,11 @@ std::string certainty_reliable(const std::vector<StillSample>& stills) {
 /// The widest angle up to which the shirt is found with certainty above 0.1.
 std::string trust_lost(const std::vector<StillSample>& yaw) {
   double trusted_deg = 0.0, seen_deg = 0.0;
-  for (const Step& step :
-       steps_of(yaw, &StillSample::yaw_rad, &StillSample::yaw_est_rad, &StillSample::true_yaw_rad, kDeg)) {
+  for (const Step& step : steps_of(yaw, &StillSample::yaw_rad, &StillSample::yaw_est_rad,
+                                   &StillSample::true_yaw_rad, kDegPerRad)) {
     std::size_t trusted = 0;
     for (const StillSample& s : yaw)
-      if (kDeg * s.yaw_rad == step.at && s.found && s.certainty > kPaperReliable) ++trusted;
+      if (kDegPerRad * s.yaw_rad == step.at && s.found && s.certainty > kPaperReliable) ++trusted;
     if (percent(trusted, step.pictures) >= 100.0 * kTrustedShare)
       trusted_deg = std::max(trusted_deg, std::abs(step.at));
     if (step.found > 0) seen_deg = std::max(seen_deg, std::abs(step.at));
@@ -93,8 +93,8 @@ std::string monotone(const ExperimentData& data) {
       steps_of(data.lateral, &StillSample::x_m, &StillSample::x_est_m, &StillSample::true_x_m);
   const auto distance =
       steps_of(data.distance, &StillSample::z_m, &StillSample::z_est_m, &StillSample::true_z_m);
-  const auto yaw =
-      steps_of(data.yaw, &StillSample::yaw_rad, &StillSample::yaw_est_rad, &StillSample::true_yaw_rad, kDeg);
+  const auto yaw = steps_of(data.yaw, &StillSample::yaw_rad, &StillSample::yaw_est_rad,
+                            &StillSample::true_yaw_rad, kDegPerRad);
   const auto said = [](const char* name, const std::string& breaks) {
     return std::string(name) + ": " + (breaks.empty() ? "yes" : breaks);
   };
@@ -121,11 +121,11 @@ std::string yaw_goals(const ExperimentData& data) {
     };
   };
   const ErrorBin all = error_bin("", 0.0, undisturbed, within(kGoalYawRange_rad));
-  const ErrorBin ahead = error_bin("", 0.0, undisturbed, within(20.0 / kDeg));
+  const ErrorBin ahead = error_bin("", 0.0, undisturbed, within(20.0 / kDegPerRad));
   rows += goal_row("mean absolute yaw error, 1 to 4 m, up to 60 degrees", "at most 2 degrees",
-                   printed("%.2f degrees (up to 20 degrees: %.2f)", kDeg * all.yaw_mean_abs_rad,
-                           kDeg * ahead.yaw_mean_abs_rad),
-                   kDeg * all.yaw_mean_abs_rad <= kGoalYaw_deg);
+                   printed("%.2f degrees (up to 20 degrees: %.2f)", kDegPerRad * all.yaw_mean_abs_rad,
+                           kDegPerRad * ahead.yaw_mean_abs_rad),
+                   kDegPerRad * all.yaw_mean_abs_rad <= kGoalYaw_deg);
   rows += goal_row("sign flips of a back turned by 10 degrees or more", "below 0.1 %",
                    printed("%zu of %zu (%.2f %%)", all.flips, all.signed_pictures,
                            percent(all.flips, all.signed_pictures)),

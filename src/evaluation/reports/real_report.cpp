@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "evaluation/reports/csv_table.h"
-#include "evaluation/reports/plot.h"
 
 namespace heel::evaluation {
 namespace {
@@ -62,24 +61,6 @@ std::string video_text(const std::string& path) {
 std::string real_section(const std::string& directory) {
   return "## Real pictures\n\n" + pairs_text(directory + "/real_pairs.csv") + "\n" +
          video_text(directory + "/real_video.csv");
-}
-
-cv::Mat video_figure(const std::string& directory) {
-  const std::string path = directory + "/real_video.csv";
-  if (!std::filesystem::exists(path)) return {};
-  const CsvTable table(path);
-  Series certainty{"certainty", cv::Scalar(170, 80, 20), {}, 1.2, false};
-  for (std::size_t i = 0; i < table.rows(); ++i)
-    certainty.points.emplace_back(table.number(i, "frame"), table.number(i, "certainty"));
-  const double last = certainty.points.empty() ? 1.0 : certainty.points.back().x;
-  const Series reliable{"0.1: reliable", cv::Scalar(150, 150, 150), {{0.0, 0.1}, {last, 0.1}}, 1.2, false};
-  return plot({"A real back in a real video: in view whole from frame 950 to 1170",
-               "frame",
-               "certainty",
-               false,
-               true,
-               {0.0, last}},
-              {reliable, certainty}, 900, 300);
 }
 
 }  // namespace heel::evaluation

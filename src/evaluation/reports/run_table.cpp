@@ -6,7 +6,6 @@
 
 #include "core/angles.h"
 #include "evaluation/reports/still_samples.h"
-#include "evaluation/reports/style.h"
 
 namespace heel::evaluation {
 namespace {
@@ -91,9 +90,9 @@ std::string worlds_table(const std::vector<RunLine>& pictured, const std::vector
           "%+.1f ± %.1f deg |\n",
           a.name.c_str(), a.metrics.lateral_m.rms, b.metrics.lateral_m.rms, a.metrics.separation_m.mean,
           b.metrics.separation_m.mean, a.metrics.robot_path_m, b.metrics.robot_path_m, found(a), found(b),
-          a.metrics.certainty.p50, b.metrics.certainty.p50, kDeg * a.metrics.yaw_error_rad.mean,
-          kDeg * a.metrics.yaw_error_rad.deviation, kDeg * b.metrics.yaw_error_rad.mean,
-          kDeg * b.metrics.yaw_error_rad.deviation);
+          a.metrics.certainty.p50, b.metrics.certainty.p50, kDegPerRad * a.metrics.yaw_error_rad.mean,
+          kDegPerRad * a.metrics.yaw_error_rad.deviation, kDegPerRad * b.metrics.yaw_error_rad.mean,
+          kDegPerRad * b.metrics.yaw_error_rad.deviation);
       rows += row;
     }
   if (rows.empty()) return rows;

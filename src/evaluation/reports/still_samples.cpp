@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <map>
 
 #include "core/angles.h"
 #include "evaluation/metrics/metrics.h"
+#include "evaluation/reports/csv_file.h"
 #include "evaluation/reports/csv_table.h"
-#include "evaluation/reports/style.h"
-#include "heel/error.h"
 
 namespace heel::evaluation {
 namespace {
@@ -110,17 +107,16 @@ std::vector<Step> steps_of(const std::vector<StillSample>& samples, Member at, M
 }
 
 void write_steps(const std::vector<Step>& steps, const std::string& unit, const std::string& path) {
-  std::ofstream file(path);
-  file << "commanded,pictures,found,true_" << unit << ",mean_" << unit << ",deviation_" << unit
-       << ",mean_abs_error_" << unit << ",certainty_mean,certainty_p05,certainty_p95\n";
+  CsvFile file(path, "commanded,pictures,found,true_" + unit + ",mean_" + unit + ",deviation_" + unit +
+                         ",mean_abs_error_" + unit + ",certainty_mean,certainty_p05,certainty_p95");
   for (const Step& s : steps) {
-    char line[240];
-    std::snprintf(line, sizeof line, "%.4f,%zu,%zu,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f\n", s.at, s.pictures,
-                  s.found, s.truth, s.mean, s.deviation, s.mean_abs_error, s.certainty_mean, s.certainty_low,
-                  s.certainty_high);
-    file << line;
+    file.number(s.at, 4).count(s.pictures).count(s.found);
+    for (const double value : {s.truth, s.mean, s.deviation, s.mean_abs_error, s.certainty_mean,
+                               s.certainty_low, s.certainty_high})
+      file.number(value, 4);
+    file.end_row();
   }
-  if (!file.flush()) throw Error(path + ": cannot write (expected a writable folder)");
+  file.close();
 }
 
 }  // namespace heel::evaluation

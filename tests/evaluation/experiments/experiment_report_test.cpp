@@ -1,4 +1,4 @@
-// Figures and tables of experiments, from rows whose figures are worked out by hand.
+// Numbers and tables of experiments, from rows whose figures are worked out by hand.
 #include "evaluation/reports/experiment_report.h"
 
 #include <gmock/gmock.h>
@@ -6,15 +6,16 @@
 
 #include <cmath>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
+#include <nlohmann/json.hpp>
 
+#include "core/angles.h"
 #include "evaluation/experiments/still_file.h"
+#include "evaluation/reports/csv_table.h"
 #include "evaluation/reports/error_statistics.h"
 #include "evaluation/reports/fit_rows.h"
 #include "evaluation/reports/paper_comparison.h"
-#include "evaluation/reports/paper_figures.h"
+#include "evaluation/reports/paper_numbers.h"
 #include "evaluation/reports/run_table.h"
-#include "heel/error.h"
 #include "support/temporary_folder.h"
 
 namespace heel {
@@ -130,7 +131,7 @@ TEST(Comparison, RSquaredAndMonotony) {
               HasSubstr("found in fewer than half of the pictures at 2 m"));
 }
 
-TEST(ExperimentReport, DrawsWhatThereIsAndSaysHowGoodItIs) {
+TEST(ExperimentReport, WritesTheNumbersOfWhatThereIsAndSaysHowGoodItIs) {
   const TemporaryFolder folder;
   const std::string directory = folder.path().string();
   EXPECT_FALSE(evaluation::holds_experiments(directory));
@@ -143,10 +144,16 @@ TEST(ExperimentReport, DrawsWhatThereIsAndSaysHowGoodItIs) {
   const std::string summary = evaluation::report_experiments(directory);
   EXPECT_THAT(summary, HasSubstr("R2 1.00000 | yes"));
   EXPECT_THAT(summary, HasSubstr("wrong above 0.1: 6.2 % of 16"));
-  for (const char* name : {"fig2_t_x.png", "fig4_yaw.png", "fig5_yaw_over_x.png"})
-    EXPECT_FALSE(cv::imread(folder.file(name)).empty()) << name;
-  EXPECT_TRUE(std::filesystem::exists(folder.file("fig4_yaw.csv")));
-  EXPECT_FALSE(std::filesystem::exists(folder.file("fig3_t_z.png"))) << "no such rows";
+  for (const char* name : {"fig2_t_x", "fig4_yaw", "fig5_yaw_over_x"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder.file(std::string(name) + ".csv"))) << name;
+    EXPECT_THAT(summary, HasSubstr("](" + std::string(name) + ".png)"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.file("fig3_t_z.csv"))) << "no such rows";
+  const evaluation::CsvTable steps(folder.file("fig5_yaw_over_x.csv"));
+  ASSERT_EQ(steps.rows(), 9U);
+  EXPECT_NEAR(steps.number(8, "commanded"), 0.8, 1e-9);
+  EXPECT_EQ(steps.number(8, "found"), 1.0);
+  EXPECT_NEAR(steps.number(8, "mean_deg"), kDegPerRad * 0.01, 1e-3);
 }
 
 TEST(FitRows, TellConditionsAndErrorsOfWhatWasSeen) {
@@ -207,17 +214,78 @@ TEST(RunTable, CountsLossesAndHowLongTheyLasted) {
               HasSubstr("| made up | 0.000, 0.000 m | 2.00, 2.00 m |"));
 }
 
-TEST(ExperimentReport, AMissingPictureOfAHardCaseIsNamed) {
+TEST(ErrorNumbers, ABinKnowsItsUnitAndMiddleAndACellItsBounds) {
   const TemporaryFolder folder;
-  StillRow row = row_at(0, 2, 0, 0);
-  row.picture = 1;
-  evaluation::write_stills({row}, folder.file("hard.csv"));
-  try {
-    evaluation::hard_figure(folder.path().string());
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("hard/000.png: cannot read (expected the picture of"));
+  // Straight ahead, 10.3° to the line of sight.
+  const auto samples = written_and_read({row_at(0, 1.6, 0.18, 0.02), row_at(0, 1.7, 0.18, 0.04),
+                                         row_at(0, 2.1, 0.18, -0.03), row_at(0, 2.1, -1.0, 0.0)});
+  evaluation::write_errors(evaluation::error_curves(samples), folder.file("curves.csv"));
+  const evaluation::CsvTable curves(folder.file("curves.csv"));
+  EXPECT_EQ(curves.text(0, "condition"), "distance");
+  EXPECT_EQ(curves.text(0, "unit"), "m");
+  EXPECT_EQ(curves.text(0, "bin"), "1.5 ... 2 m");
+  EXPECT_NEAR(curves.number(0, "middle"), 1.75, 1e-9);
+  EXPECT_EQ(curves.number(0, "pictures"), 2.0);
+  EXPECT_NEAR(curves.number(0, "yaw_mean_deg"), kDegPerRad * 0.03, 1e-3);
+
+  evaluation::write_error_map(samples, folder.file("map.csv"));
+  const evaluation::CsvTable map(folder.file("map.csv"));
+  ASSERT_EQ(map.rows(), 9U * 10U);
+  const std::size_t cell = 1 * 10 + 5;
+  EXPECT_NEAR(map.number(cell, "distance_from_m"), 1.5, 1e-9);
+  EXPECT_NEAR(map.number(cell, "distance_to_m"), 2.0, 1e-9);
+  EXPECT_EQ(map.number(cell, "angle_from_deg"), 0.0);
+  EXPECT_EQ(map.number(cell, "angle_to_deg"), 15.0);
+  EXPECT_EQ(map.number(cell, "found"), 2.0);
+  EXPECT_NEAR(map.number(cell, "yaw_mean_abs_deg"), kDegPerRad * 0.03, 1e-3);
+  double pictures = 0;
+  for (std::size_t i = 0; i < map.rows(); ++i) pictures += map.number(i, "pictures");
+  EXPECT_EQ(pictures, 4.0);
+}
+
+/// A person who walks along x at 0.5 m/s, and a robot that drives beside the line at a constant heading.
+evaluation::MetricsCollector straight_run(double beside_m, double heading_rad) {
+  evaluation::MetricsCollector run;
+  for (int i = 0; i <= 40; ++i) {
+    evaluation::MotionSample sample;
+    sample.t_s = 0.1 * i;
+    sample.has_person = true;
+    sample.person = {0.05 * i, 0.0, 0.0};
+    sample.person_speed_m_s = 0.5;
+    sample.robot = {0.05 * i - 2.0, beside_m, heading_rad};
+    run.add(sample);
   }
+  return run;
+}
+
+TEST(PaperNumbers, TheResponseIsMeasuredAgainstThePersonsLine) {
+  const TemporaryFolder folder;
+  evaluation::write_response(folder.path().string(), straight_run(0.6, -0.5));
+  const evaluation::CsvTable rows(folder.file("fig7_response.csv"));
+  ASSERT_EQ(rows.rows(), 41U);
+  EXPECT_EQ(rows.number(0, "driven_m"), 0.0);
+  EXPECT_NEAR(rows.number(40, "driven_m"), 2.0, 1e-6);
+  EXPECT_NEAR(rows.number(40, "offset_m"), 0.6, 1e-9);
+  EXPECT_NEAR(rows.number(40, "heading_deg"), kDegPerRad * -0.5, 1e-3);
+  EXPECT_NEAR(rows.number(40, "person_x_m"), 2.0, 1e-9);
+}
+
+TEST(PaperNumbers, TheWalkStandsBesideTheRunThatFollowsThePositionOnly) {
+  const TemporaryFolder folder;
+  const auto run = straight_run(0.1, 0.0), position_only = straight_run(0.3, 0.0);
+  const auto json = [&] { return nlohmann::json::parse(test::read_text(folder.file("fig8_walk.json"))); };
+  evaluation::write_walk(folder.path().string(), run, nullptr);
+  EXPECT_EQ(evaluation::CsvTable(folder.file("fig8_walk.csv")).rows(), 41U);
+  EXPECT_FALSE(json().contains("position_only_rms_m"));
+  evaluation::write_walk(folder.path().string(), run, &position_only);
+  const evaluation::CsvTable rows(folder.file("fig8_walk.csv"));
+  ASSERT_EQ(rows.rows(), 82U);
+  EXPECT_EQ(rows.text(40, "run"), "walk");
+  EXPECT_EQ(rows.text(41, "run"), "walk-position-only");
+  EXPECT_NEAR(rows.number(41, "robot_y_m"), 0.3, 1e-9);
+  EXPECT_NEAR(json().at("person_path_m").get<double>(), 2.0, 1e-9);
+  EXPECT_NEAR(json().at("following_rms_m").get<double>(), 0.1, 1e-9);
+  EXPECT_NEAR(json().at("position_only_rms_m").get<double>(), 0.3, 1e-9);
 }
 
 }  // namespace

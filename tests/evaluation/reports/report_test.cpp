@@ -8,6 +8,7 @@
 
 #include "evaluation/reports/run_files.h"
 #include "evaluation/reports/synthetic_run.h"
+#include "support/environment.h"
 #include "tools/heel/run_heel.h"
 
 namespace heel {
@@ -22,7 +23,9 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
+/// Without drawing: figures_test.cpp is about that.
 Outcome report(const TemporaryFolder& folder, const std::vector<std::string>& options = {}) {
+  const test::ScopedEnvironment plots("HEEL_PLOTS", "/bin/true");
   std::vector<std::string> arguments{"report", folder.path().string()};
   arguments.insert(arguments.end(), options.begin(), options.end());
   return run_heel(folder, arguments);

@@ -8,8 +8,14 @@
 #pragma once
 
 #include <cstdio>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <vector>
 
+#include "files/template_file.h"
+#include "heel/shirt_template.h"
 #include "support/temporary_folder.h"
 
 namespace heel::test {
@@ -67,6 +73,24 @@ inline void write_run(const TemporaryFolder& folder) {
   write_text(folder.file("truth.csv"), truth_csv());
   write_text(folder.file("ticks.csv"), ticks_csv());
   write_text(folder.file("poses.csv"), poses_csv());
+}
+
+/// Kept frames of these numbers, each a little brighter than the one before, and a template whose region is
+/// known. Every homography of the run is the identity.
+inline void keep_frames(const TemporaryFolder& folder, const std::vector<int>& numbers) {
+  ShirtTemplate shirt;
+  shirt.camera = {.width_px = 320, .height_px = 240, .fx = 300, .fy = 300, .cx = 160, .cy = 120};
+  shirt.grey.assign(320 * 240, 128);
+  shirt.roi = {.x_px = 100, .y_px = 60, .width_px = 120, .height_px = 90};
+  shirt.distance_m = 1.5;
+  write_template(shirt, folder.file("shirt.heel"));
+  std::filesystem::create_directory(folder.file("frames"));
+  double grey = 10.0;
+  for (const int number : numbers) {
+    cv::imwrite(folder.file("frames/" + printed("%06d.png", number)),
+                cv::Mat(240, 320, CV_8U, cv::Scalar::all(grey)));
+    grey += 10.0;
+  }
 }
 
 }  // namespace heel::test

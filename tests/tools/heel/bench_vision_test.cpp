@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "files/camera_info.h"
+#include "support/figure.h"
 #include "support/sanitized.h"
 #include "tools/heel/printed_shirt.h"
 #include "tools/heel/run_heel.h"
@@ -107,7 +108,8 @@ TEST(BenchVision, AnotherSizeHasNoGoalsAndCanBeDrawn) {
   EXPECT_EQ(json["settings"]["height_px"], 300);
   EXPECT_TRUE(json["figures"]["search"]["goal"].is_null());
   EXPECT_TRUE(json["cost_models"].empty());
-  EXPECT_EQ(cv::imread(picture).cols, 1100);
+  test::expect_figure(folder.file("bench"), {1320, 900});
+  EXPECT_EQ(ordered_json::parse(test::read_text(folder.file("bench.json"))), json);
 }
 
 TEST(BenchVision, MeasuresOnesOwnPictures) {

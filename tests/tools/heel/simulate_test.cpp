@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "support/environment.h"
+#include "support/figure.h"
 #include "support/sanitized.h"
 #include "tools/heel/run_heel.h"
 
@@ -65,14 +67,21 @@ TEST_F(Simulate, AFolderGivesATableAndPictures) {
                              HasSubstr("b_check              refused: ")));
   EXPECT_EQ(run.out.find(test::read_text(out + "/table.txt")), 0U);
   EXPECT_LT(run.out.find("a_walk"), run.out.find("b_check"));
-  for (const char* file : {"/overview.png", "/a_walk/path.png", "/a_walk/errors.png", "/a_walk/frames.png"})
-    EXPECT_FALSE(cv::imread(out + file).empty()) << file;
+  test::expect_figure(out + "/a_walk/path", {1200, 810});
+  test::expect_figure(out + "/a_walk/errors", {1200, 1530});
+  EXPECT_EQ(cv::imread(out + "/a_walk/frames.png").cols, 1620);
+  EXPECT_EQ(cv::imread(out + "/overview.png").cols, 1650);
+  const auto overview = nlohmann::json::parse(test::read_text(out + "/overview.json"));
+  ASSERT_EQ(overview.size(), 2U);
+  EXPECT_EQ(overview[0].at("shows"), "what a_walk is hard by");
+  EXPECT_TRUE(overview[1].contains("refused"));
   EXPECT_TRUE(std::filesystem::exists(out + "/a_walk/truth.csv"));
   EXPECT_FALSE(std::filesystem::exists(out + "/b_check"));
 }
 
 TEST_F(Simulate, SeveralGiveAListAndALimitThatIsNotMetNamesItsScenario) {
   if (test::kThreadSanitizer) GTEST_SKIP() << "the lock-step tests run the same threads for a shorter time";
+  const test::ScopedEnvironment plots("HEEL_PLOTS", "/bin/true");  // drawing is no matter here
   const Outcome run =
       simulate({scenario("one"), scenario("two"), "--json", "--min-path-m", "50", "-o", folder_.file("out")});
   EXPECT_EQ(run.status, 1);

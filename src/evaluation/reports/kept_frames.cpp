@@ -1,14 +1,15 @@
-// A contact sheet of kept frames with the quadrilateral the homography recovers.
+// Which of the camera pictures a run kept are shown, and the quadrilateral the homography recovers in each.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
+#include "core/angles.h"
+#include "evaluation/reports/csv_file.h"
 #include "evaluation/reports/csv_table.h"
-#include "evaluation/reports/figures.h"
+#include "evaluation/reports/run_numbers.h"
 #include "files/template_file.h"
 #include "heel/shirt_template.h"
 
@@ -17,40 +18,22 @@ namespace {
 
 constexpr std::size_t kColumns = 4;
 constexpr std::size_t kMostTiles = 12;
-constexpr int kTileWidth = 400;
 
 /// The template's region carried into the frame; distorted pixels.
-std::vector<cv::Point> quadrilateral(const ShirtTemplate& shirt, const CsvTable& poses, std::size_t row) {
+std::array<Eigen::Vector2d, 4> quadrilateral(const ShirtTemplate& shirt, const CsvTable& poses,
+                                             std::size_t row) {
   Eigen::Matrix3d H;
   for (int i = 0; i < 9; ++i) H(i / 3, i % 3) = poses.number(row, "H_cur_from_ref_" + std::to_string(i));
   const Region& roi = shirt.roi;
-  const std::array<Eigen::Vector2d, 4> corners{
-      Eigen::Vector2d(roi.x_px, roi.y_px), Eigen::Vector2d(roi.x_px + roi.width_px, roi.y_px),
-      Eigen::Vector2d(roi.x_px + roi.width_px, roi.y_px + roi.height_px),
-      Eigen::Vector2d(roi.x_px, roi.y_px + roi.height_px)};
-  std::vector<cv::Point> out;
-  for (const Eigen::Vector2d& corner : corners) {
+  std::array<Eigen::Vector2d, 4> corners{Eigen::Vector2d(roi.x_px, roi.y_px),
+                                         Eigen::Vector2d(roi.x_px + roi.width_px, roi.y_px),
+                                         Eigen::Vector2d(roi.x_px + roi.width_px, roi.y_px + roi.height_px),
+                                         Eigen::Vector2d(roi.x_px, roi.y_px + roi.height_px)};
+  for (Eigen::Vector2d& corner : corners) {
     const Eigen::Vector3d p = H * shirt.camera.undistort_px(corner).homogeneous();
-    const Eigen::Vector2d px = shirt.camera.distort_px(p.hnormalized());
-    out.emplace_back(static_cast<int>(px.x()), static_cast<int>(px.y()));
+    corner = shirt.camera.distort_px(p.hnormalized());
   }
-  return out;
-}
-
-cv::Mat tile(const cv::Mat& frame, const ShirtTemplate& shirt, const CsvTable& poses, std::size_t row) {
-  cv::Mat out = frame.clone();
-  char text[80] = "not found";
-  if (poses.number(row, "found") != 0.0) {
-    cv::polylines(out, quadrilateral(shirt, poses, row), true, cv::Scalar(60, 220, 60), 3, cv::LINE_AA);
-    std::snprintf(text, sizeof text, "yaw %+.1f deg   certainty %.2f",
-                  57.29578 * poses.number(row, "yaw_rad"), poses.number(row, "certainty"));
-  }
-  cv::rectangle(out, {0, out.rows - 34}, {out.cols, out.rows}, cv::Scalar::all(0), cv::FILLED);
-  cv::putText(out, text, {10, out.rows - 10}, cv::FONT_HERSHEY_SIMPLEX, 0.7, cv::Scalar::all(255), 2,
-              cv::LINE_AA);
-  cv::resize(out, out, {kTileWidth, kTileWidth * frame.rows / frame.cols}, 0, 0, cv::INTER_AREA);
-  cv::copyMakeBorder(out, out, 2, 2, 2, 2, cv::BORDER_CONSTANT, cv::Scalar::all(255));
-  return out;
+  return corners;
 }
 
 struct KeptFrame {
@@ -91,21 +74,27 @@ std::vector<KeptFrame> chosen_frames(const std::vector<KeptFrame>& frames) {
 
 }  // namespace
 
-cv::Mat frames_figure(const std::string& directory) {
+void write_kept_frames(const std::string& directory, double t_begin_s) {
   namespace fs = std::filesystem;
-  if (!fs::is_directory(directory + "/frames") || !fs::exists(directory + "/shirt.heel")) return {};
+  if (!fs::is_directory(directory + "/frames") || !fs::exists(directory + "/shirt.heel")) return;
   const ShirtTemplate shirt = read_template(directory + "/shirt.heel");
   const CsvTable poses(directory + "/poses.csv");
-  std::vector<cv::Mat> tiles;
-  for (const KeptFrame& kept : chosen_frames(usable_frames(directory + "/frames", poses, shirt.camera)))
-    tiles.push_back(tile(cv::imread(kept.file.string(), cv::IMREAD_COLOR), shirt, poses, kept.row));
-  if (tiles.empty()) return {};
-  const std::size_t columns = std::min(kColumns, tiles.size());
-  std::vector<cv::Mat> rows(tiles.size() / columns);
-  for (std::size_t i = 0; i < rows.size(); ++i) cv::hconcat(&tiles[i * columns], columns, rows[i]);
-  cv::Mat sheet;
-  cv::vconcat(rows, sheet);
-  return sheet;
+  CsvFile file(directory + "/frames.csv",
+               "file,t_s,found,yaw_deg,certainty,corner_0_x_px,corner_0_y_px,corner_1_x_px,corner_1_y_px,"
+               "corner_2_x_px,corner_2_y_px,corner_3_x_px,corner_3_y_px");
+  for (const KeptFrame& kept : chosen_frames(usable_frames(directory + "/frames", poses, shirt.camera))) {
+    const bool found = poses.number(kept.row, "found") != 0.0;
+    file.text("frames/" + kept.file.filename().string());
+    file.number(poses.number(kept.row, "t_s") - t_begin_s, 3).count(found ? 1 : 0);
+    file.number(found ? kDegPerRad * poses.number(kept.row, "yaw_rad") : kNoValue, 2);
+    file.number(found ? poses.number(kept.row, "certainty") : 0.0, 4);
+    std::array<Eigen::Vector2d, 4> corners;
+    corners.fill(Eigen::Vector2d(kNoValue, kNoValue));
+    if (found) corners = quadrilateral(shirt, poses, kept.row);
+    for (const Eigen::Vector2d& corner_px : corners) file.number(corner_px.x(), 2).number(corner_px.y(), 2);
+    file.end_row();
+  }
+  file.close();
 }
 
 }  // namespace heel::evaluation
