@@ -6,13 +6,14 @@
 #include <array>
 #include <cmath>
 #include <cstdarg>
+#include <cstdint>
 #include <cstdio>
-#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
 #include "heel/matching.h"
 #include "heel/shirt_template.h"
+#include "vision/template/half_size.h"
 
 namespace heel {
 namespace {
@@ -23,7 +24,7 @@ constexpr int kMaxOctaves = 4;
 constexpr float kLargestSigmaOfFirstOctave_px = 3.2f;  // doubles with every octave
 
 constexpr int kRehearsalFeatures = 1000;  // as many as a frame has
-constexpr double kFarScale = 0.5;         // a view from twice the distance
+constexpr double kFarScale = 0.5;         // half_size: a view from twice the distance
 constexpr float kTwinDistance = 0.3f;
 
 // What a template must have. Eight inliers are the least that vision takes for a shirt (vision.min_inliers).
@@ -47,12 +48,12 @@ FeatureSettings template_settings(const ShirtTemplate& shirt) {
   return settings;
 }
 
-FrameView view_of(const std::uint8_t* grey, int width_px, int height_px, std::size_t stride_bytes) {
+FrameView view_of(const std::uint8_t* grey, int width_px, int height_px) {
   FrameView view;
   view.header.width_px = static_cast<std::uint32_t>(width_px);
   view.header.height_px = static_cast<std::uint32_t>(height_px);
   view.grey = grey;
-  view.stride_bytes = static_cast<std::uint32_t>(stride_bytes);
+  view.stride_bytes = view.header.width_px;
   return view;
 }
 
@@ -97,29 +98,26 @@ double twin_share(const FeatureSet& set) {
   return static_cast<double>(twins) / static_cast<double>(std::max<std::size_t>(set.features.size(), 1));
 }
 
-/// How many of the template's features are found again, and matched to the right ones, in the same view at
-/// `scale`. Only the region is searched: what else a frame would show is not known here.
-int recognised_at(double scale, const ShirtTemplate& shirt, const FeatureSet& taught) {
-  const cv::Mat whole(shirt.camera.height_px, shirt.camera.width_px, CV_8UC1,
-                      const_cast<std::uint8_t*>(shirt.grey.data()));
-  cv::Mat smaller;
-  cv::resize(whole, smaller, {}, scale, scale, cv::INTER_AREA);
-  const double scale_x = static_cast<double>(smaller.cols) / whole.cols;
-  const double scale_y = static_cast<double>(smaller.rows) / whole.rows;
-  const Region region{static_cast<int>(shirt.roi.x_px * scale_x), static_cast<int>(shirt.roi.y_px * scale_y),
-                      static_cast<int>(std::ceil(shirt.roi.width_px * scale_x)),
-                      static_cast<int>(std::ceil(shirt.roi.height_px * scale_y))};
+/// How many of the template's features are found again, and matched to the right ones, in the same view from
+/// twice the distance. Only the region is searched: what else a frame would show is not known here.
+int recognised_from_twice_the_distance(const ShirtTemplate& shirt, const FeatureSet& taught) {
+  const HalfSizeImage half = half_size(shirt.grey, shirt.camera.width_px, shirt.camera.height_px);
+  const Region region{static_cast<int>(shirt.roi.x_px * kFarScale),
+                      static_cast<int>(shirt.roi.y_px * kFarScale),
+                      static_cast<int>(std::ceil(shirt.roi.width_px * kFarScale)),
+                      static_cast<int>(std::ceil(shirt.roi.height_px * kFarScale))};
   FeatureSettings settings = template_settings(shirt);
   settings.max_features = kRehearsalFeatures;
   FeatureSet seen;
-  FeatureExtractor(smaller.cols, smaller.rows, settings)
-      .extract(view_of(smaller.data, smaller.cols, smaller.rows, smaller.step), region, seen);
+  FeatureExtractor(half.width_px, half.height_px, settings)
+      .extract(view_of(half.grey.data(), half.width_px, half.height_px), region, seen);
 
   const auto same = [&](const Feature& ref, const Feature& cur) {
-    const double dx = (ref.x_px + 0.5) * scale_x - 0.5 - cur.x_px;
-    const double dy = (ref.y_px + 0.5) * scale_y - 0.5 - cur.y_px;
-    const double ratio = cur.sigma_px / (ref.sigma_px * scale);
-    return std::hypot(dx, dy) < std::max(1.0, 0.7 * ref.sigma_px * scale) && ratio > 0.6 && ratio < 1.7;
+    const double dx_px = (ref.x_px + 0.5) * kFarScale - 0.5 - cur.x_px;
+    const double dy_px = (ref.y_px + 0.5) * kFarScale - 0.5 - cur.y_px;
+    const double ratio = cur.sigma_px / (ref.sigma_px * kFarScale);
+    return std::hypot(dx_px, dy_px) < std::max(1.0, 0.7 * ref.sigma_px * kFarScale) && ratio > 0.6 &&
+           ratio < 1.7;
   };
   std::vector<Match> matches;
   Matcher(static_cast<int>(taught.features.size()), kRehearsalFeatures, MatchSettings{})
@@ -180,9 +178,7 @@ std::string objection(const ShirtTemplate& shirt, const TemplateVerdict& verdict
 FeatureSet template_features(const ShirtTemplate& shirt) {
   FeatureSet set;
   FeatureExtractor(shirt.camera.width_px, shirt.camera.height_px, template_settings(shirt))
-      .extract(view_of(shirt.grey.data(), shirt.camera.width_px, shirt.camera.height_px,
-                       static_cast<std::size_t>(shirt.camera.width_px)),
-               shirt.roi, set);
+      .extract(view_of(shirt.grey.data(), shirt.camera.width_px, shirt.camera.height_px), shirt.roi, set);
   return set;
 }
 
@@ -193,7 +189,8 @@ TemplateVerdict judge_template(const ShirtTemplate& shirt) {
   if (verdict.features > 0) {
     verdict.spread = spread_of(taught, shirt.roi);
     verdict.self_similarity = twin_share(taught);
-    verdict.coarse_share = static_cast<double>(recognised_at(kFarScale, shirt, taught)) / verdict.features;
+    verdict.coarse_share =
+        static_cast<double>(recognised_from_twice_the_distance(shirt, taught)) / verdict.features;
   }
   verdict.reason = objection(shirt, verdict);
   verdict.usable = verdict.reason.empty();
