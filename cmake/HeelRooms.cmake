@@ -56,7 +56,7 @@ function(heel_room name)
   heel_library_of_room(${name} target)
   add_library(${target} STATIC ${sources})
   target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include> $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>)
+    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include> $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:heel_options>)
   foreach(room IN LISTS rooms)
     foreach(other IN LISTS HEEL_ROOM_${room}_ROOMS)

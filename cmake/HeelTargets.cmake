@@ -60,3 +60,14 @@ function(heel_test name)
     gtest_discover_tests(${name} PROPERTIES ${properties} DISCOVERY_TIMEOUT 60)
   endif()
 endfunction()
+
+# heel_python_test(NAME FILE [LABELS …] [TIMEOUT …]): the unittest cases of a Python file, as one ctest entry.
+function(heel_python_test name file)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  add_test(NAME ${name} COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/${file} -v)
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}" ENVIRONMENT
+    "PYTHONDONTWRITEBYTECODE=1;HEEL_SOURCE_DIR=${CMAKE_SOURCE_DIR};HEEL_BUILD_DIR=${CMAKE_BINARY_DIR};HEEL_CMAKE=${CMAKE_COMMAND};HEEL_CXX=${CMAKE_CXX_COMPILER}")
+endfunction()

@@ -1,0 +1,28 @@
+# find_package(heel [COMPONENTS vision arcos]): heel::vision (Eigen and Highway) and heel::arcos (needs nothing).
+if(NOT heel_FIND_COMPONENTS)
+  set(heel_FIND_COMPONENTS vision arcos)
+endif()
+
+foreach(component IN LISTS heel_FIND_COMPONENTS)
+  if(NOT component MATCHES "^(vision|arcos)$")
+    set(heel_FOUND FALSE)
+    set(heel_NOT_FOUND_MESSAGE "heel has no component '${component}' (expected vision or arcos)")
+    return()
+  endif()
+endforeach()
+
+include(CMakeFindDependencyMacro)
+if("vision" IN_LIST heel_FIND_COMPONENTS)
+  find_dependency(Eigen3 3.4 NO_MODULE)
+  find_dependency(PkgConfig)
+  pkg_check_modules(HWY QUIET IMPORTED_TARGET libhwy)
+  if(NOT HWY_FOUND)
+    set(heel_FOUND FALSE)
+    set(heel_NOT_FOUND_MESSAGE "heel::vision needs Highway: pkg-config finds no libhwy (Debian: libhwy-dev)")
+    return()
+  endif()
+endif()
+
+foreach(component IN LISTS heel_FIND_COMPONENTS)
+  include(${CMAKE_CURRENT_LIST_DIR}/heel-${component}-targets.cmake)
+endforeach()
