@@ -1,5 +1,5 @@
-// Reads a configuration file: TOML, checked against the table of keys. All that is wrong with a file is said
-// at once, a line each: "heel.toml:12:8: control.gain_yaw_1_s: 'fast' is not …".
+// Reads a configuration file: TOML, checked against the table of keys. Every error in a file is reported at
+// once, one line each: "heel.toml:12:8: control.gain_yaw_1_s: is 'fast', expected …".
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace heel {
 
-/// Every complaint about a file; what() holds them all, a line each.
+/// All errors of a file; what() holds all of them, one line each.
 class ConfigError : public Error {
  public:
   explicit ConfigError(std::vector<std::string> lines);
@@ -27,12 +27,12 @@ struct LoadedConfig {
   std::vector<int> line_of;  ///< in the order of config_keys(): the line that sets the key; 0: default
 };
 
-/// Throws ConfigError. Relative paths in the file are resolved against the file's folder, defaults included.
+/// Throws ConfigError. Relative paths, those of default values included, start at the file's folder.
 LoadedConfig load_config(const std::string& path);
-/// As load_config, from text; `file` is the name used in complaints and for its folder.
+/// The same from text; `file` stands for the file's name in errors and for its folder.
 LoadedConfig parse_config(std::string_view text, const std::string& file);
 
-/// Full names of keys whose values differ between the two but that cannot be reloaded.
+/// The full names of keys that differ between the two and cannot be reloaded.
 std::vector<std::string> keys_needing_restart(const Config& before, const Config& after);
 
 }  // namespace heel

@@ -1,4 +1,4 @@
-// The name a person most likely meant.
+// The known name that is nearest to a mistyped one.
 #pragma once
 
 #include <cstddef>

@@ -1,13 +1,10 @@
 // Every configuration key, once: name, type (by the member it fills), unit, range, reload, effect.
 #include "config/config_table.h"
 
-#include <array>
-#include <charconv>
-
 namespace heel {
 namespace {
 
-// Names the key after the member it fills, so that the two cannot drift apart.
+// A key has the name of the member it fills, so that the two always agree.
 #define HEEL_KEY(section, name) #section, #name, [](Config & c) { return &c.section.name; }
 
 using enum Reload;
@@ -42,111 +39,113 @@ constexpr ConfigKey address(Name section, Name name, std::string* (*field)(Confi
 }
 
 constexpr ConfigSection kSections[] = {
-    {"camera", "The camera and where it sits on the robot."},
-    {"target", "Whom to follow."},
-    {"vision", "From a frame to the pose of the shirt."},
-    {"estimate", "The person in the odometry frame."},
-    {"control", "The paper's proportional controller; set points are zero for the template's own view."},
-    {"supervisor", "When the robot must rest."},
-    {"gate", "The last look before the wire."},
-    {"robot", "The line to the P3-AT and the limits its own controller is given."},
-    {"telemetry", "What is kept of a run."},
-    {"runtime", "The process."},
+    {"camera", "The camera and its position on the robot."},
+    {"target", "The person to follow."},
+    {"vision", "The estimation of the shirt's pose in each frame."},
+    {"estimate", "The estimate of the person's pose in the odometry frame."},
+    {"control",
+     "The proportional controller of the paper; with set points of zero the robot takes the view of the "
+     "template."},
+    {"supervisor", "The conditions under which the robot must be at rest."},
+    {"gate", "The limits of every command that is sent to the robot."},
+    {"robot", "The line to the P3-AT, and the limits set in the robot's own controller."},
+    {"telemetry", "The recording of a run."},
+    {"runtime", "The process: log, start-up and real-time priorities."},
 };
 
 // clang-format off
 const ConfigKey kKeys[] = {
     address(HEEL_KEY(camera, source), "v4l2|libcamera|file|sim",
             "Where frames come from: v4l2:DEVICE, libcamera:ID, file:VIDEO-OR-FOLDER or sim:NAME."),
-    path(HEEL_KEY(camera, info), "The camera's calibration: camera_info YAML as ROS and `heel calibrate` write it."),
-    choice(HEEL_KEY(camera, format), "auto|YUYV|GREY|NV12|RGB3|BGR3|MJPG", No, "Pixel format asked of the driver; auto takes the cheapest it offers."),
-    number(HEEL_KEY(camera, width_px), "px", {64, 4096}, No, "Frame width asked of the driver."),
-    number(HEEL_KEY(camera, height_px), "px", {48, 4096}, No, "Frame height asked of the driver."),
-    number(HEEL_KEY(camera, rate_hz), "Hz", {1, 240}, No, "Frame rate asked of the driver."),
-    number(HEEL_KEY(camera, exposure_ms), "ms", {0, 1000}, No, "Exposure time; 0 leaves it automatic."),
-    number(HEEL_KEY(camera, focus), "driver units", {-1, 1e6}, No, "Fixed focus; -1 leaves it alone."),
-    number(HEEL_KEY(camera, gain), "driver units", {-1, 1e6}, No, "Fixed gain; -1 leaves it automatic."),
-    number(HEEL_KEY(camera, file_speed), "times real time", {0, 100}, No, "Speed of a file source; 0 reads as fast as frames are asked for."),
-    choice(HEEL_KEY(camera, at_end), "stop|loop", No, "After a file source's last frame: come to rest and exit, or begin again."),
-    number(HEEL_KEY(camera, mount_x_m), "m", {-2, 2}, No, "Optical centre ahead of the robot's centre."),
-    number(HEEL_KEY(camera, mount_y_m), "m", {-2, 2}, No, "Optical centre to the left of the robot's centre."),
-    number(HEEL_KEY(camera, mount_z_m), "m", {0, 3}, No, "Optical centre above the floor."),
+    path(HEEL_KEY(camera, info), "The camera's calibration file: camera_info YAML, as ROS and `heel calibrate` write it."),
+    choice(HEEL_KEY(camera, format), "auto|YUYV|GREY|NV12|RGB3|BGR3|MJPG", No, "Pixel format requested from the driver; auto tries the formats in the order of their conversion cost and takes the first that reaches the frame rate."),
+    number(HEEL_KEY(camera, width_px), "px", {64, 4096}, No, "Frame width requested from the driver."),
+    number(HEEL_KEY(camera, height_px), "px", {48, 4096}, No, "Frame height requested from the driver."),
+    number(HEEL_KEY(camera, rate_hz), "Hz", {1, 240}, No, "Frame rate requested from the driver."),
+    number(HEEL_KEY(camera, exposure_ms), "ms", {0, 1000}, No, "Exposure time; 0 sets automatic exposure."),
+    number(HEEL_KEY(camera, focus), "driver units", {-1, 1e6}, No, "Fixed focus; -1 leaves the focus as it is."),
+    number(HEEL_KEY(camera, gain), "driver units", {-1, 1e6}, No, "Fixed gain; -1 sets automatic gain."),
+    number(HEEL_KEY(camera, file_speed), "× real time", {0, 100}, No, "Speed of a file source; 0 delivers each frame as soon as it is requested, which heeld refuses because it runs in real time."),
+    choice(HEEL_KEY(camera, at_end), "stop|loop", No, "After the last frame of a file source: stop brings the robot to rest and exits, loop plays the file again."),
+    number(HEEL_KEY(camera, mount_x_m), "m", {-2, 2}, No, "Position of the optical centre in front of the robot's centre."),
+    number(HEEL_KEY(camera, mount_y_m), "m", {-2, 2}, No, "Position of the optical centre to the left of the robot's centre."),
+    number(HEEL_KEY(camera, mount_z_m), "m", {0, 3}, No, "Height of the optical centre above the floor."),
     number(HEEL_KEY(camera, mount_pitch_rad), "rad", {-0.8, 0.8}, No, "Tilt of the optical axis; positive looks up."),
 
-    path(HEEL_KEY(target, shirt), "The template of the shirt's back, from `heel teach`."),
-    number(HEEL_KEY(target, distance_m), "m", {0, 10}, No, "Distance at which the template was taken; 0 takes the template's own."),
+    path(HEEL_KEY(target, shirt), "The template of the back of the shirt, made by `heel teach`."),
+    number(HEEL_KEY(target, distance_m), "m", {0, 10}, No, "Distance at which the template was taken; 0 uses the distance stored in the template."),
 
-    number(HEEL_KEY(vision, octaves), "", {1, 4}, No, "Octaves of scale searched for features."),
-    number(HEEL_KEY(vision, max_features), "", {50, 5000}, No, "Strongest features kept of a frame."),
-    number(HEEL_KEY(vision, match_ratio), "", {0.3, 1}, No, "Nearest over second nearest descriptor distance below which a match counts."),
-    number(HEEL_KEY(vision, inlier_px), "px", {0.1, 20}, No, "Largest transfer error of a pair that supports a homography."),
-    number(HEEL_KEY(vision, min_inliers), "", {4, 500}, No, "Fewer supporting pairs than this are no detection; nonsense gets four or five."),
-    number(HEEL_KEY(vision, min_certainty), "", {0, 1}, No, "Smaller share of the template's features than this is no detection."),
-    number(HEEL_KEY(vision, ransac_iterations), "", {10, 100000}, No, "Most samples drawn for one frame."),
-    number(HEEL_KEY(vision, ransac_budget_ms), "ms", {0, 1000}, No, "Deadline of the sampling; 0 for none, which makes results repeatable."),
-    number(HEEL_KEY(vision, distance_min_m), "m", {0.2, 20}, No, "Nearest distance at which the person is looked for."),
-    number(HEEL_KEY(vision, distance_max_m), "m", {0.5, 30}, No, "Farthest distance at which the person is looked for."),
-    flag(HEEL_KEY(vision, tracking), No, "Look first where the last frame says the person must be, and everywhere only when they are not there."),
-    number(HEEL_KEY(vision, tracking_rate_rad_s), "rad/s", {0.1, 20}, No, "How fast the person may cross the view, the robot's own turning included; faster looks farther round the last place."),
-    number(HEEL_KEY(vision, back_curvature_1_m), "1/m", {0, 5}, No, "How far the back's sides lie behind its middle: this times the square of the way to the side. An ellipse 0.4 m wide and 0.24 m deep has 1.5 in the middle; 0 takes the back for a plane, as the paper does and as fits a flat target."),
-    number(HEEL_KEY(vision, back_curvature_sigma_1_m), "1/m", {0, 2}, No, "How much people's backs differ from that (one standard deviation); the stated deviations of the pose grow with it."),
-    number(HEEL_KEY(vision, back_shape_sigma_m), "m", {0, 0.05}, No, "How far folds, breath and gait have moved the back since it was taught (one standard deviation of each of five smooth shapes); the stated deviations of the pose grow with it, too."),
+    number(HEEL_KEY(vision, octaves), "", {1, 4}, No, "Octaves of scale in which features are searched."),
+    number(HEEL_KEY(vision, max_features), "", {50, 5000}, No, "Largest number of features kept in a frame; the strongest are kept."),
+    number(HEEL_KEY(vision, match_ratio), "", {0.3, 1}, No, "Largest ratio of the nearest to the second nearest descriptor distance of an accepted match."),
+    number(HEEL_KEY(vision, inlier_px), "px", {0.1, 20}, No, "Largest transfer error of an inlier of the homography."),
+    number(HEEL_KEY(vision, min_inliers), "", {4, 500}, No, "Smallest number of inliers of a detection; wrong homographies reach four or five."),
+    number(HEEL_KEY(vision, min_certainty), "", {0, 1}, No, "Smallest certainty of a detection: inliers / features of the template."),
+    number(HEEL_KEY(vision, ransac_iterations), "", {10, 100000}, No, "Largest number of RANSAC samples in one frame."),
+    number(HEEL_KEY(vision, ransac_budget_ms), "ms", {0, 1000}, No, "Time limit of RANSAC; 0 sets none, which makes results repeatable."),
+    number(HEEL_KEY(vision, distance_min_m), "m", {0.2, 20}, No, "Nearest distance at which the person is searched for."),
+    number(HEEL_KEY(vision, distance_max_m), "m", {0.5, 30}, No, "Farthest distance at which the person is searched for."),
+    flag(HEEL_KEY(vision, tracking), No, "Whether to search first where the last frame predicts the person, and in the whole frame only if the person is not there."),
+    number(HEEL_KEY(vision, tracking_rate_rad_s), "rad/s", {0.1, 20}, No, "Largest rate at which the person may cross the view, the robot's own rotation included; a larger value widens the region that is searched first."),
+    number(HEEL_KEY(vision, back_curvature_1_m), "1/m", {0, 5}, No, "Curvature c of the back: a point x metres to the side of the middle lies c·x² metres behind it. An ellipse 0.4 m wide and 0.24 m deep has c = 1.5 in the middle. 0 models a plane, as the paper does; use it for a flat target."),
+    number(HEEL_KEY(vision, back_curvature_sigma_1_m), "1/m", {0, 2}, No, "Standard deviation of that curvature between people; the standard deviations of the pose include it."),
+    number(HEEL_KEY(vision, back_shape_sigma_m), "m", {0, 0.05}, No, "Standard deviation of each of five smooth changes of the back's shape since the template was taken (folds, breathing, gait); the standard deviations of the pose include it."),
 
-    number(HEEL_KEY(estimate, acceleration_m_s2), "m/s²", {0.05, 20}, Yes, "How hard the person changes speed (one standard deviation); larger follows faster and smooths less."),
-    number(HEEL_KEY(estimate, yaw_acceleration_rad_s2), "rad/s²", {0.05, 50}, Yes, "How hard the person changes direction (one standard deviation)."),
-    number(HEEL_KEY(estimate, position_sigma_m), "m", {0.001, 1}, Yes, "Least standard deviation believed of a measured position."),
-    number(HEEL_KEY(estimate, yaw_sigma_rad), "rad", {0.001, 1}, Yes, "Least standard deviation believed of a measured yaw."),
-    number(HEEL_KEY(estimate, outlier_sigma), "standard deviations", {2, 100}, Yes, "A measurement farther than this from the prediction is set aside as a wild jump."),
-    number(HEEL_KEY(estimate, outliers_to_reset), "frames", {1, 100}, Yes, "This many wild jumps in a row are believed after all and start the estimate anew."),
+    number(HEEL_KEY(estimate, acceleration_m_s2), "m/s²", {0.05, 20}, Yes, "Standard deviation of the person's acceleration; a larger value reacts faster and smooths less."),
+    number(HEEL_KEY(estimate, yaw_acceleration_rad_s2), "rad/s²", {0.05, 50}, Yes, "Standard deviation of the person's yaw acceleration."),
+    number(HEEL_KEY(estimate, position_sigma_m), "m", {0.001, 1}, Yes, "Smallest standard deviation assumed for a measured position."),
+    number(HEEL_KEY(estimate, yaw_sigma_rad), "rad", {0.001, 1}, Yes, "Smallest standard deviation assumed for a measured yaw."),
+    number(HEEL_KEY(estimate, outlier_sigma), "standard deviations", {2, 100}, Yes, "A measurement farther than this from the prediction is rejected as an outlier."),
+    number(HEEL_KEY(estimate, outliers_to_reset), "frames", {1, 100}, Yes, "Outliers in a row after which the estimate restarts from the last one."),
 
-    number(HEEL_KEY(control, rate_hz), "Hz", {10, 200}, No, "Control ticks and velocity commands a second."),
-    number(HEEL_KEY(control, gain_distance_1_s), "1/s", {0, 10}, Yes, "Speed for each metre of distance error (t_z)."),
-    number(HEEL_KEY(control, gain_lateral_rad_s_m), "rad/s/m", {0, 10}, Yes, "Yaw rate for each metre of sideways error (t_x)."),
-    number(HEEL_KEY(control, gain_yaw_1_s), "1/s", {0, 10}, Yes, "Yaw rate for each radian between the robot's heading and the person's."),
-    number(HEEL_KEY(control, setpoint_t_z_m), "m", {-5, 10}, Yes, "Added to the template's distance; positive follows farther away."),
-    number(HEEL_KEY(control, setpoint_t_x_m), "m", {-5, 5}, Yes, "Sideways offset; positive walks to the person's left."),
-    number(HEEL_KEY(control, setpoint_yaw_rad), "rad", {-1.2, 1.2}, Yes, "Direction to follow from; positive circles to the person's right, still facing the person."),
-    number(HEEL_KEY(control, deadband_distance_m), "m", {0, 1}, Yes, "Distance errors smaller than this do not turn the wheels."),
-    flag(HEEL_KEY(control, reverse), Yes, "Whether the robot may back away when the person comes nearer."),
-    number(HEEL_KEY(control, bearing_max_rad), "rad", {0.05, 1.5}, Yes, "The person is kept within this angle of the optical axis, whatever the gains ask; below half the field of view."),
-    number(HEEL_KEY(control, bearing_gain_1_s), "1/s", {0.1, 20}, Yes, "How fast the person's bearing may approach that angle."),
+    number(HEEL_KEY(control, rate_hz), "Hz", {10, 200}, No, "Control ticks, and velocity commands, per second."),
+    number(HEEL_KEY(control, gain_distance_1_s), "1/s", {0, 10}, Yes, "Speed per metre of distance error (t_z)."),
+    number(HEEL_KEY(control, gain_lateral_rad_s_m), "rad/s/m", {0, 10}, Yes, "Yaw rate per metre of sideways error (t_x)."),
+    number(HEEL_KEY(control, gain_yaw_1_s), "1/s", {0, 10}, Yes, "Yaw rate per radian between the robot's heading and the person's walking direction."),
+    number(HEEL_KEY(control, setpoint_t_z_m), "m", {-5, 10}, Yes, "Added to the template's distance; positive follows from farther away."),
+    number(HEEL_KEY(control, setpoint_t_x_m), "m", {-5, 5}, Yes, "Sideways offset; positive drives to the left of the person."),
+    number(HEEL_KEY(control, setpoint_yaw_rad), "rad", {-1.2, 1.2}, Yes, "Direction from which to follow; positive moves the robot around the person to their right side, still facing the person."),
+    number(HEEL_KEY(control, deadband_distance_m), "m", {0, 1}, Yes, "Distance errors smaller than this cause no motion."),
+    flag(HEEL_KEY(control, reverse), Yes, "Whether the robot may drive backwards when the person comes nearer."),
+    number(HEEL_KEY(control, bearing_max_rad), "rad", {0.05, 1.5}, Yes, "Largest angle between the person and the optical axis, whatever the other gains command; smaller than half the field of view."),
+    number(HEEL_KEY(control, bearing_gain_1_s), "1/s", {0.1, 20}, Yes, "How fast the person's bearing may approach control.bearing_max_rad: rad/s per radian that is left."),
 
-    number(HEEL_KEY(supervisor, certainty_follow), "", {0, 1}, Yes, "Following starts at this certainty."),
-    number(HEEL_KEY(supervisor, certainty_drop), "", {0, 1}, Yes, "While following, frames below this certainty do not count."),
-    number(HEEL_KEY(supervisor, frames_to_follow), "frames", {1, 1000}, Yes, "Good frames in a row before the wheels turn."),
-    number(HEEL_KEY(supervisor, target_timeout_s), "s", {0.05, 5}, Yes, "Without a good frame for this long the target counts as lost."),
-    number(HEEL_KEY(supervisor, frame_timeout_s), "s", {0.05, 5}, Yes, "Without any frame for this long the camera counts as silent."),
-    number(HEEL_KEY(supervisor, sip_timeout_s), "s", {0.15, 5}, Yes, "Without a packet from the robot for this long it counts as silent; it sends one each 0.1 s."),
-    number(HEEL_KEY(supervisor, bumper_hold_s), "s", {0, 60}, Yes, "Rest this long after a bumper or a stall has cleared."),
-    number(HEEL_KEY(supervisor, sonar_timeout_s), "s", {0.4, 5}, Yes, "Without a word from the front sonars for this long they count as silent, when robot.sonar is true; each is heard every 0.32 s."),
+    number(HEEL_KEY(supervisor, certainty_follow), "", {0, 1}, Yes, "Certainty at which following starts."),
+    number(HEEL_KEY(supervisor, certainty_drop), "", {0, 1}, Yes, "While following, a frame below this certainty is not a good frame."),
+    number(HEEL_KEY(supervisor, frames_to_follow), "frames", {1, 1000}, Yes, "Good frames in a row that are needed before the robot moves."),
+    number(HEEL_KEY(supervisor, target_timeout_s), "s", {0.05, 5}, Yes, "Time without a good frame after which the target counts as lost."),
+    number(HEEL_KEY(supervisor, frame_timeout_s), "s", {0.05, 5}, Yes, "Time without any frame after which the camera counts as silent."),
+    number(HEEL_KEY(supervisor, sip_timeout_s), "s", {0.15, 5}, Yes, "Time without a packet from the robot after which the robot counts as silent; it sends one every 0.1 s."),
+    number(HEEL_KEY(supervisor, bumper_hold_s), "s", {0, 60}, Yes, "Time at rest after a bumper or a stall has cleared."),
+    number(HEEL_KEY(supervisor, sonar_timeout_s), "s", {0.4, 5}, Yes, "Time without a reading of the front sonars after which they count as silent, if robot.sonar is true; each is read every 0.32 s."),
 
     number(HEEL_KEY(gate, v_max_m_s), "m/s", {0, 1.2}, Yes, "Largest speed commanded."),
     number(HEEL_KEY(gate, yaw_rate_max_rad_s), "rad/s", {0, 4}, Yes, "Largest yaw rate commanded."),
-    number(HEEL_KEY(gate, acceleration_m_s2), "m/s²", {0.05, 5}, Yes, "Largest gain of speed."),
-    number(HEEL_KEY(gate, deceleration_m_s2), "m/s²", {0.05, 5}, Yes, "Largest loss of speed, coming to rest included."),
-    number(HEEL_KEY(gate, separation_m), "m", {0, 5}, Yes, "The robot does not drive nearer to the person than this, camera to back."),
-    number(HEEL_KEY(gate, clearance_m), "m", {0, 2}, Yes, "The robot does not drive nearer than this to what its sonars hear in its way, bumper to echo."),
+    number(HEEL_KEY(gate, acceleration_m_s2), "m/s²", {0.05, 5}, Yes, "Largest increase of speed."),
+    number(HEEL_KEY(gate, deceleration_m_s2), "m/s²", {0.05, 5}, Yes, "Largest decrease of speed, also when braking to rest."),
+    number(HEEL_KEY(gate, separation_m), "m", {0, 5}, Yes, "The robot does not drive nearer to the person than this, measured from the camera to the back."),
+    number(HEEL_KEY(gate, clearance_m), "m", {0, 2}, Yes, "The robot does not drive nearer than this to an obstacle that its sonars detect, measured from the bumper to the echo."),
     number(HEEL_KEY(gate, yaw_acceleration_rad_s2), "rad/s²", {0.05, 50}, Yes, "Largest change of yaw rate."),
-    number(HEEL_KEY(gate, command_lifetime_s), "s", {0.02, 1}, Yes, "A velocity command not renewed for this long counts as zero."),
+    number(HEEL_KEY(gate, command_lifetime_s), "s", {0.02, 1}, Yes, "Time after which a velocity command that was not renewed counts as zero."),
 
-    address(HEEL_KEY(robot, address), "serial|pty|tcp", "The robot's controller: serial:DEVICE@BAUD, pty:PATH@BAUD or tcp:HOST:PORT. BAUD, 38400 without it, is tried first, then the robot's other rates; a slower robot that can change is brought to BAUD."),
-    flag(HEEL_KEY(robot, sonar), No, "Whether the sonars are on; they click. Off, for a robot without any, nothing but the bumpers knows of obstacles."),
-    flag(HEEL_KEY(robot, request_config), No, "Whether the robot is asked for its own settings after connecting."),
-    number(HEEL_KEY(robot, config_wait_s), "s", {0, 30}, No, "How long to wait for those settings before going on without."),
+    address(HEEL_KEY(robot, address), "serial|pty|tcp", "The robot's controller: serial:DEVICE@BAUD, pty:PATH@BAUD or tcp:HOST:PORT. BAUD (38400 if missing) is tried first, then the robot's other rates; a controller that answers at a slower rate and can change it is switched to BAUD."),
+    flag(HEEL_KEY(robot, sonar), No, "Whether the sonars are on; they click audibly. When they are off, only the bumpers detect obstacles."),
+    flag(HEEL_KEY(robot, request_config), No, "Whether to request the controller's settings (CONFIGpac) after connecting."),
+    number(HEEL_KEY(robot, config_wait_s), "s", {0, 30}, No, "How long to wait for these settings before going on without them."),
     number(HEEL_KEY(robot, sync_retry_s), "s", {0.1, 30}, No, "Pause between attempts to synchronise."),
     number(HEEL_KEY(robot, reconnect_s), "s", {0.1, 60}, No, "Pause before a lost line is opened again."),
-    number(HEEL_KEY(robot, dist_conv_factor), "mm a unit", {0.01, 10}, No, "Millimetres in one unit of the robot's odometry: 1.0 for p3at-sh, 0.465 for p3at."),
-    number(HEEL_KEY(robot, v_limit_mm_s), "mm/s", {0, 1200}, No, "Speed limit given to the robot's controller (SETV)."),
-    number(HEEL_KEY(robot, yaw_rate_limit_deg_s), "deg/s", {0, 300}, No, "Turning limit given to the robot's controller (SETRV)."),
-    number(HEEL_KEY(robot, acceleration_mm_s2), "mm/s²", {1, 5000}, No, "Acceleration given to the robot's controller (SETA)."),
-    number(HEEL_KEY(robot, deceleration_mm_s2), "mm/s²", {1, 5000}, No, "Deceleration given to the robot's controller (SETA, negative)."),
-    number(HEEL_KEY(robot, yaw_acceleration_deg_s2), "deg/s²", {1, 5000}, No, "Turning acceleration given to the robot's controller (SETRA)."),
+    number(HEEL_KEY(robot, dist_conv_factor), "mm/unit", {0.01, 10}, No, "Millimetres per unit of the robot's odometry: 1.0 for p3at-sh, 0.465 for p3at."),
+    number(HEEL_KEY(robot, v_limit_mm_s), "mm/s", {0, 1200}, No, "Speed limit set in the robot's controller (SETV)."),
+    number(HEEL_KEY(robot, yaw_rate_limit_deg_s), "deg/s", {0, 300}, No, "Yaw rate limit set in the robot's controller (SETRV)."),
+    number(HEEL_KEY(robot, acceleration_mm_s2), "mm/s²", {1, 5000}, No, "Acceleration set in the robot's controller (SETA)."),
+    number(HEEL_KEY(robot, deceleration_mm_s2), "mm/s²", {1, 5000}, No, "Deceleration set in the robot's controller (SETA, negative)."),
+    number(HEEL_KEY(robot, yaw_acceleration_deg_s2), "deg/s²", {1, 5000}, No, "Yaw acceleration and deceleration set in the robot's controller (SETRA)."),
 
-    path(HEEL_KEY(telemetry, directory), "Folder for recordings; empty records nothing."),
+    path(HEEL_KEY(telemetry, directory), "Folder for recordings; with an empty name nothing is recorded."),
 
-    choice(HEEL_KEY(runtime, log_level), "trace|debug|info|warn|error", Yes, "Least important message written to the log."),
-    choice(HEEL_KEY(runtime, ready_after), "all|robot|start", No, "What has to be there before systemd is told READY: robot and first frame, the robot alone, or nothing."),
-    flag(HEEL_KEY(runtime, realtime), No, "Whether to ask for real-time priorities and locked memory; refused, heeld says so and goes on."),
+    choice(HEEL_KEY(runtime, log_level), "trace|debug|info|warn|error", Yes, "Lowest level of the messages that are logged."),
+    choice(HEEL_KEY(runtime, ready_after), "all|robot|start", No, "When systemd receives READY: all is after the robot has answered and the first frame has come, robot is after the robot has answered, start is at once."),
+    flag(HEEL_KEY(runtime, realtime), No, "Whether to request real-time priorities and locked memory; if they are refused, heeld logs a warning and continues."),
     number(HEEL_KEY(runtime, priority_control), "", {1, 98}, No, "SCHED_FIFO priority of the control thread."),
     number(HEEL_KEY(runtime, priority_capture), "", {1, 98}, No, "SCHED_FIFO priority of the capture thread."),
     number(HEEL_KEY(runtime, priority_vision), "", {1, 98}, No, "SCHED_FIFO priority of the vision thread."),
@@ -169,35 +168,6 @@ constexpr ConfigRelation kRelations[] = {
      "must not be larger than robot.v_limit_mm_s"},
 };
 
-std::string shortest(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  std::string result(text.data(), end);
-  return result;
-}
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return result + '"';
-}
-
-/// "a|b|c" → "a, b or c".
-std::string listed(std::string_view choices) {
-  std::string result;
-  while (!choices.empty()) {
-    const auto bar = choices.find('|');
-    const bool last = bar == std::string_view::npos;
-    if (!result.empty()) result += last ? " or " : ", ";
-    result += choices.substr(0, bar);
-    choices = last ? std::string_view{} : choices.substr(bar + 1);
-  }
-  return result;
-}
-
 }  // namespace
 
 std::span<const ConfigSection> config_sections() {
@@ -210,55 +180,6 @@ std::span<const ConfigKey> config_keys() {
 
 std::span<const ConfigRelation> config_relations() {
   return kRelations;
-}
-
-std::string toml_value(const ConfigKey& key, const Config& config) {
-  auto& fields = const_cast<Config&>(config);  // accessors are shared with the parser; this only reads
-  struct Writer {
-    Config& c;
-    std::string operator()(bool* (*f)(Config&)) const { return *f(c) ? "true" : "false"; }
-    std::string operator()(int* (*f)(Config&)) const { return std::to_string(*f(c)); }
-    std::string operator()(double* (*f)(Config&)) const {
-      const std::string text = shortest(*f(c));
-      return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
-    }
-    std::string operator()(std::string* (*f)(Config&)) const { return heel::quoted(*f(c)); }
-  };
-  return std::visit(Writer{fields}, key.field);
-}
-
-std::string_view type_name(const ConfigKey& key) {
-  switch (key.field.index()) {
-    case 0:
-      return "bool";
-    case 1:
-      return "int";
-    case 2:
-      return "real";
-    default:
-      break;
-  }
-  switch (key.text) {
-    case ConfigText::Choice:
-      return "choice";
-    case ConfigText::Path:
-      return "path";
-    case ConfigText::Address:
-      return "address";
-  }
-  return "?";
-}
-
-std::string expected_value(const ConfigKey& key) {
-  const std::string_view type = type_name(key);
-  if (type == "bool") return "true or false";
-  if (type == "path") return "a path in quotes";
-  if (type == "address") return listed(key.choices) + ", a colon and the place, in quotes";
-  if (type == "choice") return listed(key.choices);
-  std::string result = type == "int" ? "a whole number " : "a number ";
-  result += shortest(key.min) + "…" + shortest(key.max);
-  if (!key.unit.empty()) result += " " + std::string(key.unit);
-  return result;
 }
 
 }  // namespace heel

@@ -1,8 +1,9 @@
-// The one table of configuration keys. The parser (config_load), the example file and the manual table
-// (config_text) are all made from it. Defaults stand in src/core/config.h and are read from there.
+// The table of all configuration keys. The parser (config_reader), the example file and the manual
+// (config_text) are made from it. Default values stand in src/core/config.h and are read from there.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,7 +13,7 @@
 
 namespace heel {
 
-/// Where a key's value lives; the alternative is also its type.
+/// Where a key's value is stored; the alternative is also the type of the value.
 using ConfigField =
     std::variant<bool* (*)(Config&), int* (*)(Config&), double* (*)(Config&), std::string* (*)(Config&)>;
 
@@ -20,12 +21,12 @@ using ConfigField =
 enum class ConfigText : std::uint8_t {
   Choice,   ///< one of `choices`
   Path,     ///< a file or folder; relative to the configuration file's folder
-  Address,  ///< SCHEME:REST; a path after v4l2:, file:, serial: or pty: is taken as for Path
+  Address,  ///< SCHEME:REST; a path after v4l2:, file:, serial: or pty: is relative as for Path
 };
 
 enum class Reload : std::uint8_t {
   No,   ///< needs a restart; SIGHUP refuses a file that changes it
-  Yes,  ///< taken over at a tick boundary
+  Yes,  ///< applied at a tick boundary
 };
 
 struct ConfigKey {
@@ -38,7 +39,7 @@ struct ConfigKey {
   ConfigText text = ConfigText::Choice;
   std::string_view choices;  ///< "a|b|c"
   Reload reload = Reload::No;
-  std::string_view effect;  ///< one sentence
+  std::string_view effect;  ///< one or a few sentences
 
   std::string full_name() const { return std::string(section) + "." + std::string(name); }
 };
@@ -48,22 +49,15 @@ struct ConfigSection {
   std::string_view about;
 };
 
+/// A condition on the values of two keys.
+struct ConfigRelation {
+  std::string_view key;  ///< the key that an error names
+  bool (*holds)(const Config&);
+  std::string_view requirement;  ///< on the value of `key`, e.g. "must be larger than vision.distance_min_m"
+};
+
 std::span<const ConfigSection> config_sections();
 std::span<const ConfigKey> config_keys();
-
-/// A key's value as it is written in TOML: 0.7, true, "auto".
-std::string toml_value(const ConfigKey& key, const Config& config);
-/// "0…10 1/s", "true or false", "stop or loop", "a path": what a value of this key must be.
-std::string expected_value(const ConfigKey& key);
-/// "bool", "int", "real", "choice", "path", "address".
-std::string_view type_name(const ConfigKey& key);
-
-/// Holds for every key, or says in one line what two keys together get wrong; `key` is where to complain.
-struct ConfigRelation {
-  std::string_view key;
-  bool (*holds)(const Config&);
-  std::string_view requirement;
-};
 std::span<const ConfigRelation> config_relations();
 
 }  // namespace heel

@@ -1,34 +1,27 @@
 #include "config/config_text.h"
 
+#include <fmt/format.h>
+
 #include "config/config_table.h"
+#include "config/config_value.h"
 
 namespace heel {
-namespace {
-
-std::string reload_words(const ConfigKey& key) {
-  return key.reload == Reload::Yes ? "reloads" : "restart";
-}
-
-std::string padded(std::string text, std::size_t width) {
-  if (text.size() < width) text.append(width - text.size(), ' ');
-  return text;
-}
-
-}  // namespace
 
 std::string default_config_text() {
   const Config defaults;
   std::string text =
-      "# heeld's configuration: every key at its default. Written by `heeld --print-default-config`.\n"
-      "# Keys may be left out. Relative paths start at this file's folder.\n"
-      "# \"reloads\": taken over on SIGHUP (systemctl reload heeld); \"restart\": needs one.\n";
+      "# Configuration of heeld: every key with its default value. Written by `heeld "
+      "--print-default-config`.\n"
+      "# Keys may be left out. Relative paths start at the folder of this file.\n"
+      "# \"reloads\": heeld applies a new value on SIGHUP (systemctl reload heeld). \"restart\": it must be "
+      "restarted.\n";
   for (const auto& section : config_sections()) {
-    text += "\n# " + std::string(section.about) + "\n[" + std::string(section.name) + "]\n";
+    text += fmt::format("\n# {}\n[{}]\n", section.about, section.name);
     for (const auto& key : config_keys()) {
       if (key.section != section.name) continue;
-      text += "# " + std::string(key.effect) + "\n";
-      text += "# " + expected_value(key) + "; " + reload_words(key) + "\n";
-      text += std::string(key.name) + " = " + toml_value(key, defaults) + "\n";
+      text +=
+          fmt::format("# {}\n# {}; {}\n{} = {}\n", key.effect, expected_value(key),
+                      key.reload == Reload::Yes ? "reloads" : "restart", key.name, toml_value(key, defaults));
     }
   }
   return text;
@@ -37,21 +30,35 @@ std::string default_config_text() {
 std::string config_manual_text() {
   const Config defaults;
   std::string text =
-      "# Configuration keys\n\n"
-      "Written by `heeld --print-config-manual` from the table in `src/config/config_table.cpp`; "
-      "`heel.toml` beside it is the same as a file.\n"
-      "`heeld --config FILE --check` says what is wrong with a file, or lists every value with its origin.\n"
-      "A key that reloads is taken over on SIGHUP; a file that changes any other key, or has an error, is "
-      "refused as a whole.\n";
+      "# Configuration\n\n"
+      "`heeld` reads one TOML file; the service reads `/etc/heel/heel.toml`. `config/heel.toml` holds every "
+      "key with "
+      "its default value.\n\n"
+      "- `heeld --config FILE --check` reports every error in a file, or prints every value and where it "
+      "comes from.\n"
+      "- A key that is left out has its default value. An unknown key is an error.\n"
+      "- Relative paths start at the folder of the file.\n"
+      "- *Reload* says whether a new value is applied on SIGHUP (`systemctl reload heeld`). Where it says "
+      "no, the new "
+      "value needs a restart.\n"
+      "- A reload is all or nothing: `heeld` refuses a file that has an error or changes a key without "
+      "reload, and "
+      "keeps the old values.\n\n"
+      "This page is generated: change `src/config/config_table.cpp`, then run "
+      "`heeld --print-config-manual > docs/configuration.md`.\n";
   for (const auto& section : config_sections()) {
-    text += "\n## [" + std::string(section.name) + "]\n" + std::string(section.about) + "\n\n";
-    text += "| key | type | default | expected | reloads | effect |\n|---|---|---|---|---|---|\n";
+    text += fmt::format("\n## [{}]\n{}\n\n", section.name, section.about);
+    text += "| key | unit | range | default | reload | effect |\n|---|---|---|---|---|---|\n";
     for (const auto& key : config_keys()) {
       if (key.section != section.name) continue;
-      text += "| `" + key.full_name() + "` | " + std::string(type_name(key)) + " | `" +
-              toml_value(key, defaults) + "` | " + expected_value(key) + " | " +
-              (key.reload == Reload::Yes ? "yes" : "no") + " | " + std::string(key.effect) + " |\n";
+      text +=
+          fmt::format("| `{}` | {} | {} | `{}` | {} | {} |\n", key.full_name(), key.unit, value_range(key),
+                      toml_value(key, defaults), key.reload == Reload::Yes ? "yes" : "no", key.effect);
     }
+  }
+  text += "\n## Rules between keys\n\n";
+  for (const auto& relation : config_relations()) {
+    text += fmt::format("- `{}` {}.\n", relation.key, relation.requirement);
   }
   return text;
 }
@@ -61,8 +68,8 @@ std::string config_listing(const LoadedConfig& loaded) {
   for (std::size_t i = 0; i < config_keys().size(); ++i) {
     const ConfigKey& key = config_keys()[i];
     const int line = loaded.line_of[i];
-    text += padded(key.full_name(), 36) + padded(toml_value(key, loaded.config), 28) + " # " +
-            (line == 0 ? "default" : loaded.file + ":" + std::to_string(line)) + "\n";
+    text += fmt::format("{:<36}{:<28} # {}\n", key.full_name(), toml_value(key, loaded.config),
+                        line == 0 ? "default" : fmt::format("{}:{}", loaded.file, line));
   }
   return text;
 }

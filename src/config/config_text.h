@@ -1,4 +1,4 @@
-// The configuration written for people: the example file, the manual's table, the listing of --check.
+// The configuration as text for people: the example file, the manual, and the listing of --check.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace heel {
 
-/// config/heel.toml: every key with its default, effect, unit and range.
+/// config/heel.toml: every key with its default value, effect, unit and range.
 std::string default_config_text();
-/// config/README.md: every key as a Markdown table.
+/// docs/configuration.md: every key in Markdown tables.
 std::string config_manual_text();
-/// A line a key: name, value in force, and where it comes from.
+/// One line for each key: its name, its value, and where the value comes from.
 std::string config_listing(const LoadedConfig& loaded);
 
 }  // namespace heel

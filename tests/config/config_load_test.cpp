@@ -8,6 +8,7 @@
 
 #include "config/config_table.h"
 #include "config/config_text.h"
+#include "config/config_value.h"
 
 namespace heel {
 namespace {
@@ -54,8 +55,8 @@ TEST(ConfigLoad, SaysEverythingThatIsWrong) {
                   "f.toml:3:21: gate.acceleration_m_s2: is -1, expected a number 0.05…5 m/s²",
                   "f.toml:5:12: camera.width_px: is 640.5, expected a whole number 64…4096 px",
                   "f.toml:6:10: camera.at_end: is 'pause', expected stop or loop",
-                  "f.toml:7:10: camera.source: is 'usb', expected v4l2, libcamera, file or sim, a colon and "
-                  "the place, in quotes",
+                  "f.toml:7:10: camera.source: is 'usb', expected v4l2:…, libcamera:…, file:… or "
+                  "sim:…, in quotes",
                   "f.toml:9:9: robot.sonar: is 1, expected true or false"));
 }
 

@@ -1,5 +1,5 @@
-// The committed example file and manual are what the table makes of itself. To rewrite them:
-//   heeld --print-default-config > config/heel.toml;  heeld --print-config-manual > config/README.md
+// The committed example file and manual are those that the table of keys makes. To write them again:
+//   heeld --print-default-config > config/heel.toml;  heeld --print-config-manual > docs/configuration.md
 #include "config/config_text.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "config/config_table.h"
+#include "config/config_value.h"
 
 namespace heel {
 namespace {
@@ -24,7 +25,7 @@ TEST(ConfigText, ExampleFileIsUpToDate) {
 }
 
 TEST(ConfigText, ManualIsUpToDate) {
-  EXPECT_EQ(content_of(HEEL_SOURCE_DIR "/config/README.md"), config_manual_text());
+  EXPECT_EQ(content_of(HEEL_SOURCE_DIR "/docs/configuration.md"), config_manual_text());
 }
 
 TEST(ConfigText, ExampleFileSetsEveryKeyToItsDefault) {

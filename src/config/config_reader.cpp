@@ -1,0 +1,182 @@
+#include "config/config_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "config/config_nearest.h"
+#include "config/config_table.h"
+#include "config/config_value.h"
+
+namespace heel {
+namespace {
+
+bool is_choice(std::string_view text, std::string_view choices) {
+  const std::vector<std::string_view> known = split_choices(choices);
+  return std::find(known.begin(), known.end(), text) != known.end();
+}
+
+bool text_is_valid(const ConfigKey& key, std::string_view text) {
+  switch (key.text) {
+    case ConfigText::Choice:
+      return is_choice(text, key.choices);
+    case ConfigText::Path:
+      return true;
+    case ConfigText::Address: {
+      const auto colon = text.find(':');
+      return colon != std::string_view::npos && colon + 1 < text.size() &&
+             is_choice(text.substr(0, colon), key.choices);
+    }
+  }
+  return false;
+}
+
+/// Stores a TOML value in its member of Config; false when it has the wrong type or is out of range.
+class ValueSetter {
+ public:
+  ValueSetter(const ConfigKey& key, const toml::node& value, Config& config)
+      : key_(key), value_(value), config_(config) {}
+
+  bool operator()(bool* (*field)(Config&)) const {
+    const auto* value = value_.as_boolean();
+    if (!value) return false;
+    *field(config_) = value->get();
+    return true;
+  }
+  bool operator()(int* (*field)(Config&)) const {
+    const auto* value = value_.as_integer();
+    if (!value || !in_range(static_cast<double>(value->get()))) return false;
+    *field(config_) = static_cast<int>(value->get());
+    return true;
+  }
+  bool operator()(double* (*field)(Config&)) const {
+    if (!value_.is_number()) return false;
+    const double value = *value_.value<double>();
+    if (!in_range(value)) return false;
+    *field(config_) = value;
+    return true;
+  }
+  bool operator()(std::string* (*field)(Config&)) const {
+    const auto* value = value_.as_string();
+    if (!value || !text_is_valid(key_, value->get())) return false;
+    *field(config_) = value->get();
+    return true;
+  }
+
+ private:
+  bool in_range(double value) const { return value >= key_.min && value <= key_.max; }  // false for NaN
+
+  const ConfigKey& key_;
+  const toml::node& value_;
+  Config& config_;
+};
+
+std::string shown(const toml::node& node) {
+  if (node.is_table()) return "a section";
+  if (node.is_array()) return "a list";
+  std::ostringstream text;
+  node.visit([&text](const auto& value) {
+    if constexpr (toml::is_value<decltype(value)>) text << value;
+  });
+  return text.str();
+}
+
+std::optional<std::size_t> index_of_key(std::string_view full_name) {
+  for (std::size_t i = 0; i < config_keys().size(); ++i) {
+    if (config_keys()[i].full_name() == full_name) return i;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> key_names() {
+  std::vector<std::string> names;
+  for (const auto& key : config_keys()) names.push_back(key.full_name());
+  return names;
+}
+
+std::vector<std::string> section_names() {
+  std::vector<std::string> names;
+  for (const auto& section : config_sections()) names.emplace_back(section.name);
+  return names;
+}
+
+std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
+  const std::string nearest = nearest_name(name, candidates);
+  return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
+}
+
+}  // namespace
+
+ConfigReader::ConfigReader(LoadedConfig& out) : out_(out) {
+  out_.line_of.assign(config_keys().size(), 0);
+}
+
+void ConfigReader::read(const toml::table& root) {
+  const std::vector<std::string> sections = section_names();
+  for (const auto& [name, node] : root) {
+    const std::string_view key = name.str();
+    const auto* section = node.as_table();
+    if (std::find(sections.begin(), sections.end(), key) == sections.end()) {
+      // A key outside its section is a likely mistake: full key names are candidates as well.
+      std::vector<std::string> candidates = sections;
+      for (std::string& full_name : key_names()) candidates.push_back(std::move(full_name));
+      add_error(name.source().begin, key,
+                (section ? "no such section" : "no such key") + suggestion(key, candidates));
+    } else if (!section) {
+      add_error(name.source().begin, key, fmt::format("is a section; write [{}]", key));
+    } else {
+      read_section(key, *section);
+    }
+  }
+  // With a value missing, a relation may fail for that reason alone.
+  if (errors_.empty()) check_relations();
+  if (!errors_.empty()) throw_errors();
+}
+
+void ConfigReader::read_section(std::string_view section, const toml::table& table) {
+  for (const auto& [name, node] : table) {
+    const std::string full_name = fmt::format("{}.{}", section, name.str());
+    const auto index = index_of_key(full_name);
+    if (!index) {
+      add_error(name.source().begin, full_name, "no such key" + suggestion(full_name, key_names()));
+      continue;
+    }
+    const ConfigKey& key = config_keys()[*index];
+    out_.line_of[*index] = static_cast<int>(node.source().begin.line);
+    if (!std::visit(ValueSetter(key, node, out_.config), key.field)) {
+      add_error(node.source().begin, full_name,
+                fmt::format("is {}, expected {}", shown(node), expected_value(key)));
+    }
+  }
+}
+
+void ConfigReader::check_relations() {
+  for (const auto& relation : config_relations()) {
+    if (relation.holds(out_.config)) continue;
+    const auto index = *index_of_key(relation.key);
+    const std::string value = toml_value(config_keys()[index], out_.config);
+    // A key at its default value has no line: the error then names the file only.
+    const auto line = static_cast<toml::source_index>(out_.line_of[index]);
+    add_error({line, line ? 1u : 0u}, relation.key, fmt::format("is {}, {}", value, relation.requirement));
+  }
+}
+
+void ConfigReader::add_error(toml::source_position at, std::string_view key, std::string_view what) {
+  const std::string place = at.line == 0 ? out_.file : fmt::format("{}:{}:{}", out_.file, at.line, at.column);
+  errors_.push_back({at, fmt::format("{}: {}: {}", place, key, what)});
+}
+
+void ConfigReader::throw_errors() {
+  // A TOML table is ordered by name; people read a file from the top.
+  std::stable_sort(errors_.begin(), errors_.end(), [](const PlacedError& a, const PlacedError& b) {
+    return std::pair(a.at.line, a.at.column) < std::pair(b.at.line, b.at.column);
+  });
+  std::vector<std::string> lines;
+  for (PlacedError& error : errors_) lines.push_back(std::move(error.line));
+  throw ConfigError(std::move(lines));
+}
+
+}  // namespace heel
