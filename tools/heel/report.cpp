@@ -18,7 +18,7 @@ struct ReportOptions {
   evaluation::FollowCriteria criteria;
 };
 
-/// The numbers stand even where nothing can draw them.
+/// Says why where the figures cannot be drawn: the numbers are written all the same.
 void draw(const std::string& directory) {
   if (const std::string why_not = evaluation::draw_figures({directory}); !why_not.empty())
     std::cerr << "heel report: " << why_not << '\n';

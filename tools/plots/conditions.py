@@ -1,4 +1,4 @@
-"""errors_over_conditions: for each condition yaw error, share found and wrong, honesty of the sigmas."""
+"""errors_over_conditions: for each condition yaw error, shares found and wrong, stated deviation."""
 
 import numpy as np
 
@@ -37,9 +37,9 @@ def draw_shares(axes, bins, seen):
     axes.set(ylabel="share", ylim=(-0.04, 1.05))
 
 
-def draw_honesty(axes, bins, seen):
+def draw_consistency(axes, bins, seen):
     at = bins["middle"][seen]
-    axes.axhline(1.0, color=style.GREY, linewidth=1.2, label="honest")
+    axes.axhline(1.0, color=style.GREY, linewidth=1.2, label="consistent")
     for column, label, colour in (
         ("yaw_nees", "yaw", style.BLUE),
         ("t_x_nees", "$t_x$", style.GREEN),
@@ -60,7 +60,7 @@ def draw_honesty(axes, bins, seen):
 COLUMNS = (
     ("Yaw error", draw_yaw),
     ("Found, wrong, certainty", draw_shares),
-    ("Stated deviation: 1 is honest", draw_honesty),
+    ("Stated deviation: 1 is consistent", draw_consistency),
 )
 
 

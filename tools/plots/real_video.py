@@ -4,7 +4,6 @@ import style
 from tables import Table
 
 NEEDS = ("real_video.csv",)
-RELIABLE = 0.1
 
 
 def draw(folder):
@@ -18,7 +17,7 @@ def draw(folder):
         axes.axvspan(
             first, last, color=style.AMBER, alpha=0.22, linewidth=0, label="the whole back is in view"
         )
-    axes.axhline(RELIABLE, color=style.VERMILION, linewidth=1.1, linestyle="--", label="reliable above 0.1")
+    style.add_reliable_line(axes)
     axes.plot(frames, video["certainty"], color=style.BLUE, linewidth=1.2, label="certainty")
     axes.set(xlabel="frame", ylabel="certainty")
     axes.set_ylim(bottom=0.0)

@@ -4,7 +4,6 @@ import style
 from tables import Table
 
 NEEDS = ("pose_errors.csv", "commands.csv")
-RELIABLE = 0.1
 QUANTITIES = (
     ("Yaw of the back in the camera", "yaw in degrees", "yaw_deg"),
     ("Sideways position", "$t_x$ in m", "x_m"),
@@ -16,13 +15,13 @@ def draw(folder):
     poses, commands = Table(folder / "pose_errors.csv"), Table(folder / "commands.csv")
     figure, panels = style.new_figure(10.2, rows=len(QUANTITIES) + 2, sharex=True)
     for axes, (title, label, column) in zip(panels, QUANTITIES):
-        axes.plot(poses["t_s"], poses[f"true_{column}"], color="#B0B0B0", linewidth=3.6, label="true")
+        axes.plot(poses["t_s"], poses[f"true_{column}"], color=style.TRUTH, linewidth=3.6, label="true")
         axes.plot(poses["t_s"], poses[column], color=style.BLUE, linewidth=1.1, label="estimated")
         axes.set_ylabel(label)
         beside(axes, title)
 
     axes = panels[-2]
-    axes.axhline(RELIABLE, color=style.VERMILION, linewidth=1.1, linestyle="--", label="reliable above 0.1")
+    style.add_reliable_line(axes)
     axes.plot(poses["t_s"], poses["certainty"], color=style.BLUE, linewidth=1.0, label="certainty")
     axes.set_ylabel("certainty")
     axes.set_ylim(bottom=0.0)
@@ -40,6 +39,7 @@ def draw(folder):
     axes.set_ylabel("m/s, rad/s")
     beside(axes, "Commands to the robot")
     axes.set_xlabel("time in s")
+    axes.set_xlim(left=0.0)
     for axes in panels:
         axes.tick_params(labelbottom=True)
     figure.align_ylabels(panels)

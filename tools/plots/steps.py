@@ -28,13 +28,12 @@ FIGURES = {
         "deg",
     ),
 }
-RELIABLE = 0.1
 
 
 def draw_values(axes, steps, unit):
     at, seen = steps["commanded"], steps["found"] > 0
     hidden = np.where(seen, 0.0, np.nan)  # nothing was found there: the line breaks
-    axes.plot(at, steps[f"true_{unit}"], color="#B0B0B0", linewidth=3.0, label="true")
+    axes.plot(at, steps[f"true_{unit}"], color=style.TRUTH, linewidth=3.0, label="true")
     axes.errorbar(
         at,
         steps[f"mean_{unit}"] + hidden,
@@ -53,7 +52,7 @@ def draw_values(axes, steps, unit):
 def draw_certainty(axes, steps):
     at, mean = steps["commanded"], steps["certainty_mean"]
     below, above = mean - steps["certainty_p05"], steps["certainty_p95"] - mean
-    axes.axhline(RELIABLE, color=style.INK, linewidth=1.0, linestyle="--", label="reliable above 0.1")
+    style.add_reliable_line(axes)
     axes.plot(
         at,
         steps["found"] / steps["pictures"],

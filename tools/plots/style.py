@@ -9,11 +9,11 @@ matplotlib.use("Agg")
 from matplotlib import pyplot as plt, ticker  # noqa: E402 (the backend is chosen first)
 
 # Okabe and Ito's colours, which people with any kind of colour blindness can tell apart.
-BLUE, SKY, GREEN = "#0072B2", "#56B4E9", "#009E73"
-VERMILION, AMBER, PURPLE = "#D55E00", "#E69F00", "#CC79A7"
+BLUE, GREEN, VERMILION, AMBER = "#0072B2", "#009E73", "#D55E00", "#E69F00"
 INK, GREY, PALE = "#262626", "#8C8C8C", "#E4E4E4"
 
-PERSON, ROBOT, TRUTH = VERMILION, BLUE, GREY
+PERSON, ROBOT, TRUTH = VERMILION, BLUE, "#B0B0B0"
+RELIABLE = 0.1  # certainty, by the paper
 
 WIDTH_IN = 8.0  # 1200 pixels
 DPI = 150
@@ -26,6 +26,7 @@ SAVE_OPTIONS = {
     "jpg": {"pil_kwargs": {"quality": 80}},
 }
 
+plt.rcdefaults()  # whatever the user has set
 plt.rcParams.update(
     {
         "figure.dpi": DPI,
@@ -53,7 +54,6 @@ plt.rcParams.update(
         "svg.hashsalt": "heel",  # the same numbers make the same file
     }
 )
-
 
 TITLE = {"ha": "center", "fontsize": 11.5, "weight": "bold"}  # of a whole figure
 
@@ -84,6 +84,10 @@ def caption(axes, title, font_size=9, **options):
             fontsize=font_size,
             **{"handlelength": 1.7, "columnspacing": 1.6, **options},
         )
+
+
+def add_reliable_line(axes):
+    axes.axhline(RELIABLE, color=INK, linewidth=1.0, linestyle="--", label=f"reliable above {RELIABLE}")
 
 
 class SameStep(ticker.MaxNLocator):

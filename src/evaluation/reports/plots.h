@@ -1,4 +1,4 @@
-// The figures: heel writes the numbers, tools/plots draws them with Python's matplotlib.
+// Drawing of figures: heel writes the numbers, the program tools/plots/plots draws them with matplotlib.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace heel::evaluation {
 
-/// Has the program `plots` draw, with the arguments of its own help: a folder, or a JSON file and a picture.
-/// It is HEEL_PLOTS, or share/heel/plots/plots beside the folder of this program (in the build folder that is
-/// a link to tools/plots). Returns an empty text, or why nothing is drawn where something is not installed,
-/// for people, with the name of the Debian package. Throws heel::Error when it could not draw these numbers.
+/// Runs `plots` with these arguments: a folder, or a JSON file and a picture. HEEL_PLOTS names the program;
+/// by default it is ../share/heel/plots/plots, seen from this program's folder, installed or in the build
+/// folder. Returns an empty text when it has drawn, and one line with the reason where the program, Python or
+/// matplotlib is not installed. Throws heel::Error when the program refuses the numbers.
 [[nodiscard]] std::string draw_figures(const std::vector<std::string>& arguments);
 
 }  // namespace heel::evaluation

@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// Without drawing: figures_test.cpp is about that.
+/// Draws nothing: figures_test.cpp tests the figures.
 Outcome report(const TemporaryFolder& folder, const std::vector<std::string>& options = {}) {
   const test::ScopedEnvironment plots("HEEL_PLOTS", "/bin/true");
   std::vector<std::string> arguments{"report", folder.path().string()};

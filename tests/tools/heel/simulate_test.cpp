@@ -81,7 +81,7 @@ TEST_F(Simulate, AFolderGivesATableAndPictures) {
 
 TEST_F(Simulate, SeveralGiveAListAndALimitThatIsNotMetNamesItsScenario) {
   if (test::kThreadSanitizer) GTEST_SKIP() << "the lock-step tests run the same threads for a shorter time";
-  const test::ScopedEnvironment plots("HEEL_PLOTS", "/bin/true");  // drawing is no matter here
+  const test::ScopedEnvironment plots("HEEL_PLOTS", "/bin/true");  // draws nothing
   const Outcome run =
       simulate({scenario("one"), scenario("two"), "--json", "--min-path-m", "50", "-o", folder_.file("out")});
   EXPECT_EQ(run.status, 1);
