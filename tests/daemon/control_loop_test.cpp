@@ -1,0 +1,34 @@
+// The control thread's body without a robot: when its deadlines begin.
+#include "daemon/control_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "realtime/clock.h"
+
+namespace heel {
+namespace {
+
+TEST(ControlLoop, TheTimeBeforeTheThreadRunsIsNoLateness) {
+  Config config;
+  config.robot.address = "pty:/nonexistent/robot";
+  Mailbox<PoseEstimate> poses;
+  TelemetryFeeds feeds;
+  ControlLoop loop(config, poses, feeds);
+  const TimeNs period_ns = ns_from_seconds(1.0 / config.control.rate_hz);
+  sleep_until_ns(monotonic_now_ns() + 5 * period_ns);
+
+  const TimeNs t_run_ns = monotonic_now_ns();
+  std::jthread thread([&] { loop.run(); });
+  TickRecord first;
+  while (!feeds.ticks.pop(first)) sleep_until_ns(monotonic_now_ns() + kNsPerMs);
+  loop.stop();
+  thread.join();
+
+  // However busy the machine is, the first tick cannot be later than this.
+  EXPECT_LE(first.lateness_ns, first.t_ns - t_run_ns - period_ns);
+}
+
+}  // namespace
+}  // namespace heel
