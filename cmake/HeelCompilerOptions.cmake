@@ -24,6 +24,18 @@ if(HEEL_SANITIZE)
   add_link_options(-fsanitize=${HEEL_SANITIZE})
 endif()
 
+# Counters shared by threads are updated atomically; joined sources are named by their full paths.
+if(HEEL_COVERAGE)
+  add_compile_options(--coverage -fprofile-update=atomic -fprofile-abs-path)
+  add_link_options(--coverage)
+endif()
+
+# clangd reads compile_commands.json at the root.
+if(HEEL_LINK_COMPILE_COMMANDS)
+  file(RELATIVE_PATH commands ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/compile_commands.json)
+  file(CREATE_LINK ${commands} ${CMAKE_SOURCE_DIR}/compile_commands.json SYMBOLIC)
+endif()
+
 # Everything under a fuzz target reports its coverage to the fuzzer.
 if(HEEL_BUILD_FUZZERS)
   add_compile_options(-fsanitize=fuzzer-no-link)
