@@ -14,14 +14,20 @@ void ControlLoop::run() {
   while (!stop_.load(std::memory_order_relaxed)) {
     const TimeNs lateness_ns = sleep_to_the_tick();
     take_over_configuration();
-    read_inputs(monotonic_now_ns());
-    TickRecord record = stage_.tick(input_);
-    record.lateness_ns = lateness_ns;
-    link_.exchange(record.command, monotonic_now_ns());
-    report_robot_events();
-    publish(record);
+    tick(lateness_ns);
   }
+  input_.shutdown = true;
+  tick(0);
   shut_robot_down();
+}
+
+void ControlLoop::tick(TimeNs lateness_ns) {
+  read_inputs(monotonic_now_ns());
+  TickRecord record = stage_.tick(input_);
+  record.lateness_ns = lateness_ns;
+  link_.write(record.command, input_.now_ns);
+  report_robot_events();
+  publish(record);
 }
 
 void ControlLoop::shut_robot_down() {
@@ -66,7 +72,7 @@ bool ControlLoop::reconfigure(const Config& config, TimeNs timeout_ns) {
 
 void ControlLoop::read_inputs(TimeNs now_ns) {
   input_.now_ns = now_ns;
-  input_.robot = link_.receive(now_ns);
+  input_.robot = link_.read(now_ns);
   if (poses_.take(input_.pose)) input_.has_pose = true;
 }
 

@@ -38,6 +38,7 @@ class ControlLoop {
 
  private:
   TimeNs sleep_to_the_tick();
+  void tick(TimeNs lateness_ns);
   void take_over_configuration();
   void read_inputs(TimeNs now_ns);
   void report_robot_events();

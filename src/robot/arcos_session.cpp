@@ -107,6 +107,10 @@ std::span<const std::uint8_t> ArcosSession::close(TimeNs now_ns) {
 void ArcosSession::receive(std::span<const std::uint8_t> bytes, TimeNs t_ns) {
   if (step_ == Step::NoLine) return;
   parser_.feed(bytes, t_ns, [this](const arcos::Packet& packet) { on_packet(packet); });
+  copy_line_counters();
+}
+
+void ArcosSession::copy_line_counters() {
   state_.checksum_errors = parser_.counters().checksum_errors + parser_.counters().length_errors;
   state_.bytes_discarded = parser_.counters().bytes_discarded;
 }

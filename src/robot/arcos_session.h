@@ -36,14 +36,19 @@ class ArcosSession {
   void line_opened(TimeNs now_ns);
   void line_lost(TimeNs now_ns);
 
-  /// Bytes from the line; `t_ns` is when they came. Never produces output by itself: tick does.
+  /// Bytes from the line; `t_ns` is when they came.
   void receive(std::span<const std::uint8_t> bytes, TimeNs t_ns);
 
-  /// One tick. Returns what is to be written now; valid until the next call.
-  std::span<const std::uint8_t> tick(const VelocityCommand& command, TimeNs now_ns);
+  /// Once a tick, after the line has been read: takes the steps that are due at `now_ns`. state() is then
+  /// what this tick decides on.
+  void advance(TimeNs now_ns);
+
+  /// Once a tick, after advance(): what is to be written now, valid until the next call. Leaves state() as it
+  /// is.
+  std::span<const std::uint8_t> send(const VelocityCommand& command, TimeNs now_ns);
 
   /// The rate the line should have: changes where no robot is found, and when it has been asked for another.
-  /// After a change tick is to be called again only when the line runs at it.
+  /// After a change advance() and send() are to be called again only when the line runs at it.
   int wanted_baud() const { return sweep_.current(); }
   /// Every rate was tried without an answer: the device itself may need to be opened anew.
   bool line_exhausted() const { return line_exhausted_; }
@@ -79,6 +84,7 @@ class ArcosSession {
   void enter(Step step, TimeNs now_ns);
   void show_phase(LinkPhase phase) { state_.phase = phase; }
   bool is_connected() const;
+  void copy_line_counters();
 
   void on_packet(const arcos::Packet& packet);
   void on_sync_echo(std::uint8_t number, const arcos::Packet& packet);
@@ -88,7 +94,7 @@ class ArcosSession {
   void follow_motor_flags(TimeNs t_ns);
   void close_left_open(TimeNs t_ns);
 
-  void advance_steps(TimeNs now_ns);
+  void take_due_steps(TimeNs now_ns);
   void retry_sync(TimeNs now_ns);
   void finish_opening(TimeNs now_ns);
   void retry_enable(TimeNs now_ns);

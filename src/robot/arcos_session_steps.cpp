@@ -30,12 +30,17 @@ std::int16_t limited(int ours, int controllers_top) {
 
 // ── time passes ─────────────────────────────────────────────────────────────────────────────────
 
-std::span<const std::uint8_t> ArcosSession::tick(const VelocityCommand& command, TimeNs now_ns) {
-  out_.clear();
-  if (step_ == Step::NoLine) return out_.bytes();
+void ArcosSession::advance(TimeNs now_ns) {
+  if (step_ == Step::NoLine) return;
   parser_.give_up_before(now_ns - kPartialPacket_ns,
                          [this](const arcos::Packet& packet) { on_packet(packet); });
-  advance_steps(now_ns);
+  copy_line_counters();
+  take_due_steps(now_ns);
+}
+
+std::span<const std::uint8_t> ArcosSession::send(const VelocityCommand& command, TimeNs now_ns) {
+  out_.clear();
+  if (step_ == Step::NoLine) return out_.bytes();
   flush_queue(now_ns);
   if (queue_.empty()) {
     if (step_ == Step::Running) motion_.send(command, now_ns, pacer_, out_);
@@ -45,7 +50,7 @@ std::span<const std::uint8_t> ArcosSession::tick(const VelocityCommand& command,
   return out_.bytes();
 }
 
-void ArcosSession::advance_steps(TimeNs now_ns) {
+void ArcosSession::take_due_steps(TimeNs now_ns) {
   const TimeNs in_step_ns = now_ns - t_step_ns_;
   switch (step_) {
     case Step::NoLine:

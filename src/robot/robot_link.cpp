@@ -72,29 +72,32 @@ void RobotLink::write_pending(TimeNs now_ns) {
   if (put.status == SerialLine::Status::Lost) lose_line(now_ns);
 }
 
-const RobotState& RobotLink::receive(TimeNs now_ns) {
+const RobotState& RobotLink::read(TimeNs now_ns) {
+  may_write_ = false;
   if (SerialLine* const line = usable_line(now_ns)) read_all(*line, now_ns);
-  return session_.state();
-}
-
-const RobotState& RobotLink::exchange(const VelocityCommand& command, TimeNs now_ns) {
-  receive(now_ns);
   if (pending_begin_ != pending_end_) write_pending(now_ns);
   SerialLine* const line = usable_line(now_ns);
   if (line == nullptr) return session_.state();
 
   if (pending_begin_ == pending_end_ && line->unsent_bytes() < kBacklogBytes) {
     t_progress_ns_ = now_ns;
-    const auto bytes = session_.tick(command, now_ns);
-    std::copy(bytes.begin(), bytes.end(), pending_.begin());
-    pending_begin_ = 0;
-    pending_end_ = bytes.size();
-    write_pending(now_ns);
+    session_.advance(now_ns);
+    may_write_ = true;
   } else if (now_ns - t_progress_ns_ >= kStuck_ns) {
     lose_line(now_ns);
   }
   if (session_.line_exhausted() && usable_line(now_ns) != nullptr) lose_line(now_ns);
   return session_.state();
+}
+
+void RobotLink::write(const VelocityCommand& command, TimeNs now_ns) {
+  // None: the line was lost since, or the session wants it at another rate.
+  if (!may_write_ || usable_line(now_ns) == nullptr) return;
+  const auto bytes = session_.send(command, now_ns);
+  std::copy(bytes.begin(), bytes.end(), pending_.begin());
+  pending_begin_ = 0;
+  pending_end_ = bytes.size();
+  write_pending(now_ns);
 }
 
 void RobotLink::listen_until(TimeNs deadline_ns) {

@@ -22,12 +22,12 @@ class RobotLink {
   /// Shuts down, if that has not been done.
   ~RobotLink();
 
-  /// One control tick, on the control thread: reads what has come, lets the session decide, writes.
-  const RobotState& exchange(const VelocityCommand& command, TimeNs now_ns);
+  /// The beginning of a control tick, its only read: takes in what the robot has sent. The result is what
+  /// control and session decide on in this tick.
+  const RobotState& read(TimeNs now_ns);
 
-  /// What the robot has sent so far, without writing: called at the beginning of a tick, so that the tick
-  /// rests on the newest SIP.
-  const RobotState& receive(TimeNs now_ns);
+  /// The end of the same tick, at the same `now_ns`: writes what the session makes of the command.
+  void write(const VelocityCommand& command, TimeNs now_ns);
 
   /// Instead of sleeping to the next tick: stamps bytes as they come, until `deadline_ns` of CLOCK_MONOTONIC.
   /// A SIP stamped only at the tick would look up to a period younger than it is.
@@ -57,6 +57,8 @@ class RobotLink {
   bool line_up_ = false;  ///< the session has been told of it
   bool finished_ = false;
   int line_baud_;
+
+  bool may_write_ = false;  ///< in this tick: the line is up and the driver has taken what was written before
 
   // What the driver did not take of the last tick's bytes.
   std::array<std::uint8_t, 512> pending_{};

@@ -38,6 +38,11 @@ void check_output(const ArcosSession& session, std::span<const std::uint8_t> byt
   require(parser.counters().bytes_discarded == 0 && parser.pending_bytes() == 0);
 }
 
+void tick(ArcosSession& session, const VelocityCommand& command, TimeNs now_ns, const RobotConfig& config) {
+  session.advance(now_ns);
+  check_output(session, session.send(command, now_ns), config);
+}
+
 /// A whole handshake up to motors enabled: no fuzzer would find it by itself.
 void connect(ArcosSession& session, TimeNs& now_ns, const RobotConfig& config) {
   arcos::Sip sip;
@@ -51,7 +56,7 @@ void connect(ArcosSession& session, TimeNs& now_ns, const RobotConfig& config) {
   for (const arcos::Frame& frame : said) {
     for (int i = 0; i < 16; ++i) {  // 0.32 s: longer than it listens, shorter than its patience
       now_ns += 20 * kNsPerMs;
-      check_output(session, session.tick({}, now_ns), config);
+      tick(session, {}, now_ns, config);
     }
     session.receive(frame.bytes(), now_ns);
   }
@@ -93,11 +98,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } else {
       for (std::size_t i = 0; i < 1 + count; ++i) {  // time passes
         now_ns += 20 * kNsPerMs;
-        check_output(session, session.tick({now_ns, now_ns, 10.0, -10.0, 0}, now_ns), config);
+        tick(session, {now_ns, now_ns, 10.0, -10.0, 0}, now_ns, config);
       }
     }
     now_ns += 20 * kNsPerMs;
-    check_output(session, session.tick({now_ns, now_ns, 10.0, -10.0, 0}, now_ns), config);
+    tick(session, {now_ns, now_ns, 10.0, -10.0, 0}, now_ns, config);
   }
   return 0;
 }

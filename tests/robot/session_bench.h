@@ -1,6 +1,10 @@
 // A session and a scripted robot in virtual time, 50 ticks a second.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
 #include <vector>
 
 #include "robot/arcos_session.h"
@@ -22,7 +26,7 @@ class SessionBench {
     session.line_opened(now_ns);
   }
 
-  /// One tick; the robot hears what was written, and what it says is heard at the next tick.
+  /// One tick; the robot receives what was written, and its answer is read at the next tick.
   void tick() {
     now_ns += kTick_ns;
     const Bytes said = robot.speak(now_ns);
@@ -33,8 +37,11 @@ class SessionBench {
     command.t_expires_ns = now_ns + command_lifetime_ns;
     command.v_m_s = v_m_s;
     command.yaw_rate_rad_s = yaw_rate_rad_s;
+    session.advance(now_ns);
     const int baud = session.wanted_baud();
-    const auto bytes = session.tick(command, now_ns);
+    const auto decided_on = state_bytes();
+    const auto bytes = session.send(command, now_ns);
+    EXPECT_EQ(state_bytes(), decided_on) << "sending must leave the state as the tick decided on it";
     if (line_up) robot.receive(bytes, baud, now_ns);
     SessionEvent event;
     while (session.next_event(event)) events.push_back(event);
@@ -66,6 +73,13 @@ class SessionBench {
   double v_m_s = 0.0;
   double yaw_rate_rad_s = 0.0;
   TimeNs command_lifetime_ns = 200 * kNsPerMs;
+
+ private:
+  std::array<std::uint8_t, sizeof(RobotState)> state_bytes() const {
+    std::array<std::uint8_t, sizeof(RobotState)> bytes{};
+    std::memcpy(bytes.data(), &session.state(), bytes.size());
+    return bytes;
+  }
 };
 
 }  // namespace heel::test

@@ -73,7 +73,8 @@ TEST(SessionLine, LostAndOpenedAgain) {
   bench.session.line_lost(bench.now_ns);
   bench.line_up = false;
   EXPECT_EQ(bench.session.state().phase, LinkPhase::Lost);
-  EXPECT_TRUE(bench.session.tick(VelocityCommand{}, bench.now_ns).empty());
+  bench.session.advance(bench.now_ns);
+  EXPECT_TRUE(bench.session.send(VelocityCommand{}, bench.now_ns).empty());
   bench.run(5.0);
   bench.line_up = true;
   bench.robot.log.clear();

@@ -29,7 +29,8 @@ TEST(SessionMemory, NoAllocationAfterConstruction) {
     written.reserve(1024);
     counted([&] {
       session.receive(said, now_ns);
-      const auto bytes = session.tick({now_ns, now_ns + kNsPerS, 0.3, 0.2, 0}, now_ns);
+      session.advance(now_ns);
+      const auto bytes = session.send({now_ns, now_ns + kNsPerS, 0.3, 0.2, 0}, now_ns);
       written.assign(bytes.begin(), bytes.end());
       SessionEvent event;
       while (session.next_event(event)) {

@@ -191,7 +191,7 @@ TEST(SessionDisabled, MotorsSwitchedOnAtTheRobotDoNotDriveUnasked) {
   for (const Received& command : bench.robot.log) ASSERT_EQ(command.value, 0);
 }
 
-TEST(SessionDisabled, AReconnectionDoesNotRestartEither) {
+TEST(SessionDisabled, AReconnectionDoesNotEnableTheMotors) {
   RunningBench bench;
   bench.robot.set_flag(arcos::kFlagStopButton, true);
   bench.run(0.3);

@@ -225,6 +225,7 @@ void Lockstep::tick(TimeNs t_ns, bool shutdown) {
     has_pose_ = true;
     poses_under_way_.pop_front();
   }
+  session_.advance(t_ns);
   ControlInput input;
   input.now_ns = t_ns;
   input.robot = session_.state();
@@ -233,7 +234,7 @@ void Lockstep::tick(TimeNs t_ns, bool shutdown) {
   input.shutdown = shutdown;
   TickRecord record = control_.tick(input);
   record.tick = counts_.ticks++;
-  send(session_.tick(record.command, t_ns), t_ns);
+  send(session_.send(record.command, t_ns), t_ns);
   observer_.on_tick(record, truth_at(t_ns));
 }
 

@@ -68,6 +68,7 @@ TEST_F(Heeld, GetsReadyFollowsAndStopsOnSigterm) {
   daemon_->signal(SIGTERM);
   EXPECT_EQ(daemon_->wait(5.0), 0) << logs();
   EXPECT_TRUE(notify_.receives("STOPPING=1", 0.1));
+  EXPECT_TRUE(daemon_->says("at rest: shutting down", 0.1)) << logs();
   EXPECT_TRUE(robot_->says("closed", 2.0)) << logs();
   EXPECT_TRUE(stands(2.0)) << logs();
   // By STOP, not by the watchdog.

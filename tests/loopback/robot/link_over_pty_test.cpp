@@ -72,7 +72,8 @@ class LinkBench {
   }
   void tick() {
     const TimeNs now_ns = monotonic_now_ns();
-    link.exchange({now_ns, now_ns + 200 * kNsPerMs, v_m_s, 0.0, 0}, now_ns);
+    link.read(now_ns);
+    link.write({now_ns, now_ns + 200 * kNsPerMs, v_m_s, 0.0, 0}, now_ns);
     longest_ns = std::max(longest_ns, monotonic_now_ns() - now_ns);
     link.listen_until(now_ns + 20 * kNsPerMs);
   }

@@ -52,7 +52,8 @@ class Bench {
     robot.set_host_baud(session.wanted_baud());
     session.receive(heard, now_ns);
     const VelocityCommand command{now_ns, now_ns + 200 * kNsPerMs, v_m_s, yaw_rate_rad_s, 0};
-    robot.receive(session.tick(command, now_ns), now_ns);
+    session.advance(now_ns);
+    robot.receive(session.send(command, now_ns), now_ns);
     SessionEvent event;
     while (session.next_event(event)) events.push_back(event.kind);
   }
