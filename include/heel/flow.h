@@ -85,7 +85,7 @@ enum class LinkPhase : std::uint8_t {
   Opening,   ///< OPEN sent, first SIP awaited; CONFIG asked
   Enabling,  ///< zero velocity sent, ENABLE awaiting its flag
   Running,   ///< SIPs arrive, motors are enabled
-  Disabled,  ///< SIPs arrive, motors are off (button or E-stall): a person must start again
+  Disabled,  ///< SIPs arrive, motors went off (STOP button, E-stall): off until heeld is restarted
   Lost,      ///< SIPs stopped or the line broke; reconnecting
 };
 

@@ -53,9 +53,6 @@ class ArcosSession {
   /// Every rate was tried without an answer: the device itself may need to be opened anew.
   bool line_exhausted() const { return line_exhausted_; }
 
-  /// A person starts again after the motors went off. Without effect in other phases but on a reconnection.
-  void enable_again();
-
   /// STOP, SONAR 0, CLOSE: on every way out. Nothing more is sent until line_opened.
   std::span<const std::uint8_t> close(TimeNs now_ns);
 
@@ -139,7 +136,7 @@ class ArcosSession {
   bool was_connected_ = false;
   bool line_exhausted_ = false;
   bool rate_refused_ = false;   ///< once is enough
-  bool hold_disabled_ = false;  ///< motors were put off: ENABLE waits for a person
+  bool hold_disabled_ = false;  ///< the motors went off: this session does not enable them again
 };
 
 }  // namespace heel

@@ -164,13 +164,6 @@ void ArcosSession::give_up_silent(TimeNs now_ns) {
   enter(Step::Silent, now_ns);
 }
 
-void ArcosSession::enable_again() {
-  hold_disabled_ = false;
-  if (step_ != Step::Disabled) return;
-  queue_enable();
-  enter(Step::Enabling, t_sip_ns_);
-}
-
 // ── bytes out ───────────────────────────────────────────────────────────────────────────────────
 
 void ArcosSession::queue_limits() {

@@ -33,9 +33,6 @@ class RobotLink {
   /// A SIP stamped only at the tick would look up to a period younger than it is.
   void listen_until(TimeNs deadline_ns);
 
-  /// A person starts again after the motors went off.
-  void enable_again() { session_.enable_again(); }
-
   /// STOP, SONAR 0, CLOSE, drained: on every way out. Takes 0.3 s at most; the link is finished after it.
   void shutdown(TimeNs now_ns);
 

@@ -34,9 +34,9 @@ const char* to_string(SessionEventKind kind) {
     case SessionEventKind::EnableFailed:
       return "motors do not enable: is a stop button pressed, the battery low? attempts";
     case SessionEventKind::StopButton:
-      return "stop button or E-stall: motors are off until someone starts again";
+      return "stop button or E-stall: motors stay off until heeld is restarted";
     case SessionEventKind::MotorsOff:
-      return "motors went off: they stay off until someone starts again";
+      return "motors went off: they stay off until heeld is restarted";
     case SessionEventKind::ControllerReset:
       return "robot controller has reset: connecting anew";
     case SessionEventKind::SipSilence:

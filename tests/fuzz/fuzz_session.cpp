@@ -92,7 +92,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } else if (what == 11) {
       session.line_opened(now_ns);
     } else if (what == 12) {
-      session.enable_again();
+      session = ArcosSession(config);  // as a process that begins again
+      session.line_opened(now_ns);
     } else if (what == 13) {
       check_output(session, session.close(now_ns), config);
     } else {

@@ -30,6 +30,12 @@ struct RunningBench : SessionBench {
     run(0.1);
     robot.log.clear();
   }
+  /// As a process that ends and begins again.
+  void restart() {
+    robot.receive(session.close(now_ns), session.wanted_baud(), now_ns);
+    session = ArcosSession(bench_config());
+    session.line_opened(now_ns);
+  }
 };
 
 TEST(SessionMotion, VelAndRvelEveryTickAlsoZero) {
@@ -146,7 +152,7 @@ TEST(SessionPacing, BehindATcpServerTheRobotsOwnRateCounts) {
   }
 }
 
-TEST(SessionDisabled, StopButtonAndEStallNeedAPerson) {
+TEST(SessionDisabled, StopButtonAndEStallHoldUntilANewSession) {
   for (const auto flag : {arcos::kFlagStopButton, arcos::kFlagEStall}) {
     RunningBench bench;
     bench.v_m_s = 0.3;
@@ -166,13 +172,14 @@ TEST(SessionDisabled, StopButtonAndEStallNeedAPerson) {
     for (const Received& command : bench.robot.log) ASSERT_EQ(command.value, 0);  // … with zero
 
     bench.robot.log.clear();
-    bench.session.enable_again();
-    ASSERT_TRUE(bench.run_until(LinkPhase::Running, 1.0));
+    bench.restart();
+    ASSERT_TRUE(bench.run_until(LinkPhase::Running));
     bench.run(0.2);
-    ASSERT_GE(bench.robot.log.size(), 3u);
-    EXPECT_TRUE(bench.robot.log[0].is(CommandId::Vel, 0));
-    EXPECT_TRUE(bench.robot.log[1].is(CommandId::RVel, 0));
-    EXPECT_TRUE(bench.robot.log[2].is(CommandId::Enable, 1));
+    const std::size_t enable = bench.robot.find(CommandId::Enable);
+    ASSERT_GE(enable, 2u);
+    EXPECT_TRUE(bench.robot.log[enable - 2].is(CommandId::Vel, 0));
+    EXPECT_TRUE(bench.robot.log[enable - 1].is(CommandId::RVel, 0));
+    EXPECT_TRUE(bench.robot.log[enable].is(CommandId::Enable, 1));
     EXPECT_EQ(bench.robot.received(CommandId::Vel).back().value, 300);
   }
 }
@@ -203,8 +210,8 @@ TEST(SessionDisabled, AReconnectionDoesNotEnableTheMotors) {
   ASSERT_TRUE(bench.run_until(LinkPhase::Disabled));
   bench.run(2.0);
   EXPECT_TRUE(bench.robot.received(CommandId::Enable).empty());
-  bench.session.enable_again();
-  EXPECT_TRUE(bench.run_until(LinkPhase::Running, 1.0));
+  bench.restart();
+  EXPECT_TRUE(bench.run_until(LinkPhase::Running));
 }
 
 TEST(SessionClose, StopSonarOffCloseInThisOrderAndThenNothing) {

@@ -212,14 +212,21 @@ TEST_F(HeeldWithAShortFilm, ComesToRestAtItsEndAndLeavesARecording) {
   EXPECT_THAT(content_of(scene_.path("run/capture.csv")), HasSubstr(",250,0,"));
 }
 
-TEST_F(Heeld, StopButtonHoldsTheRobotAndIsNamed) {
+TEST_F(Heeld, StopButtonHoldsTheRobotUntilHeeldIsRestarted) {
   start_robot({"--fault", "stop_button@15+1"});
-  start_heeld(scene_.write_config());
+  const std::string config = scene_.write_config();
+  start_heeld(config);
   ASSERT_TRUE(drives(14.0)) << logs();
   EXPECT_TRUE(daemon_->says("at rest: stop button pressed", 20.0)) << logs();
+  EXPECT_TRUE(daemon_->says("motors stay off until heeld is restarted", 1.0)) << logs();
   EXPECT_TRUE(stands(2.0));
   sleep_s(2.0);
-  EXPECT_EQ(speed(), 0.0);  // released meanwhile: a person must start it again
+  EXPECT_EQ(speed(), 0.0) << "the button was released meanwhile";
+
+  daemon_->signal(SIGTERM);
+  EXPECT_EQ(daemon_->wait(5.0), 0) << logs();
+  start_heeld(config);
+  EXPECT_TRUE(drives(30.0)) << logs();
 }
 
 }  // namespace

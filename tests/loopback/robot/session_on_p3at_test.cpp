@@ -296,7 +296,7 @@ TEST(SessionOnP3At, ControllerResetWhileDriving) {
   bench.expect_odometry_is_truth(0.2);
 }
 
-TEST(SessionOnP3At, StopButtonThenAPersonStartsAgain) {
+TEST(SessionOnP3At, StopButtonHoldsUntilANewSession) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
@@ -310,8 +310,10 @@ TEST(SessionOnP3At, StopButtonThenAPersonStartsAgain) {
   bench.run(5.0);
   EXPECT_EQ(bench.session.state().phase, LinkPhase::Disabled);
   EXPECT_EQ(bench.robot.true_pose().x_m, stood.x_m);
-  bench.session.enable_again();
-  ASSERT_TRUE(bench.run_until(LinkPhase::Running, 1.0));
+  bench.robot.receive(bench.session.close(bench.now_ns), bench.now_ns);
+  bench.session = ArcosSession(bench.config);
+  bench.start();
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
   bench.run(2.0);
   EXPECT_GT(bench.robot.truth().v_m_s, 0.35);
 }
