@@ -2,19 +2,40 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "config/config_table.h"
 #include "config/config_value.h"
 
 namespace heel {
+namespace {
+
+constexpr std::string_view kExampleIntroduction =
+    R"(# Configuration of heeld: every key with its default value. Written by `heeld --print-default-config`.
+# Keys may be left out. Relative paths start at the folder of this file.
+# "reloads": heeld applies a new value on SIGHUP (systemctl reload heeld). "restart": it must be restarted.
+)";
+
+constexpr std::string_view kManualIntroduction = R"(# Configuration
+
+`heeld` reads one TOML file; the service reads `/etc/heel/heel.toml`. `config/heel.toml` holds every key with its default value.
+
+- `heeld --config FILE --check` reports every error in a file, or prints every value and where it comes from.
+- A key that is left out has its default value. An unknown key is an error.
+- Relative paths start at the folder of the file.
+- *Reload* says whether a new value is applied on SIGHUP (`systemctl reload heeld`). Where it says no, the new value needs a
+  restart.
+- A reload is all or nothing: `heeld` refuses a file that has an error or changes a key without reload, and keeps the old
+  values.
+
+This page is generated: change `src/config/config_table.cpp`, then run `heeld --print-config-manual > docs/configuration.md`.
+)";
+
+}  // namespace
 
 std::string default_config_text() {
   const Config defaults;
-  std::string text =
-      "# Configuration of heeld: every key with its default value. Written by `heeld "
-      "--print-default-config`.\n"
-      "# Keys may be left out. Relative paths start at the folder of this file.\n"
-      "# \"reloads\": heeld applies a new value on SIGHUP (systemctl reload heeld). \"restart\": it must be "
-      "restarted.\n";
+  std::string text(kExampleIntroduction);
   for (const auto& section : config_sections()) {
     text += fmt::format("\n# {}\n[{}]\n", section.about, section.name);
     for (const auto& key : config_keys()) {
@@ -29,23 +50,7 @@ std::string default_config_text() {
 
 std::string config_manual_text() {
   const Config defaults;
-  std::string text =
-      "# Configuration\n\n"
-      "`heeld` reads one TOML file; the service reads `/etc/heel/heel.toml`. `config/heel.toml` holds every "
-      "key with "
-      "its default value.\n\n"
-      "- `heeld --config FILE --check` reports every error in a file, or prints every value and where it "
-      "comes from.\n"
-      "- A key that is left out has its default value. An unknown key is an error.\n"
-      "- Relative paths start at the folder of the file.\n"
-      "- *Reload* says whether a new value is applied on SIGHUP (`systemctl reload heeld`). Where it says "
-      "no, the new "
-      "value needs a restart.\n"
-      "- A reload is all or nothing: `heeld` refuses a file that has an error or changes a key without "
-      "reload, and "
-      "keeps the old values.\n\n"
-      "This page is generated: change `src/config/config_table.cpp`, then run "
-      "`heeld --print-config-manual > docs/configuration.md`.\n";
+  std::string text(kManualIntroduction);
   for (const auto& section : config_sections()) {
     text += fmt::format("\n## [{}]\n{}\n\n", section.name, section.about);
     text += "| key | unit | range | default | reload | effect |\n|---|---|---|---|---|---|\n";

@@ -11,6 +11,7 @@ ControlLoop::ControlLoop(const Config& config, Mailbox<PoseEstimate>& poses, Tel
       feeds_(feeds) {}
 
 void ControlLoop::run() {
+  deadline_.restart(monotonic_now_ns());
   while (!stop_.load(std::memory_order_relaxed)) {
     const TimeNs lateness_ns = sleep_to_the_tick();
     take_over_configuration();

@@ -19,6 +19,8 @@ class PeriodicDeadline {
  public:
   /// The first deadline is one period after `start_ns`.
   PeriodicDeadline(TimeNs period_ns, TimeNs start_ns);
+  /// Moves the start. A thread calls this first, so that the time before it ran does not count as lateness.
+  void restart(TimeNs start_ns) { next_ns_ = start_ns + period_ns_; }
 
   TimeNs period_ns() const { return period_ns_; }
   TimeNs next_ns() const { return next_ns_; }

@@ -83,7 +83,8 @@ TEST(HeeldCheck, MissingConfigurationIsNamed) {
 TEST(HeeldCheck, PrintsTheCommittedExampleAndManual) {
   const Scene scene(1);
   EXPECT_EQ(heeld(scene, {"--print-default-config"}).output, content_of(HEEL_SOURCE_DIR "/config/heel.toml"));
-  EXPECT_EQ(heeld(scene, {"--print-config-manual"}).output, content_of(HEEL_SOURCE_DIR "/docs/configuration.md"));
+  EXPECT_EQ(heeld(scene, {"--print-config-manual"}).output,
+            content_of(HEEL_SOURCE_DIR "/docs/configuration.md"));
 }
 
 }  // namespace
