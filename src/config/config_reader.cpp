@@ -7,9 +7,9 @@
 #include <sstream>
 #include <utility>
 
-#include "config/config_nearest.h"
 #include "config/config_table.h"
 #include "config/config_value.h"
+#include "toml/nearest_name.h"
 
 namespace heel {
 namespace {

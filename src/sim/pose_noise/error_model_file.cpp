@@ -1,16 +1,16 @@
 // The model as TOML: a table a quantity, a key a term.
 #include <cstdio>
 #include <fstream>
-#include <sstream>
 
 #include "heel/error.h"
 #include "sim/pose_noise/error_model.h"
-#include "sim/scene/toml_section.h"
+#include "toml/toml_file.h"
+#include "toml/toml_section.h"
 
 namespace heel::sim {
 namespace {
 
-constexpr Range kAny{-1e6, 1e6, ""};
+constexpr NumberRange kAny{-1e6, 1e6, ""};
 
 template <typename Terms, std::size_t N>
 void write_terms(std::ostream& out, const Terms& terms, const std::array<const char*, N>& names) {
@@ -25,8 +25,9 @@ void write_terms(std::ostream& out, const Terms& terms, const std::array<const c
 template <typename Terms, std::size_t N>
 Terms read_terms(TomlSection section, const std::array<const char*, N>& names) {
   Terms terms;
-  for (std::size_t i = 0; i < N; ++i) terms(static_cast<Eigen::Index>(i)) = section.need(names[i], kAny);
-  section.finish();
+  for (std::size_t i = 0; i < N; ++i)
+    terms(static_cast<Eigen::Index>(i)) = section.required_number(names[i], kAny);
+  section.reject_unknown_keys();
   return terms;
 }
 
@@ -56,15 +57,15 @@ void write_spread(std::ostream& out, const std::string& name, const char* what, 
 
 SpreadModel read_spread(TomlSection section) {
   SpreadModel model;
-  model.print_share = section.need("print_share", {0, 1, ""});
-  model.memory_s = section.need("memory_s", {0, 1000, "s"});
+  model.print_share = section.required_number("print_share", {0, 1, ""});
+  model.memory_s = section.required_number("memory_s", {0, 1000, "s"});
   const std::vector<double> residual = section.numbers("residual", kQuantiles);
-  if (residual.empty()) section.refuse("residual", "missing (expected 41 quantiles)");
+  if (residual.empty()) section.fail("residual", "missing (expected 41 quantiles)");
   std::copy(residual.begin(), residual.end(), model.residual.begin());
   model.bias_even = read_terms<EvenTerms>(section.section("bias_even"), kEvenTerms);
   model.bias_odd = read_terms<OddTerms>(section.section("bias_odd"), kOddTerms);
   model.log_spread = read_terms<EvenTerms>(section.section("log_spread"), kEvenTerms);
-  section.finish();
+  section.reject_unknown_keys();
   return model;
 }
 
@@ -77,33 +78,23 @@ void write_log(std::ostream& out, const std::string& name, const char* what, con
 
 LogModel read_log(TomlSection section) {
   LogModel model;
-  model.log_deviation = section.need("log_deviation", {0, 100, ""});
+  model.log_deviation = section.required_number("log_deviation", {0, 100, ""});
   model.log_mean = read_terms<EvenTerms>(section.section("log_mean"), kEvenTerms);
-  section.finish();
+  section.reject_unknown_keys();
   return model;
 }
 
 }  // namespace
 
 ErrorModel read_error_model(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw Error(path + ": cannot read (expected an error model, as `heel fit` writes it)");
-  std::ostringstream text;
-  text << file.rdbuf();
-  toml::table table;
-  try {
-    table = toml::parse(text.str(), path);
-  } catch (const toml::parse_error& error) {
-    const toml::source_position at = error.source().begin;
-    throw Error(path + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": " +
-                std::string(error.description()) + " (expected TOML)");
-  }
+  const std::string text = read_toml_text(path, "an error model, as `heel fit` writes it");
+  const toml::table table = parse_toml(text, path);
   TomlSection root(table, "", path);
   ErrorModel model;
-  model.distance_max_m = root.need("distance_max_m", {0, 100, "m"});
-  model.aspect_max_rad = root.need("aspect_max_rad", {0, 3.2, "rad"});
-  model.found_memory_s = root.need("found_memory_s", {0, 1000, "s"});
-  model.missed_log_time_share = root.need("missed_log_time_share", kAny);
+  model.distance_max_m = root.required_number("distance_max_m", {0, 100, "m"});
+  model.aspect_max_rad = root.required_number("aspect_max_rad", {0, 3.2, "rad"});
+  model.found_memory_s = root.required_number("found_memory_s", {0, 1000, "s"});
+  model.missed_log_time_share = root.required_number("missed_log_time_share", kAny);
   model.found_log_odds = read_terms<EvenTerms>(root.section("found_log_odds"), kEvenTerms);
   model.flip_log_odds = read_terms<EvenTerms>(root.section("flip_log_odds"), kEvenTerms);
   model.aspect_rad = read_spread(root.section("aspect_rad"));
@@ -112,7 +103,7 @@ ErrorModel read_error_model(const std::string& path) {
   model.certainty = read_log(root.section("certainty"));
   model.yaw_sigma_rad = read_log(root.section("yaw_sigma_rad"));
   model.time_share = read_log(root.section("time_share"));
-  root.finish();
+  root.reject_unknown_keys();
   return model;
 }
 

@@ -1,24 +1,15 @@
 #include "sim/scene/scenario.h"
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
-#include "heel/error.h"
 #include "sim/scene/scenario_parts.h"
-#include "sim/scene/toml_section.h"
+#include "toml/toml_file.h"
+#include "toml/toml_section.h"
 
 namespace heel::sim {
 
 Scenario parse_scenario(const std::string& text, const std::string& path) {
-  toml::table table;
-  try {
-    table = toml::parse(text, path);
-  } catch (const toml::parse_error& error) {
-    const toml::source_position at = error.source().begin;
-    throw Error(path + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": " +
-                std::string(error.description()) + " (expected TOML)");
-  }
+  const toml::table table = parse_toml(text, path);
   TomlSection root(table, "", path);
   Scenario scenario;
   scenario.name = root.text("name", std::filesystem::path(path).stem().string());
@@ -35,16 +26,12 @@ Scenario parse_scenario(const std::string& text, const std::string& path) {
   read_robot(root.section("robot"), scenario.robot);
   read_room(root.section("room"), scenario.room);
   read_light(root.section("light"), scenario.light);
-  root.finish();
+  root.reject_unknown_keys();
   return scenario;
 }
 
 Scenario read_scenario(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw Error(path + ": cannot read (expected a scenario file)");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parse_scenario(text.str(), path);
+  return parse_scenario(read_toml_text(path, "a scenario file"), path);
 }
 
 }  // namespace heel::sim

@@ -16,7 +16,7 @@ std::string beside(const std::string& scenario_path, const std::string& name) {
 CameraModel read_model(TomlSection& camera, const std::string& path) {
   if (camera.has("info")) {
     for (const char* key : {"width_px", "height_px", "focal_px", "centre_px", "distortion"})
-      if (camera.has(key)) camera.refuse(key, "given beside camera.info (expected one or the other)");
+      if (camera.has(key)) camera.fail(key, "given beside camera.info (expected one or the other)");
     return read_camera_model(beside(path, camera.text("info", "")));
   }
   CameraModel model = default_camera_model();
@@ -51,12 +51,12 @@ void read_sensor(TomlSection& camera, SensorSettings& s) {
 }
 
 void read_exposure(TomlSection exposure, ExposureSettings& e) {
-  e.automatic = exposure.flag("automatic", e.automatic);
+  e.automatic = exposure.boolean("automatic", e.automatic);
   e.longest_ms = exposure.number("longest_ms", e.longest_ms, {0.1, 100, "ms"});
   e.most_gain = exposure.number("most_gain", e.most_gain, {1, 64, ""});
   e.lag_s = exposure.number("lag_s", e.lag_s, {0.01, 10, "s"});
   e.step_stops = exposure.number("step_stops", e.step_stops, {0.05, 4, "stops"});
-  exposure.finish();
+  exposure.reject_unknown_keys();
 }
 
 void read_timing(TomlSection& camera, FrameTimingSettings& t) {
@@ -73,7 +73,7 @@ void read_camera(TomlSection camera, const std::string& path, ScenarioCamera& ou
   if (out.source.starts_with("file:"))
     out.source = "file:" + beside(path, out.source.substr(5));
   else if (out.source != "sim")
-    camera.refuse("source", "'" + out.source + "' is not a source (expected sim or file:VIDEO)");
+    camera.fail("source", "'" + out.source + "' is not a source (expected sim or file:VIDEO)");
   out.model = read_model(camera, path);
   out.rate_hz = camera.number("rate_hz", out.rate_hz, {1, 240, "Hz"});
   out.mount_x_m = camera.number("mount_x_m", out.mount_x_m, {-2, 2, "m"});
@@ -86,7 +86,7 @@ void read_camera(TomlSection camera, const std::string& path, ScenarioCamera& ou
   read_sensor(camera, out.sensor);
   read_exposure(camera.section("exposure"), out.exposure);
   read_timing(camera, out.timing);
-  camera.finish();
+  camera.reject_unknown_keys();
 }
 
 CameraModel default_camera_model() {

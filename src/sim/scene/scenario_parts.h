@@ -5,14 +5,14 @@
 #include <string>
 
 #include "sim/scene/scenario.h"
-#include "sim/scene/toml_section.h"
+#include "toml/toml_section.h"
 
 namespace heel::sim {
 
 inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-inline constexpr Range kMetres{-1000, 1000, "m"};
-inline constexpr Range kTurn_deg{-720, 720, "deg"};
-inline constexpr Range kShare{0, 1, ""};
+inline constexpr NumberRange kMetres{-1000, 1000, "m"};
+inline constexpr NumberRange kTurn_deg{-720, 720, "deg"};
+inline constexpr NumberRange kShare{0, 1, ""};
 
 /// [person], with its [[person.path]]
 void read_target(TomlSection person, Scenario& scenario);

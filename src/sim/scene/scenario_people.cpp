@@ -7,35 +7,35 @@
 namespace heel::sim {
 namespace {
 
-constexpr Range kLength{0, 1000, "m"};
+constexpr NumberRange kLength{0, 1000, "m"};
 
 /// What each kind of step needs. False: there is no such step.
 bool read_step(const std::string& step, TomlSection& item, WalkItem& out) {
   if (step == "straight" || step == "back") {
     out.step = step == "back" ? WalkStep::Back : WalkStep::Straight;
-    out.length_m = item.need("length_m", kLength);
+    out.length_m = item.required_number("length_m", kLength);
   } else if (step == "aside") {
     out.step = WalkStep::Aside;
-    out.length_m = item.need("left_m", {-100, 100, "m"});
+    out.length_m = item.required_number("left_m", {-100, 100, "m"});
   } else if (step == "arc") {
     out.step = WalkStep::Arc;
-    out.radius_m = item.need("radius_m", {0.2, 1000, "m"});
-    out.angle_rad = kRadPerDeg * item.need("angle_deg", kTurn_deg);
+    out.radius_m = item.required_number("radius_m", {0.2, 1000, "m"});
+    out.angle_rad = kRadPerDeg * item.required_number("angle_deg", kTurn_deg);
   } else if (step == "to") {
     out.step = WalkStep::To;
-    out.x_m = item.need("x_m", kMetres);
-    out.y_m = item.need("y_m", kMetres);
+    out.x_m = item.required_number("x_m", kMetres);
+    out.y_m = item.required_number("y_m", kMetres);
     out.radius_m = item.number("radius_m", out.radius_m, {0.2, 1000, "m"});
   } else if (step == "pause") {
     out.step = WalkStep::Pause;
-    out.duration_s = item.need("duration_s", {0, 3600, "s"});
+    out.duration_s = item.required_number("duration_s", {0, 3600, "s"});
   } else if (step == "turn") {
     out.step = WalkStep::Turn;
-    out.angle_rad = kRadPerDeg * item.need("angle_deg", kTurn_deg);
-    out.duration_s = item.need("duration_s", {0.1, 3600, "s"});
+    out.angle_rad = kRadPerDeg * item.required_number("angle_deg", kTurn_deg);
+    out.duration_s = item.required_number("duration_s", {0.1, 3600, "s"});
   } else if (step == "sit") {
     out.step = WalkStep::Sit;
-    out.duration_s = item.need("duration_s", {4, 3600, "s"});
+    out.duration_s = item.required_number("duration_s", {4, 3600, "s"});
   } else {
     return false;
   }
@@ -46,11 +46,11 @@ WalkItem read_walk_item(TomlSection& item) {
   WalkItem out;
   const std::string step = item.text("step", "");
   if (!read_step(step, item, out))
-    item.refuse("step",
-                "'" + step + "' is not a step (expected straight, arc, to, pause, turn, aside, back or sit)");
+    item.fail("step",
+              "'" + step + "' is not a step (expected straight, arc, to, pause, turn, aside, back or sit)");
   const bool moves = out.step != WalkStep::Pause && out.step != WalkStep::Turn && out.step != WalkStep::Sit;
   if (moves) out.speed_m_s = item.number("speed_m_s", out.speed_m_s, {0.05, 3, "m/s"});
-  item.finish();
+  item.reject_unknown_keys();
   return out;
 }
 
@@ -72,7 +72,7 @@ void read_body(TomlSection& person, PersonSettings& p) {
   try {
     p.hair = hair_style(person.text("hair", "short"));
   } catch (const Error& error) {
-    person.refuse("hair", error.what());
+    person.fail("hair", error.what());
   }
   p.sway_yaw_rad = kRadPerDeg * person.number("sway_yaw_deg", p.sway_yaw_rad / kRadPerDeg, {0, 30, "deg"});
   p.sway_side_m = person.number("sway_side_m", p.sway_side_m, {0, 0.2, "m"});
@@ -89,7 +89,7 @@ ShirtDesign read_shirt(TomlSection& person, const std::string& shirt) {
   try {
     return shirt_design(shirt);
   } catch (const Error& error) {
-    person.refuse("shirt", error.what());
+    person.fail("shirt", error.what());
   }
 }
 
@@ -101,7 +101,7 @@ void read_target(TomlSection person, Scenario& scenario) {
   read_body(person, scenario.person);
   scenario.walk_after_s = person.number("walk_after_s", scenario.walk_after_s, {0, 3600, "s"});
   scenario.path = read_path(person);
-  person.finish();
+  person.reject_unknown_keys();
 }
 
 PasserbySettings read_passerby(TomlSection passerby) {
@@ -117,7 +117,7 @@ PasserbySettings read_passerby(TomlSection passerby) {
   read_body(passerby, out.person);
   out.walk_after_s = passerby.number("walk_after_s", 0.0, {-3600, 3600, "s"});
   out.path = read_path(passerby);
-  passerby.finish();
+  passerby.reject_unknown_keys();
   return out;
 }
 

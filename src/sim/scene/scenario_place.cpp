@@ -4,8 +4,8 @@
 namespace heel::sim {
 namespace {
 
-constexpr Range kSize{0.01, 1000, "m"};
-constexpr Range kTrack{0.4, 1.0, "m"};
+constexpr NumberRange kSize{0.01, 1000, "m"};
+constexpr NumberRange kTrack{0.4, 1.0, "m"};
 
 }  // namespace
 
@@ -18,16 +18,16 @@ void read_robot(TomlSection robot, ScenarioRobot& out) {
   out.right_scale_error = robot.number("right_scale_error", out.right_scale_error, {-0.2, 0.2, ""});
   for (TomlSection& patch : robot.sections("floor")) {
     FloorPatch floor;
-    floor.x_m = patch.need("x_m", kMetres);
-    floor.y_m = patch.need("y_m", kMetres);
-    floor.length_m = patch.need("length_m", kSize);
-    floor.width_m = patch.need("width_m", kSize);
-    floor.true_track_m = patch.need("true_track_m", kTrack);
-    patch.finish();
+    floor.x_m = patch.required_number("x_m", kMetres);
+    floor.y_m = patch.required_number("y_m", kMetres);
+    floor.length_m = patch.required_number("length_m", kSize);
+    floor.width_m = patch.required_number("width_m", kSize);
+    floor.true_track_m = patch.required_number("true_track_m", kTrack);
+    patch.reject_unknown_keys();
     out.patches.push_back(floor);
   }
   out.faults = robot.texts("faults");
-  robot.finish();
+  robot.reject_unknown_keys();
 }
 
 void read_room(TomlSection room, RoomSettings& out) {
@@ -37,7 +37,7 @@ void read_room(TomlSection room, RoomSettings& out) {
   out.windows = static_cast<int>(room.integer("windows", out.windows, 0, 50));
   out.window_light = room.number("window_light", out.window_light, {0.1, 100, ""});
   out.bump_m = room.number("bump_m", out.bump_m, {0, 0.1, "m"});
-  room.finish();
+  room.reject_unknown_keys();
 }
 
 void read_light(TomlSection light, LightSettings& out) {
@@ -46,20 +46,21 @@ void read_light(TomlSection light, LightSettings& out) {
   out.window_azimuth_rad =
       kRadPerDeg * light.number("window_azimuth_deg", out.window_azimuth_rad / kRadPerDeg, kTurn_deg);
   for (TomlSection& change : light.sections("change")) {
-    const LightChange next{change.need("at_s", {0, 86400, "s"}), change.need("level", {0.01, 10, ""})};
+    const LightChange next{change.required_number("at_s", {0, 86400, "s"}),
+                           change.required_number("level", {0.01, 10, ""})};
     if (!out.changes.empty() && next.t_s <= out.changes.back().t_s)
-      change.refuse("at_s", "not after the change before (expected them in order of time)");
-    change.finish();
+      change.fail("at_s", "not after the change before (expected them in order of time)");
+    change.reject_unknown_keys();
     out.changes.push_back(next);
   }
-  light.finish();
+  light.reject_unknown_keys();
 }
 
 ObstacleSettings read_obstacle(TomlSection obstacle) {
   ObstacleSettings out;
   const std::string kind = obstacle.text("kind", "");
-  out.x_m = obstacle.need("x_m", kMetres);
-  out.y_m = obstacle.need("y_m", kMetres);
+  out.x_m = obstacle.required_number("x_m", kMetres);
+  out.y_m = obstacle.required_number("y_m", kMetres);
   if (kind == "pole") {
     out.kind = ObstacleKind::Pole;
     out.height_m = obstacle.number("height_m", 3.0, kSize);
@@ -75,17 +76,17 @@ ObstacleSettings read_obstacle(TomlSection obstacle) {
     out.width_m = obstacle.number("width_m", box ? out.width_m : 0.12, kSize);
     out.height_m = obstacle.number("height_m", box ? out.height_m : 2.99, kSize);
   } else {
-    obstacle.refuse("kind", "'" + kind + "' is not an obstacle (expected pole, box, wall or doorway)");
+    obstacle.fail("kind", "'" + kind + "' is not an obstacle (expected pole, box, wall or doorway)");
   }
   if (out.kind == ObstacleKind::Doorway) {
     out.opening_m = obstacle.number("opening_m", out.opening_m, {0.5, 100, "m"});
     out.lintel_m = obstacle.number("lintel_m", out.lintel_m, {1, 100, "m"});
     if (out.opening_m >= out.length_m)
-      obstacle.refuse("opening_m", "not narrower than the wall (expected less than length_m)");
+      obstacle.fail("opening_m", "not narrower than the wall (expected less than length_m)");
     if (out.lintel_m >= out.height_m)
-      obstacle.refuse("lintel_m", "not lower than the wall (expected less than height_m)");
+      obstacle.fail("lintel_m", "not lower than the wall (expected less than height_m)");
   }
-  obstacle.finish();
+  obstacle.reject_unknown_keys();
   return out;
 }
 

@@ -150,7 +150,7 @@ TEST(ErrorModelFile, RefusesByNameAndPlace) {
   std::string without = whole;
   without.replace(without.find("print_share"), 11, "print_shape");
   EXPECT_THAT(complaint(without), HasSubstr("aspect_rad.print_share: missing"));
-  EXPECT_THAT(complaint(whole + "[bogus]\na = 1\n"), HasSubstr("bogus: unknown key"));
+  EXPECT_THAT(complaint(whole + "[bogus]\na = 1\n"), HasSubstr("bogus: no such key"));
   EXPECT_THAT(complaint("["), HasSubstr("damaged.toml:1:"));
   EXPECT_THROW(read_error_model(folder.file("none.toml")), Error);
 }

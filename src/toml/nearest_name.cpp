@@ -1,4 +1,4 @@
-#include "config/config_nearest.h"
+#include "toml/nearest_name.h"
 
 #include <algorithm>
 

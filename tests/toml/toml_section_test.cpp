@@ -1,0 +1,101 @@
+// One section of a TOML file: what is read, and the one-line message for each kind of mistake.
+#include "toml/toml_section.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "heel/error.h"
+#include "support/temporary_folder.h"
+#include "toml/toml_file.h"
+
+namespace heel {
+namespace {
+
+using Read = std::function<void(TomlSection& root)>;
+
+/// The message of the error that `read` throws for a file of this text; empty when it throws none.
+std::string message(const std::string& text, const Read& read) {
+  try {
+    const toml::table table = parse_toml(text, "f.toml");
+    TomlSection root(table, "", "f.toml");
+    read(root);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(TomlSection, GivesValuesAndFallbacks) {
+  const toml::table table = parse_toml(
+      "speed = 2\ncount = 3\nname = 'x'\non = true\ncorners = [1, 2.5]\nfaults = ['a', "
+      "'b']\n[[leg]]\n[[leg]]\n",
+      "f.toml");
+  TomlSection root(table, "", "f.toml");
+  EXPECT_EQ(root.number("speed", 0.0, {0, 5, "m/s"}), 2.0) << "a whole number is a number too";
+  EXPECT_EQ(root.number("absent", 7.0, {0, 5, "m/s"}), 7.0);
+  EXPECT_EQ(root.required_number("speed", {0, 5, "m/s"}), 2.0);
+  EXPECT_EQ(root.integer("count", 0, 0, 10), 3);
+  EXPECT_EQ(root.text("name", ""), "x");
+  EXPECT_TRUE(root.boolean("on", false));
+  EXPECT_EQ(root.numbers("corners", 2), (std::vector<double>{1.0, 2.5}));
+  EXPECT_TRUE(root.numbers("absent", 2).empty());
+  EXPECT_EQ(root.texts("faults"), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(root.sections("leg").size(), 2U);
+  EXPECT_EQ(root.section("absent").number("x", 1.5, {0, 5, ""}), 1.5);
+  root.reject_unknown_keys();
+}
+
+TEST(TomlSection, NamesThePlaceTheValueAndWhatWasExpected) {
+  const Read speed = [](TomlSection& root) { root.section("leg").number("speed", 0.0, {0, 5, "m/s"}); };
+  EXPECT_EQ(message("[leg]\nspeed = 'fast'\n", speed),
+            "f.toml:2:9: leg.speed: 'fast' (expected a number 0…5 m/s)");
+  EXPECT_EQ(message("[leg]\nspeed = nan\n", speed), "f.toml:2:9: leg.speed: nan (expected a number 0…5 m/s)");
+  EXPECT_EQ(message("[leg]\nspeed = [1]\n", speed),
+            "f.toml:2:9: leg.speed: a list (expected a number 0…5 m/s)");
+  EXPECT_EQ(message("leg = 3\n", speed), "f.toml:1:7: leg: 3 (expected a section [leg])");
+  EXPECT_EQ(message("count = 2.5\n", [](TomlSection& root) { root.integer("count", 0, 1, 9); }),
+            "f.toml:1:9: count: 2.5 (expected a whole number 1…9)");
+  EXPECT_EQ(message("on = 1\n", [](TomlSection& root) { root.boolean("on", false); }),
+            "f.toml:1:6: on: 1 (expected true or false)");
+  EXPECT_EQ(message("corners = [1.0]\n", [](TomlSection& root) { root.numbers("corners", 2); }),
+            "f.toml:1:11: corners: a list of 1 (expected a list of 2 numbers)");
+  EXPECT_EQ(message("faults = ['a', 2]\n", [](TomlSection& root) { root.texts("faults"); }),
+            "f.toml:1:16: faults: 2 (expected a list of texts in quotes)");
+  EXPECT_EQ(message("[leg]\n",
+                    [](TomlSection& root) {
+                      root.section("leg").required_number("x", {0, 1, "m"});
+                    }),
+            "f.toml:1:1: leg.x: missing (expected a number in m)");
+  EXPECT_EQ(message("leg = 1\n", [](TomlSection& root) { root.sections("leg"); }),
+            "f.toml:1:7: leg: 1 (expected sections [[leg]])");
+}
+
+TEST(TomlSection, AKeyThatNobodyReadsIsAnErrorThatNamesTheNearest) {
+  const Read speed = [](TomlSection& root) {
+    root.number("speed", 0.0, {0, 5, "m/s"});
+    root.text("name", "");
+    root.reject_unknown_keys();
+  };
+  EXPECT_EQ(message("speeed = 1\n", speed),
+            "f.toml:1:1: speeed: no such key; did you mean speed? (expected one of: name, speed)");
+  EXPECT_EQ(message("x = 1\n", speed), "f.toml:1:1: x: no such key (expected one of: name, speed)");
+}
+
+TEST(TomlFile, SyntaxErrorsAndMissingFilesAreNamed) {
+  EXPECT_EQ(message("a = = 1\n", [](TomlSection&) {}).substr(0, 12), "f.toml:1:5: ");
+  const test::TemporaryFolder folder;
+  for (const std::string& path : {folder.file("absent.toml"), folder.path().string()}) {
+    try {
+      read_toml_text(path, "a scenario file");
+      FAIL() << path;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.what(), path + ": cannot read (expected a scenario file)");
+    }
+  }
+  EXPECT_EQ(read_toml_text(test::write_text(folder.file("empty.toml"), ""), "a file"), "");
+}
+
+}  // namespace
+}  // namespace heel
