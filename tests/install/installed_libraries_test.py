@@ -18,7 +18,7 @@ ALLOWED_LIBRARIES = re.compile(r"(libhwy|libstdc\+\+|libm|libgcc_s|libc|ld-linux
 def run(*command, **options):
     """The command's output; its whole output is in the failure's message."""
     done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          timeout=120, check=False, **options)
+                          timeout=300, check=False, **options)
     if done.returncode != 0:
         raise AssertionError(f"{shlex.join(map(str, command))}: exit status {done.returncode}\n{done.stdout}")
     return done.stdout

@@ -4,7 +4,6 @@ the kernel's own uvcvideo driver is what heeld talks to. Shows one picture over 
 
   usb_camera.py PICTURE.pgm RATE_HZ        attaches at once; detaches when it ends (SIGTERM); SIGSTOP makes it stall
 """
-import os
 import select
 import socket
 import struct
