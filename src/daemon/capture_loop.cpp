@@ -8,26 +8,24 @@
 
 namespace heel {
 
-CaptureLoop::CaptureLoop(FrameSource& source, FrameTripleBuffer& ring, SpscQueue<CaptureCounters>& counts,
-                         SpscQueue<Event>& events, const CaptureLoopSettings& settings)
+CaptureLoop::CaptureLoop(FrameSource& source, FrameTripleBuffer& frames,
+                         SpscQueue<CaptureCounters>& counter_records, SpscQueue<Event>& events,
+                         const CaptureLoopSettings& settings)
     : source_(source),
-      ring_(ring),
-      counts_(counts),
+      frames_(frames),
+      counter_records_(counter_records),
       events_(events),
       settings_(settings),
       pause_ns_(settings.reopen_first_ns) {}
 
 void CaptureLoop::run() {
-  if (open_) tell(EventKind::CameraOpened, 0, 0, source_.description().c_str());
-  was_open_ = open_;
-  while (!stopping() && !ended_.load(std::memory_order_relaxed)) {
-    heartbeat_ns_.store(monotonic_now_ns(), std::memory_order_relaxed);
+  while (!stopping() && !ended()) {
     if (open_) {
       take_frame();
     } else {
       try_open();
     }
-    push_counts();
+    push_counters();
   }
   source_.close();
   open_ = false;
@@ -44,24 +42,22 @@ void CaptureLoop::try_open() {
   if (open_) {
     if (was_open_) reopened_.fetch_add(1, std::memory_order_relaxed);
     was_open_ = true;
-    told_problem_.clear();
-    told_refused_ = false;
-    tell(EventKind::CameraOpened, 0, 0, source_.description().c_str());
+    reported_problem_.clear();
+    reported_wrong_size_ = false;
+    push_event(EventKind::CameraOpened, 0, 0, source_.description().c_str());
     return;
   }
-  if (source_.problem() != told_problem_) {
-    told_problem_ = source_.problem();
-    tell(EventKind::CameraUnavailable, 0, 0, told_problem_.c_str());
+  if (source_.problem() != reported_problem_) {
+    reported_problem_ = source_.problem();
+    push_event(EventKind::CameraUnavailable, 0, 0, reported_problem_.c_str());
   }
   pause();
 }
 
 void CaptureLoop::pause() {
-  // The pause is slept in pieces, so that the heart goes on beating.
   const TimeNs until_ns = monotonic_now_ns() + pause_ns_;
   for (TimeNs now_ns = monotonic_now_ns(); now_ns < until_ns && !stopping(); now_ns = monotonic_now_ns()) {
-    heartbeat_ns_.store(now_ns, std::memory_order_relaxed);
-    futex_wait(stop_, 0, std::min(until_ns - now_ns, settings_.wait_ns), FutexScope::Process);
+    futex_wait(stop_, 0, until_ns - now_ns, FutexScope::Process);
   }
   pause_ns_ = std::min(2 * pause_ns_, settings_.reopen_longest_ns);
 }
@@ -72,38 +68,24 @@ void CaptureLoop::take_frame() {
   dropped_by_driver_.store(source_.counters().dropped_by_driver + source_.counters().corrupt,
                            std::memory_order_relaxed);
   switch (result) {
-    case FrameResult::Frame: {
-      // Only a frame shows that it works: the next outage begins with a short pause.
+    case FrameResult::Frame:
+      // Only a frame proves that the source works; an opening without one counts as failed.
       delivered_ = true;
       pause_ns_ = settings_.reopen_first_ns;
-      const FrameHeader& header = frame.header;
-      const bool right_size = !settings_.exact_size || (header.width_px == ring_.max_width_px() &&
-                                                        header.height_px == ring_.max_height_px());
-      if (right_size && ring_.push(frame)) return;
-      if (!told_refused_) tell(EventKind::FrameRefused, header.width_px, header.height_px, "");
-      told_refused_ = true;
-      return;
-    }
+      return publish(frame);
     case FrameResult::Timeout:
       return;
     case FrameResult::Error: {
       const auto unusable = static_cast<std::int64_t>(dropped_by_driver_.load(std::memory_order_relaxed));
-      tell(EventKind::FrameCorrupt, unusable, 0, source_.problem().c_str());
-      return;
+      return push_event(EventKind::FrameCorrupt, unusable, 0, source_.problem().c_str());
     }
     case FrameResult::EndOfStream:
-      if (settings_.begin_again) {
-        source_.close();
-        if (!delivered_) pause();
-        open_ = source_.open() == OpenResult::Opened;
-        delivered_ = false;
-        return;
-      }
-      tell(EventKind::CameraEnded, 0, 0, source_.problem().c_str());
+      if (settings_.restart_at_end) return restart_stream();
+      push_event(EventKind::CameraEnded, 0, 0, source_.problem().c_str());
       ended_.store(true, std::memory_order_relaxed);
       return;
     case FrameResult::Lost:
-      tell(EventKind::CameraLost, 0, 0, source_.problem().c_str());
+      push_event(EventKind::CameraLost, 0, 0, source_.problem().c_str());
       source_.close();
       open_ = false;
       if (!delivered_) pause();
@@ -111,23 +93,39 @@ void CaptureLoop::take_frame() {
   }
 }
 
+void CaptureLoop::publish(const FrameView& frame) {
+  const FrameHeader& header = frame.header;
+  const bool right_size =
+      header.width_px == frames_.max_width_px() && header.height_px == frames_.max_height_px();
+  if (right_size && frames_.push(frame)) return;
+  if (!reported_wrong_size_) push_event(EventKind::FrameRefused, header.width_px, header.height_px, "");
+  reported_wrong_size_ = true;
+}
+
+void CaptureLoop::restart_stream() {
+  source_.close();
+  if (!delivered_) pause();
+  open_ = source_.open() == OpenResult::Opened;
+  delivered_ = false;
+}
+
 CaptureCounters CaptureLoop::counters() const {
-  return {.captured = ring_.captured(),
+  return {.captured = frames_.captured(),
           .dropped_by_driver = dropped_by_driver_.load(std::memory_order_relaxed),
-          .dropped_unread = ring_.dropped(),
+          .dropped_unread = frames_.dropped(),
           .reopened = reopened_.load(std::memory_order_relaxed)};
 }
 
-void CaptureLoop::push_counts() {
+void CaptureLoop::push_counters() {
   CaptureCounters now = counters();
   now.t_ns = pushed_.t_ns;
   if (now == pushed_) return;
   now.t_ns = monotonic_now_ns();
   pushed_ = now;
-  counts_.push(now);
+  counter_records_.push(now);
 }
 
-void CaptureLoop::tell(EventKind kind, std::int64_t a, std::int64_t b, const char* text) {
+void CaptureLoop::push_event(EventKind kind, std::int64_t a, std::int64_t b, const char* text) {
   Event event{.t_ns = monotonic_now_ns(), .kind = kind, .a = a, .b = b};
   std::strncpy(event.text.data(), text, event.text.size() - 1);
   events_.push(event);

@@ -1,8 +1,8 @@
-// The capture thread's body: source → ring. Opens the source, opens it again when it is lost (with growing
-// pauses), counts, beats its heart. In steady state it does not allocate, lock or format (beyond what a
-// source's own library does; see file_source.h).
+// The loop of the capture thread: FrameSource → FrameTripleBuffer. Opens the source, opens it again after it
+// is lost (with growing pauses), and counts. In steady state it does not allocate, lock or format, beyond
+// what the library of a source does (file_source.h).
 //
-//   CaptureLoop loop(*source, ring, feeds.captures, feeds.capture_events);
+//   CaptureLoop loop(*source, frames, queues.captures, queues.capture_events);
 //   std::jthread thread([&] { enter_thread(plan, realtime); loop.run(); });
 //   …  loop.stop(); thread.join();
 #pragma once
@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <string>
 
-#include "capture/factory/frame_source_factory.h"
 #include "capture/frame_source.h"
 #include "heel/flow.h"
 #include "realtime/frame_triple_buffer.h"
@@ -20,32 +19,26 @@
 namespace heel {
 
 struct CaptureLoopSettings {
-  TimeNs wait_ns = 100 * kNsPerMs;          ///< longest wait for a frame: how soon stop() is seen
+  TimeNs wait_ns = 100 * kNsPerMs;          ///< longest wait for a frame; stop() takes effect within it
   TimeNs reopen_first_ns = 100 * kNsPerMs;  ///< pause before the first attempt to open again …
-  TimeNs reopen_longest_ns = 2 * kNsPerS;   ///< … doubled at each failure up to this; a frame starts anew
-  bool begin_again = false;                 ///< after a stream's end, from its beginning
-  bool exact_size = true;                   ///< refuse frames that are not exactly the ring's size
+  TimeNs reopen_longest_ns = 2 * kNsPerS;   ///< … doubled at each failure up to this; a frame resets it
+  bool restart_at_end = false;              ///< after the end of a stream, start it again
 };
 
 class CaptureLoop {
  public:
-  /// Everything is borrowed and must outlive run(). `source` may be open already.
-  CaptureLoop(FrameSource& source, FrameTripleBuffer& ring, SpscQueue<CaptureCounters>& counts,
+  /// Everything is borrowed and must outlive run(). Frames must have exactly the size of `frames`.
+  CaptureLoop(FrameSource& source, FrameTripleBuffer& frames, SpscQueue<CaptureCounters>& counter_records,
               SpscQueue<Event>& events, const CaptureLoopSettings& settings = {});
 
-  /// Tells the loop that `source` is open already (as open_frame_source leaves it).
-  void assume_open() { open_ = true; }
-
-  /// Until stop(), or until the stream has ended.
+  /// Runs until stop() or the end of the stream.
   void run();
-  /// From any thread; also ends pauses.
+  /// From any thread; also ends a pause.
   void stop();
 
-  // ── from any thread ──
-  /// True: a file's last frame has been given and run() has returned.
+  // From any thread:
+  /// True: a file's last frame has been given and run() has returned, or is about to.
   bool ended() const { return ended_.load(std::memory_order_relaxed); }
-  /// When the loop last went round; it does so at least every `wait_ns`.
-  TimeNs heartbeat_ns() const { return heartbeat_ns_.load(std::memory_order_relaxed); }
   CaptureCounters counters() const;
 
  private:
@@ -53,26 +46,27 @@ class CaptureLoop {
   void try_open();
   void pause();
   void take_frame();
-  void push_counts();
-  void tell(EventKind kind, std::int64_t a, std::int64_t b, const char* text);
+  void publish(const FrameView& frame);
+  void restart_stream();
+  void push_counters();
+  void push_event(EventKind kind, std::int64_t a, std::int64_t b, const char* text);
 
   FrameSource& source_;
-  FrameTripleBuffer& ring_;
-  SpscQueue<CaptureCounters>& counts_;
+  FrameTripleBuffer& frames_;
+  SpscQueue<CaptureCounters>& counter_records_;
   SpscQueue<Event>& events_;
   CaptureLoopSettings settings_;
 
   bool open_ = false;
-  bool delivered_ = false;     // a frame has come since the opening; without one it counts as failed
-  bool was_open_ = false;      // an opening is a reopening from now on
-  std::string told_problem_;   // of an opening: once for each reason in an outage
-  bool told_refused_ = false;  // once for each opening
+  bool delivered_ = false;            // a frame has come since the source was opened
+  bool was_open_ = false;             // the next opening counts as reopening
+  std::string reported_problem_;      // of an opening: each reason is reported once in an outage
+  bool reported_wrong_size_ = false;  // since the source was opened
   TimeNs pause_ns_;
   CaptureCounters pushed_;
 
   std::atomic<std::uint32_t> stop_{0};  // also the futex of pauses
   std::atomic<bool> ended_{false};
-  std::atomic<TimeNs> heartbeat_ns_{0};
   std::atomic<std::uint64_t> dropped_by_driver_{0};
   std::atomic<std::uint64_t> reopened_{0};
 };

@@ -1,4 +1,4 @@
-// heeld --check: a configuration and everything it refers to, without touching camera or robot.
+// heeld --check: a configuration and the files it refers to, without access to camera or robot.
 #pragma once
 
 #include <string>
@@ -7,9 +7,5 @@ namespace heel {
 
 /// Prints every value with its origin, then what the referenced files hold. Throws ConfigError or Error.
 void check_configuration(const std::string& path);
-
-/// One line about the template: how many features, how well spread, how alike.
-struct TemplateVerdict;
-std::string verdict_line(const TemplateVerdict& verdict);
 
 }  // namespace heel

@@ -3,12 +3,12 @@
 #include <cstring>
 
 namespace heel {
-ControlLoop::ControlLoop(const Config& config, Mailbox<PoseEstimate>& poses, TelemetryFeeds& feeds)
+ControlLoop::ControlLoop(const Config& config, Mailbox<PoseEstimate>& poses, TelemetryQueues& queues)
     : link_(config.robot),
       stage_(config),
       deadline_(ns_from_seconds(1.0 / config.control.rate_hz), monotonic_now_ns()),
       poses_(poses),
-      feeds_(feeds) {}
+      queues_(queues) {}
 
 void ControlLoop::run() {
   deadline_.restart(monotonic_now_ns());
@@ -46,7 +46,7 @@ TimeNs ControlLoop::sleep_to_the_tick() {
     overruns_ = deadline_.overruns();
     Event event{.t_ns = now_ns, .kind = EventKind::Overrun, .a = static_cast<std::int64_t>(overruns_)};
     event.b = lateness_ns;
-    feeds_.control_events.push(event);
+    queues_.control_events.push(event);
   }
   return lateness_ns;
 }
@@ -84,13 +84,13 @@ void ControlLoop::report_robot_events() {
     Event event{.t_ns = news.t_ns, .kind = is_warning(news.kind) ? EventKind::Warning : EventKind::Note};
     event.a = news.value;
     std::strncpy(event.text.data(), to_string(news.kind), event.text.size() - 1);
-    feeds_.control_events.push(event);
+    queues_.control_events.push(event);
   }
 }
 
 void ControlLoop::publish(const TickRecord& record) {
   status_.post(record);
-  feeds_.ticks.push(record);
+  queues_.ticks.push(record);
 }
 
 }  // namespace heel

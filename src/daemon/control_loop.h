@@ -9,14 +9,14 @@
 #include "realtime/clock.h"
 #include "realtime/mailbox.h"
 #include "robot/robot_link.h"
-#include "telemetry/feeds.h"
+#include "telemetry/telemetry_queues.h"
 
 namespace heel {
 
 class ControlLoop {
  public:
   /// Everything is borrowed and must outlive run(). Opening the line begins here.
-  ControlLoop(const Config& config, Mailbox<PoseEstimate>& poses, TelemetryFeeds& feeds);
+  ControlLoop(const Config& config, Mailbox<PoseEstimate>& poses, TelemetryQueues& queues);
 
   /// Until stop(); then the robot is stopped and the line closed. Does not allocate, lock or format.
   void run();
@@ -48,7 +48,7 @@ class ControlLoop {
   ControlStage stage_;
   PeriodicDeadline deadline_;
   Mailbox<PoseEstimate>& poses_;
-  TelemetryFeeds& feeds_;
+  TelemetryQueues& queues_;
 
   ControlInput input_;
   std::uint64_t overruns_ = 0;

@@ -1,10 +1,11 @@
 #include "daemon/inputs.h"
 
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
 #include <cmath>
-#include <sstream>
 
 #include "capture/factory/source_address.h"
-#include "capture/frame_source.h"
 #include "files/camera_info.h"
 #include "files/template_file.h"
 #include "heel/error.h"
@@ -12,27 +13,21 @@
 namespace heel {
 namespace {
 
-template <typename... Parts>
-std::string line_of(const Parts&... parts) {
-  std::ostringstream text;
-  (text << ... << parts);
-  return text.str();
-}
-
-/// Pictures read as fast as possible carry the file's own times, which mean nothing beside the robot's.
+/// With speed 0, frames carry the times of the file, which have no relation to the robot's.
 void check_pace(const CameraConfig& config) {
   if (parse_source_address(config.source).kind != SourceKind::File || config.file_speed > 0.0) return;
-  throw Error("camera.file_speed: is 0, but heeld runs in real time and needs more than 0");
+  throw Error("camera.file_speed: is 0, but heeld runs in real time; expected more than 0");
 }
 
-/// A device delivers the size asked of it; files and the simulator bring their own.
+/// A device delivers the size that is requested; files and the simulator have their own size.
 void check_frame_size(const CameraConfig& config, const CameraModel& camera) {
   const SourceKind kind = parse_source_address(config.source).kind;
   if (kind != SourceKind::V4l2 && kind != SourceKind::Libcamera) return;
   if (camera.width_px == config.width_px && camera.height_px == config.height_px) return;
-  throw Error(line_of(config.info, ": is for ", camera.width_px, "×", camera.height_px,
-                      " pixels, but camera.width_px and camera.height_px ask for ", config.width_px, "×",
-                      config.height_px));
+  throw Error(
+      fmt::format("{}: is for {}×{} pixels, but camera.width_px and camera.height_px request {}×{}; "
+                  "expected the same size, or calibrate at that size",
+                  config.info, camera.width_px, camera.height_px, config.width_px, config.height_px));
 }
 
 }  // namespace
@@ -40,9 +35,9 @@ void check_frame_size(const CameraConfig& config, const CameraModel& camera) {
 void check_against_camera(const Config& config, const CameraModel& camera) {
   const double half_view_rad = std::atan(0.5 * camera.width_px / camera.fx);
   if (config.control.bearing_max_rad < half_view_rad) return;
-  throw Error(line_of("control.bearing_max_rad: is ", config.control.bearing_max_rad,
-                      ", must be smaller than half the field of view of ", config.camera.info, ", ",
-                      half_view_rad, " rad"));
+  throw Error(fmt::format(
+      "control.bearing_max_rad: is {}, must be smaller than half the field of view of {}, {:.6g} rad",
+      config.control.bearing_max_rad, config.camera.info, half_view_rad));
 }
 
 Inputs load_inputs(const Config& config) {
@@ -55,13 +50,39 @@ Inputs load_inputs(const Config& config) {
   inputs.shirt = read_template(config.target.shirt);
   if (config.target.distance_m > 0.0) inputs.shirt.distance_m = config.target.distance_m;
   if (inputs.shirt.distance_m <= 0.0) {
-    throw Error(config.target.shirt + ": does not say at what distance it was taken; set target.distance_m");
+    throw Error(config.target.shirt +
+                ": has no distance; set target.distance_m to the distance it was taken at");
   }
   inputs.verdict = judge_template(inputs.shirt);
   if (!inputs.verdict.usable) {
     throw Error(config.target.shirt + ": cannot be followed: " + inputs.verdict.reason);
   }
   return inputs;
+}
+
+std::string verdict_text(const TemplateVerdict& verdict) {
+  return fmt::format(
+      "{} features over {:.0f} % of the region, {:.0f} % alike, {:.0f} % left at twice the distance",
+      verdict.features, 100.0 * verdict.spread, 100.0 * verdict.self_similarity,
+      100.0 * verdict.coarse_share);
+}
+
+void log_configuration(const LoadedConfig& loaded, const Inputs& inputs) {
+  const Config& c = loaded.config;
+  spdlog::info("configuration: {}", loaded.file);
+  spdlog::info("camera: {}, calibration {}, {}×{} pixels", c.camera.source, c.camera.info,
+               inputs.camera.width_px, inputs.camera.height_px);
+  spdlog::info("template: {}, taken at {:.2f} m; {}", c.target.shirt, inputs.shirt.distance_m,
+               verdict_text(inputs.verdict));
+  spdlog::info("robot: {}", c.robot.address);
+  spdlog::info(
+      "limits: speed {:.2f} m/s, yaw rate {:.2f} rad/s, acceleration {:.2f} m/s², deceleration {:.2f} m/s²",
+      c.gate.v_max_m_s, c.gate.yaw_rate_max_rad_s, c.gate.acceleration_m_s2, c.gate.deceleration_m_s2);
+  spdlog::info("limits: separation {:.2f} m, {}; reverse {}; a command expires after {:.2f} s",
+               c.gate.separation_m,
+               c.robot.sonar ? fmt::format("clearance {:.2f} m by sonar", c.gate.clearance_m)
+                             : "no clearance, the sonars are off",
+               c.control.reverse ? "allowed" : "not allowed", c.gate.command_lifetime_s);
 }
 
 }  // namespace heel

@@ -1,7 +1,10 @@
-// What a configuration refers to: the camera's calibration and the template, loaded and checked against each
-// other before any thread starts.
+// The files that a configuration refers to: the camera's calibration and the template, loaded and checked
+// against each other before any thread starts.
 #pragma once
 
+#include <string>
+
+#include "config/config_load.h"
 #include "core/config.h"
 #include "heel/camera_model.h"
 #include "heel/shirt_template.h"
@@ -14,10 +17,16 @@ struct Inputs {
   TemplateVerdict verdict;
 };
 
-/// Throws heel::Error with one line naming the file and what is wrong with it.
+/// Throws heel::Error with one line that names the file and what is wrong with it.
 Inputs load_inputs(const Config& config);
 
-/// What of a configuration depends on the camera; throws heel::Error. Also for reloads.
+/// Checks the values that depend on the camera, also those of a reload. Throws heel::Error.
 void check_against_camera(const Config& config, const CameraModel& camera);
+
+/// One line about the template: its features, their spread and their similarity.
+std::string verdict_text(const TemplateVerdict& verdict);
+
+/// Logs the inputs and the limits that the daemon runs with.
+void log_configuration(const LoadedConfig& loaded, const Inputs& inputs);
 
 }  // namespace heel

@@ -1,6 +1,4 @@
-// heeld: load, wire, start, stop.
-#include <spdlog/spdlog.h>
-
+// The command line of heeld.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -10,11 +8,11 @@
 #include "config/config_text.h"
 #include "daemon/check.h"
 #include "daemon/daemon.h"
-#include "logging/logging.h"
 
 namespace {
 
-// sysexits(3) has EX_CONFIG = 78; the unit does not restart on it: only a person can help.
+// EX_CONFIG of sysexits(3). systemd does not restart the service on it: a person must correct the
+// configuration.
 constexpr int kExitConfiguration = 78;
 
 struct Options {
@@ -42,17 +40,22 @@ int run(const Options& options) {
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app("heeld: a Pioneer P3-AT follows the back of one person's shirt", "heeld");
-  auto* config = app.add_option("--config", options.config, "The configuration file (see heel.toml)");
-  app.add_flag("--check", options.check, "Validate, print every value with its origin, and exit")
+  CLI::App app("heeld: makes a Pioneer P3-AT follow a person by the back of their shirt", "heeld");
+  auto* config =
+      app.add_option("--config", options.config, "Configuration file (TOML); see docs/configuration.md");
+  app.add_flag(
+         "--check", options.check,
+         "Check the configuration and the files it refers to, print every value with its origin, and exit")
       ->needs(config);
-  auto* print =
-      app.add_flag("--print-default-config", options.print_default_config, "Print heel.toml and exit");
+  auto* print = app.add_flag("--print-default-config", options.print_default_config,
+                             "Print a configuration file with every key at its default value, and exit");
   auto* manual = app.add_flag("--print-config-manual", options.print_config_manual,
-                              "Print the manual's table of keys and exit");
+                              "Print the manual of all keys (docs/configuration.md), and exit");
   CLI11_PARSE(app, argc, argv);
   if (config->count() + print->count() + manual->count() == 0) {
-    std::fputs("heeld: --config FILE is needed; heeld --print-default-config makes one\n", stderr);
+    std::fputs(
+        "heeld: no configuration; expected --config FILE (heeld --print-default-config prints an example)\n",
+        stderr);
     return kExitConfiguration;
   }
 

@@ -6,7 +6,7 @@ namespace heel {
 
 ServiceNotifier::ServiceNotifier() {
   std::uint64_t timeout_us = 0;
-  // A third of the timeout: two feeds may be late before anything happens.
+  // A third of the timeout: two feeds may be missed.
   if (sd_watchdog_enabled(0, &timeout_us) > 0) {
     watchdog_period_ns_ = static_cast<TimeNs>(timeout_us) * kNsPerUs / 3;
   }

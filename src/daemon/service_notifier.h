@@ -1,4 +1,4 @@
-// What systemd is told: sd_notify(3). Without systemd (no NOTIFY_SOCKET) every call does nothing.
+// Messages to systemd by sd_notify(3). Without systemd (no NOTIFY_SOCKET) every call does nothing.
 #pragma once
 
 #include <string>
@@ -11,14 +11,15 @@ class ServiceNotifier {
  public:
   ServiceNotifier();
 
-  /// Handshake with the robot done and the first frame seen.
+  /// The service is ready; also ends a reload.
   void ready();
-  /// Before a reload: with the time, without which systemd 252 waits for nothing; after it, ready().
+  /// Before a reload; ready() follows after it. systemd waits for the end of a reload only if it got the
+  /// time.
   void reloading(TimeNs now_ns);
   void stopping();
   /// One line for `systemctl status`; sent when it changes.
   void status(const std::string& line);
-  /// Call often: feeds the watchdog when it is due.
+  /// To be called often: feeds the watchdog when that is due.
   void alive(TimeNs now_ns);
 
  private:

@@ -22,7 +22,7 @@ Signals::Signals() {
   if (error != 0) throw Error(std::string("signals cannot be blocked: ") + std::strerror(error));
   fd_ = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
   if (fd_ < 0) throw Error(std::string("signals cannot be read: ") + std::strerror(errno));
-  std::signal(SIGPIPE, SIG_IGN);  // a line or socket that closes is an error code, not an end
+  std::signal(SIGPIPE, SIG_IGN);  // writing to a closed connection gives an error code instead
 }
 
 Signals::~Signals() {

@@ -1,4 +1,4 @@
-// Signals as ordinary input: blocked in every thread, read from a descriptor by the main one.
+// Signals as input of the main thread: blocked in every thread, and read from a file descriptor.
 #pragma once
 
 #include "heel/time.h"
@@ -9,7 +9,7 @@ enum class Signal : unsigned char { None, Stop, Reload };
 
 class Signals {
  public:
-  /// Blocks SIGTERM, SIGINT and SIGHUP for this thread and all it starts later, and ignores SIGPIPE.
+  /// Blocks SIGTERM, SIGINT and SIGHUP in this thread and all threads it starts later, and ignores SIGPIPE.
   /// Throws heel::Error.
   Signals();
   ~Signals();

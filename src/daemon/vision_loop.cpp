@@ -5,7 +5,7 @@
 namespace heel {
 
 namespace {
-constexpr TimeNs kLongestWait_ns = 100 * kNsPerMs;  // how soon stop() is seen at the latest
+constexpr TimeNs kLongestWait_ns = 100 * kNsPerMs;  // stop() takes effect within it
 }
 
 VisionLoop::VisionLoop(FrameTripleBuffer& frames, PoseTracker& tracker, Mailbox<PoseEstimate>& to_control,

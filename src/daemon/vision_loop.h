@@ -1,4 +1,5 @@
-// The vision thread's body: the freshest frame in, its pose to control and to the recording.
+// The loop of the vision thread: takes the newest frame, estimates its pose, and hands it to control and
+// telemetry.
 #pragma once
 
 #include <atomic>
@@ -16,7 +17,7 @@ class VisionLoop {
   VisionLoop(FrameTripleBuffer& frames, PoseTracker& tracker, Mailbox<PoseEstimate>& to_control,
              SpscQueue<PoseEstimate>& to_telemetry);
 
-  /// Until stop(). Does not allocate, lock or format.
+  /// Runs until stop(). Does not allocate, lock or format.
   void run();
   /// From any thread.
   void stop();

@@ -20,11 +20,6 @@ void sleep_until_ns(TimeNs t_ns) {
 PeriodicDeadline::PeriodicDeadline(TimeNs period_ns, TimeNs start_ns)
     : period_ns_(period_ns), next_ns_(start_ns + period_ns) {}
 
-TimeNs PeriodicDeadline::wait() {
-  sleep_until_ns(next_ns_);
-  return advance(monotonic_now_ns());
-}
-
 TimeNs PeriodicDeadline::advance(TimeNs now_ns) {
   const TimeNs lateness_ns = now_ns > next_ns_ ? now_ns - next_ns_ : 0;
   const TimeNs missed = lateness_ns / period_ns_;

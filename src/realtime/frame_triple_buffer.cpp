@@ -26,7 +26,7 @@ FrameTripleBuffer::FrameTripleBuffer(std::uint32_t max_width_px, std::uint32_t m
       max_height_px_(max_height_px),
       stride_bytes_(round_up_to_cache_line(max_width_px)) {
   const std::size_t slot_bytes = std::size_t{stride_bytes_} * max_height_px_;
-  // Writing zeros also brings every page in, so that the first frames cause no page faults.
+  // Writing zeros also maps every page, so that the first frames cause no page faults.
   pixels_.assign(slot_bytes * TripleBuffer::kSlots + kCacheLineBytes, 0);
   const auto address = reinterpret_cast<std::uintptr_t>(pixels_.data());
   const std::size_t to_alignment = (kCacheLineBytes - address % kCacheLineBytes) % kCacheLineBytes;
@@ -67,8 +67,8 @@ const FrameView* FrameTripleBuffer::take() {
 }
 
 bool FrameTripleBuffer::wait(TimeNs timeout_ns) const {
-  // The signal is read before the look: a frame published between look and sleep changes it, and the sleep
-  // does not begin.
+  // The signal is read before the check for a frame: a frame published between the check and the sleep
+  // changes the signal, and the futex then returns at once.
   const std::uint32_t seen = signal_.load(std::memory_order_acquire);
   if (exchange_.has_fresh()) return true;
   futex_wait(signal_, seen, timeout_ns, FutexScope::Process);

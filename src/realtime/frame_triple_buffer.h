@@ -1,8 +1,8 @@
-// Frames from the capture thread to the vision thread: preallocated, lock-free, freshest wins.
-// One writer, one reader. The reader always gets the newest complete frame; a frame that a fresher one
-// overtakes before it was read is dropped and counted; the frame the reader holds is never touched.
+// Frames from the capture thread to the vision thread, preallocated and lock-free. One writer, one reader.
+// The reader always gets the newest complete frame. A frame that a newer one replaces before it was read is
+// dropped and counted. The frame that the reader holds is never overwritten.
 //
-// At every moment, and exactly when both sides rest:  captured = consumed + dropped + (1 if unread else 0).
+// When neither side is in a call:  captured = consumed + dropped + (1 if a frame is unread, else 0).
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace heel {
 
-/// A slot to write a frame into.
+/// A slot for the writer to fill.
 struct WritableFrame {
   FrameHeader* header = nullptr;
   std::uint8_t* grey = nullptr;
@@ -24,7 +24,7 @@ struct WritableFrame {
 
 class FrameTripleBuffer {
  public:
-  /// Takes all memory here, for frames of at most this size.
+  /// Allocates all memory here, for frames of at most this size.
   FrameTripleBuffer(std::uint32_t max_width_px, std::uint32_t max_height_px);
 
   FrameTripleBuffer(const FrameTripleBuffer&) = delete;
@@ -33,22 +33,22 @@ class FrameTripleBuffer {
   std::uint32_t max_width_px() const { return max_width_px_; }
   std::uint32_t max_height_px() const { return max_height_px_; }
 
-  // ── writer ──
-  /// The slot to fill; the same one until publish().
+  // Writer:
+  /// The slot to fill; it stays the same until publish().
   WritableFrame writable();
   /// Makes the filled slot the newest frame and wakes the reader.
   void publish();
-  /// Copies a frame in and publishes it. False: it does not fit and is not taken.
+  /// Copies a frame and publishes it. False: the frame is too large and was not copied.
   bool push(const FrameView& frame);
 
-  // ── reader ──
-  /// The newest frame not taken before, or null. It stays valid and untouched until the next take that
-  /// succeeds.
+  // Reader:
+  /// The newest frame, or null if it has been taken before. It stays valid and unchanged until the next
+  /// take() that returns a frame.
   const FrameView* take();
-  /// Sleeps until a frame is there to take (true), or until the timeout or wake() (false).
+  /// Sleeps until a frame can be taken (true), or until the timeout or wake() (false).
   bool wait(TimeNs timeout_ns) const;
 
-  // ── anyone ──
+  // Any thread:
   /// Ends a wait() early, e.g. to stop the reader's thread.
   void wake();
   std::uint64_t captured() const { return captured_.load(std::memory_order_relaxed); }

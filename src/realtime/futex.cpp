@@ -11,7 +11,8 @@ namespace heel {
 
 namespace {
 
-static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t), "the kernel reads the bare word");
+static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t),
+              "the kernel reads the atomic as a plain 32-bit word");
 
 int operation(int base, FutexScope scope) {
   return scope == FutexScope::Process ? base | FUTEX_PRIVATE_FLAG : base;

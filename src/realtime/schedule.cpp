@@ -3,7 +3,6 @@
 #include <linux/capability.h>
 #include <pthread.h>
 #include <sched.h>
-#include <spdlog/spdlog.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -12,14 +11,13 @@
 
 #include <cerrno>
 #include <cstddef>
-#include <cstring>
 
 namespace heel {
 
 namespace {
 
 constexpr double kTelemetryRate_Hz = 20.0;
-// Touched on entry; more than any stage's frames need, far less than the 8 MB a thread gets.
+// Written on entry; more than any stage uses, far less than the 8 MB of a thread's stack.
 constexpr std::size_t kPrefaultedStackBytes = 256 * 1024;
 
 TimeNs period_ns(double rate_hz) {
@@ -45,7 +43,7 @@ Schedule make_schedule(const Config& config) {
   const TimeNs frame_ns = period_ns(config.camera.rate_hz);
   const TimeNs tick_ns = period_ns(config.control.rate_hz);
   const RuntimeConfig& rt = config.runtime;
-  // Control before capture before vision: the wheels must never wait for a picture.
+  // Control before capture before vision: the wheels must never wait for an image.
   return {{
       // role                  name              rate                     priority             deadline
       {ThreadRole::Capture, "heel-capture", config.camera.rate_hz, rt.priority_capture, frame_ns},
@@ -65,38 +63,26 @@ const ThreadPlan& plan_of(const Schedule& schedule, ThreadRole role) {
 ThreadEntry enter_thread(const ThreadPlan& plan, bool realtime) {
   pthread_setname_np(pthread_self(), plan.name);
   prefault_stack();
-  // Without real time the kernel may round a sleep up by 50 µs to save wake-ups; it must not here.
+  // By default the kernel may lengthen a sleep of an ordinary thread by 50 µs to save wake-ups.
   prctl(PR_SET_TIMERSLACK, 1UL);
 
   ThreadEntry entry;
   if (!realtime || plan.priority <= 0) return entry;
   sched_param parameters{};
   parameters.sched_priority = plan.priority;
-  // Threads and processes it may start are not to inherit the priority.
+  // Threads and processes that it starts must not inherit the priority.
   entry.error = pthread_setschedparam(pthread_self(), SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters);
   entry.realtime = entry.error == 0;
-  if (entry.realtime) {
-    spdlog::debug("{}: real-time priority {}", plan.name, plan.priority);
-  } else {
-    spdlog::warn(
-        "{}: real-time priority {} refused ({}); going on without. It needs CAP_SYS_NICE or LimitRTPRIO={}",
-        plan.name, plan.priority, std::strerror(entry.error), plan.priority);
-  }
   return entry;
 }
 
-bool lock_process_memory() {
-  // With a finite limit mlockall would succeed now and make every later allocation beyond the limit fail.
+int lock_process_memory() {
+  // With a finite limit mlockall would succeed now, and every later allocation beyond the limit would fail.
   rlimit limit{};
   getrlimit(RLIMIT_MEMLOCK, &limit);
   const bool unlimited = limit.rlim_cur == RLIM_INFINITY || has_capability(CAP_IPC_LOCK);
-  const int error = !unlimited ? EPERM : (mlockall(MCL_CURRENT | MCL_FUTURE) == 0 ? 0 : errno);
-  if (error == 0) return true;
-  spdlog::warn(
-      "memory is not locked ({}); going on, page faults may delay control. It needs CAP_IPC_LOCK or "
-      "LimitMEMLOCK=infinity",
-      std::strerror(error));
-  return false;
+  if (!unlimited) return EPERM;
+  return mlockall(MCL_CURRENT | MCL_FUTURE) == 0 ? 0 : errno;
 }
 
 }  // namespace heel

@@ -1,5 +1,5 @@
-// A bounded queue of records from one hot thread to the telemetry thread. Wait-free on both sides.
-// When it is full the new record is dropped and counted: the hot thread never waits for a slow disk.
+// A bounded queue of records from one real-time thread to the telemetry thread. Wait-free on both sides.
+// When it is full, the new record is dropped and counted: the real-time thread never waits for a slow disk.
 #pragma once
 
 #include <atomic>
@@ -15,17 +15,17 @@ namespace heel {
 
 template <typename T>
 class SpscQueue {
-  static_assert(std::is_trivially_copyable_v<T>, "records cross threads as bytes");
+  static_assert(std::is_trivially_copyable_v<T>, "records are copied between threads as bytes");
 
  public:
-  /// Takes all its memory here. The capacity is rounded up to a power of two.
+  /// Allocates all memory here. The capacity is rounded up to a power of two.
   explicit SpscQueue(std::size_t capacity)
       : records_(std::bit_ceil(capacity < 2 ? std::size_t{2} : capacity)), mask_(records_.size() - 1) {}
 
   SpscQueue(const SpscQueue&) = delete;
   SpscQueue& operator=(const SpscQueue&) = delete;
 
-  /// Writer. False: the queue was full, the record is dropped and counted.
+  /// Writer. False: the queue is full; the record was dropped and counted.
   bool push(const T& record) {
     const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
     if (tail - cached_head_ == records_.size()) {
@@ -60,8 +60,8 @@ class SpscQueue {
   std::vector<T> records_;
   std::size_t mask_;
 
-  // Positions count up for ever. Each side keeps a copy of the other's position and looks again only when the
-  // copy says full (or empty), so that in steady flow the two do not pull each other's cache line.
+  // Positions only count up. Each side keeps a copy of the other's position and reads it again only when the
+  // copy says full (or empty). In steady flow the two sides then do not access each other's cache line.
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> tail_{0};  // written by the writer
   std::uint64_t cached_head_ = 0;
   std::atomic<std::uint64_t> dropped_{0};

@@ -1,5 +1,5 @@
-// The clock of the measurements: CPU time of the calling thread. What other programs on the machine take does
-// not count, but for what their use of caches and memory costs.
+// The clock for measurements: CPU time of the calling thread. Time taken by other programs is not counted;
+// their use of caches and memory still has an effect.
 #pragma once
 
 #include <ctime>

@@ -1,10 +1,10 @@
-// Three slots that change hands between one writer and one reader: one is being written, one holds the newest
-// value, one is being read. Handing over is a single atomic exchange, so both sides are wait-free, the reader
-// always gets the newest value, and neither side ever touches a slot the other one holds.
+// Three slots between one writer and one reader: one is being written, one holds the newest value, one is
+// being read. The slots are exchanged by a single atomic operation, so both sides are wait-free, the reader
+// always gets the newest value, and neither side accesses the slot of the other.
 //
-// Why not a ring of positions (slot = position mod n)? A reader that is slower than the writer (vision behind
-// a fast camera is the ordinary case) still holds its slot when the writer's position comes round to it; the
-// writer would have to drop the fresh value or tear the held one. Slots that change hands have no such place.
+// A ring of positions (slot = position mod n) would not do: when the reader is slower than the writer, as
+// vision usually is behind a fast camera, the writer's position reaches the slot that the reader still holds,
+// and the writer would have to drop the new value or overwrite the one being read.
 #pragma once
 
 #include <atomic>
@@ -19,39 +19,40 @@ class TripleBuffer {
  public:
   static constexpr std::uint32_t kSlots = 3;
 
-  // ── writer ──
-  /// The slot only the writer touches until the next publish.
+  // Writer:
+  /// The slot that only the writer accesses until the next publish().
   std::uint32_t write_slot() const { return write_slot_; }
 
-  /// Makes the written slot the newest. True: it overtook a value nobody had read.
+  /// Makes the written slot the newest value. True: it replaced a value that was never read.
   bool publish() {
-    // Release: the reader that takes the slot sees what was written into it.
-    // Acquire: what the reader did with the slot we get back is over before we write there.
+    // Release: the reader that takes the slot sees what was written to it.
+    // Acquire: the reader has finished with the slot we get back before we write to it.
     const std::uint32_t before = newest_.exchange(write_slot_ | kFresh, std::memory_order_acq_rel);
     write_slot_ = before & kSlotMask;
     return (before & kFresh) != 0;
   }
 
-  // ── reader ──
-  /// The slot only the reader touches until the next successful take.
+  // Reader:
+  /// The slot that only the reader accesses until the next successful take().
   std::uint32_t read_slot() const { return read_slot_; }
 
-  /// True: read_slot() is now the newest value, not taken before. False: nothing new, the slot held stays.
+  /// True: read_slot() is now the newest value, not taken before. False: no new value; read_slot() is
+  /// unchanged.
   bool take() {
-    // Only the reader clears the mark, so what the load saw cannot have gone before the exchange.
+    // Only the reader clears the flag, so it is still set at the exchange.
     if (!has_fresh()) return false;
     read_slot_ = newest_.exchange(read_slot_, std::memory_order_acq_rel) & kSlotMask;
     return true;
   }
 
-  // ── either ──
+  // Both:
   bool has_fresh() const { return (newest_.load(std::memory_order_acquire) & kFresh) != 0; }
 
  private:
-  static constexpr std::uint32_t kFresh = 4;  // published and not yet taken
+  static constexpr std::uint32_t kFresh = 4;  // flag: published and not yet taken
   static constexpr std::uint32_t kSlotMask = 3;
 
-  // Each on its own cache line: the writer's stores do not slow the reader's loads.
+  // Each has its own cache line, so that the writer's stores do not slow down the reader's loads.
   alignas(kCacheLineBytes) std::atomic<std::uint32_t> newest_{0};
   alignas(kCacheLineBytes) std::uint32_t write_slot_ = 1;
   alignas(kCacheLineBytes) std::uint32_t read_slot_ = 2;

@@ -19,7 +19,7 @@ static_assert(static_cast<std::size_t>(EventKind::Warning) < 16, "Telemetry::log
 
 }  // namespace
 
-Telemetry::Telemetry(TelemetryFeeds& feeds, const TelemetryConfig& config) : feeds_(feeds) {
+Telemetry::Telemetry(TelemetryQueues& queues, const TelemetryConfig& config) : queues_(queues) {
   if (!config.directory.empty()) recorder_ = std::make_unique<Recorder>(config.directory);
 }
 
@@ -44,17 +44,17 @@ void Telemetry::stop() {
 }
 
 void Telemetry::drain(TimeNs now_ns) {
-  for (TickRecord tick; feeds_.ticks.pop(tick);) take(tick);
-  for (PoseEstimate pose; feeds_.poses.pop(pose);) {
+  for (TickRecord tick; queues_.ticks.pop(tick);) take(tick);
+  for (PoseEstimate pose; queues_.poses.pop(pose);) {
     ++newest_.poses;
     newest_.pose = pose;
     if (recorder_) recorder_->record(pose);
   }
-  for (CaptureCounters capture; feeds_.captures.pop(capture);) {
+  for (CaptureCounters capture; queues_.captures.pop(capture);) {
     newest_.capture = capture;
     if (recorder_) recorder_->record(capture);
   }
-  for (SpscQueue<Event>* events : {&feeds_.capture_events, &feeds_.vision_events, &feeds_.control_events}) {
+  for (SpscQueue<Event>* events : {&queues_.capture_events, &queues_.control_events}) {
     for (Event event; events->pop(event);) take(event);
   }
   log_losses(now_ns);
@@ -100,9 +100,8 @@ void Telemetry::take(const Event& event) {
 }
 
 void Telemetry::log_losses(TimeNs now_ns) {
-  newest_.records_lost = feeds_.ticks.dropped() + feeds_.poses.dropped() + feeds_.captures.dropped() +
-                         feeds_.capture_events.dropped() + feeds_.vision_events.dropped() +
-                         feeds_.control_events.dropped();
+  newest_.records_lost = queues_.ticks.dropped() + queues_.poses.dropped() + queues_.captures.dropped() +
+                         queues_.capture_events.dropped() + queues_.control_events.dropped();
   if (newest_.records_lost == lost_told_ || now_ns - losses_told_ns_ < kRepeat_ns) return;
   spdlog::warn("telemetry fell behind: {} records lost so far", newest_.records_lost);
   lost_told_ = newest_.records_lost;

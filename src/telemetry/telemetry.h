@@ -2,8 +2,8 @@
 // the newest of each kind for whoever asks (status, live view). Neither hot nor real-time: it may lock and
 // format.
 //
-//   TelemetryFeeds feeds;
-//   Telemetry telemetry(feeds, config.telemetry);            // throws heel::Error, before the threads start
+//   TelemetryQueues queues;
+//   Telemetry telemetry(queues, config.telemetry);            // throws heel::Error, before the threads start
 //   std::jthread thread([&] { enter_thread(plan, false); telemetry.run(); });
 //   …  telemetry.stop(); thread.join();                      // writes out the rest
 #pragma once
@@ -16,8 +16,8 @@
 
 #include "core/config.h"
 #include "heel/flow.h"
-#include "telemetry/feeds.h"
 #include "telemetry/recorder.h"
+#include "telemetry/telemetry_queues.h"
 
 namespace heel {
 
@@ -35,7 +35,7 @@ struct TelemetrySnapshot {
 class Telemetry {
  public:
   /// Records when config.directory is not empty. Throws heel::Error when it cannot.
-  Telemetry(TelemetryFeeds& feeds, const TelemetryConfig& config);
+  Telemetry(TelemetryQueues& queues, const TelemetryConfig& config);
 
   /// The thread's body: a round every 50 ms until stop(), then a last one.
   void run();
@@ -52,7 +52,7 @@ class Telemetry {
   void take(const Event& event);
   void log_losses(TimeNs now_ns);
 
-  TelemetryFeeds& feeds_;
+  TelemetryQueues& queues_;
   std::unique_ptr<Recorder> recorder_;  // null: nothing is recorded
 
   TelemetrySnapshot newest_;

@@ -14,15 +14,15 @@ TEST(ControlLoop, TheTimeBeforeTheThreadRunsIsNoLateness) {
   Config config;
   config.robot.address = "pty:/nonexistent/robot";
   Mailbox<PoseEstimate> poses;
-  TelemetryFeeds feeds;
-  ControlLoop loop(config, poses, feeds);
+  TelemetryQueues queues;
+  ControlLoop loop(config, poses, queues);
   const TimeNs period_ns = ns_from_seconds(1.0 / config.control.rate_hz);
   sleep_until_ns(monotonic_now_ns() + 5 * period_ns);
 
   const TimeNs t_run_ns = monotonic_now_ns();
   std::jthread thread([&] { loop.run(); });
   TickRecord first;
-  while (!feeds.ticks.pop(first)) sleep_until_ns(monotonic_now_ns() + kNsPerMs);
+  while (!queues.ticks.pop(first)) sleep_until_ns(monotonic_now_ns() + kNsPerMs);
   loop.stop();
   thread.join();
 

@@ -28,22 +28,22 @@ Event event_of(EventKind kind, TimeNs t_ns, const char* text = "") {
 
 class TelemetryTest : public testing::Test {
  protected:
-  TelemetryFeeds feeds_;
+  TelemetryQueues queues_;
   test::CollectedLog log_;
 };
 
 TEST_F(TelemetryTest, ChangesOfStopReasonAndLinkAreToldOnce) {
-  Telemetry telemetry(feeds_, {});
+  Telemetry telemetry(queues_, {});
   TickRecord tick;
   for (const StopReason reason : {StopReason::NoTargetYet, StopReason::NoTargetYet, StopReason::None,
                                   StopReason::None, StopReason::TargetLost, StopReason::None}) {
     tick.stop_reason = reason;
     tick.robot.phase = LinkPhase::Running;
     ++tick.tick;
-    feeds_.ticks.push(tick);
+    queues_.ticks.push(tick);
   }
   tick.robot.phase = LinkPhase::Lost;
-  feeds_.ticks.push(tick);
+  queues_.ticks.push(tick);
   telemetry.drain(kNsPerS);
   EXPECT_EQ(log_.told("at rest: no target seen yet"), 1);
   EXPECT_EQ(log_.told("at rest: target lost"), 1);
@@ -55,25 +55,25 @@ TEST_F(TelemetryTest, ChangesOfStopReasonAndLinkAreToldOnce) {
 }
 
 TEST_F(TelemetryTest, EventsOfEveryThreadAreToldFloodsAtMostOnceASecond) {
-  Telemetry telemetry(feeds_, {});
-  feeds_.capture_events.push(event_of(EventKind::CameraLost, 1, "sim:yard: gone"));
-  feeds_.vision_events.push(event_of(EventKind::Note, 2, "from vision"));
-  feeds_.control_events.push(event_of(EventKind::Warning, 3, "from control"));
+  Telemetry telemetry(queues_, {});
+  queues_.capture_events.push(event_of(EventKind::CameraLost, 1, "sim:yard: gone"));
+  queues_.control_events.push(event_of(EventKind::Note, 2, "a note from control"));
+  queues_.control_events.push(event_of(EventKind::Warning, 3, "from control"));
   for (int i = 0; i < 50; ++i) {
-    feeds_.capture_events.push(event_of(EventKind::FrameCorrupt, kNsPerS + i * 50 * kNsPerMs, "bad"));
+    queues_.capture_events.push(event_of(EventKind::FrameCorrupt, kNsPerS + i * 50 * kNsPerMs, "bad"));
   }
   telemetry.drain(4 * kNsPerS);
   EXPECT_EQ(log_.told("[warning] camera lost: sim:yard: gone"), 1);
-  EXPECT_EQ(log_.told("[info] from vision"), 1);
+  EXPECT_EQ(log_.told("[info] a note from control"), 1);
   EXPECT_EQ(log_.told("[warning] from control"), 1);
   EXPECT_EQ(log_.told("frame corrupt"), 3) << "2.5 s of them";
   EXPECT_EQ(telemetry.snapshot().events, 53u);
 }
 
 TEST_F(TelemetryTest, LostRecordsAreCountedAndTold) {
-  Telemetry telemetry(feeds_, {});
-  const std::size_t capacity = feeds_.ticks.capacity();
-  for (std::size_t i = 0; i < capacity + 9; ++i) feeds_.ticks.push(TickRecord{});
+  Telemetry telemetry(queues_, {});
+  const std::size_t capacity = queues_.ticks.capacity();
+  for (std::size_t i = 0; i < capacity + 9; ++i) queues_.ticks.push(TickRecord{});
   telemetry.drain(10 * kNsPerS);
   telemetry.drain(20 * kNsPerS);
   EXPECT_EQ(log_.told("9 records lost"), 1);
@@ -84,24 +84,24 @@ TEST_F(TelemetryTest, LostRecordsAreCountedAndTold) {
 // As in the daemon: hot threads push, the telemetry thread records; after stop nothing is missing.
 TEST_F(TelemetryTest, EverythingPushedIsInTheRecordingAfterStop) {
   const test::TemporaryFolder folder;
-  Telemetry telemetry(feeds_, {.directory = folder.path()});
+  Telemetry telemetry(queues_, {.directory = folder.path()});
   constexpr int kRecords = 500;
   std::jthread reader([&] { telemetry.run(); });
   std::jthread control([&] {
     TickRecord tick;
     for (tick.tick = 1; tick.tick <= kRecords; ++tick.tick) {
-      while (!feeds_.ticks.push(tick)) std::this_thread::yield();
+      while (!queues_.ticks.push(tick)) std::this_thread::yield();
     }
   });
   std::jthread vision([&] {
     PoseEstimate pose;
     for (pose.frame_sequence = 1; pose.frame_sequence <= kRecords; ++pose.frame_sequence) {
-      while (!feeds_.poses.push(pose)) std::this_thread::yield();
+      while (!queues_.poses.push(pose)) std::this_thread::yield();
     }
   });
   std::jthread capture([&] {
     for (CaptureCounters counts{.captured = 1}; counts.captured <= kRecords; ++counts.captured) {
-      while (!feeds_.captures.push(counts)) std::this_thread::yield();
+      while (!queues_.captures.push(counts)) std::this_thread::yield();
     }
   });
   for (TelemetrySnapshot seen; seen.ticks == 0;) seen = telemetry.snapshot();  // asked from a third thread

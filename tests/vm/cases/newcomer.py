@@ -32,7 +32,7 @@ def run(bench):
               "-e 's/^octaves = .*/octaves = 1/' -e 's/^max_features = .*/max_features = 150/' "
               "-e 's/^frame_timeout_s = .*/frame_timeout_s = 1.5/' -e 's/^target_timeout_s = .*/target_timeout_s = 1.5/' "
               "-e 's/^setpoint_t_z_m = .*/setpoint_t_z_m = -0.6/' /etc/heel/heel.toml")
-    bench.check("good" in guest.run("heeld --config /etc/heel/heel.toml --check"), "heeld --check finds the configuration good")
+    bench.check(": valid" in guest.run("heeld --config /etc/heel/heel.toml --check"), "heeld --check finds the configuration valid")
 
     guest.run("systemctl enable heeld && systemctl start --no-block heeld")
     service.wait_until_ready()

@@ -1,4 +1,4 @@
-// The queues through which the hot threads feed the telemetry thread: one writer each.
+// The queues from the real-time threads to the telemetry thread; each has one writer.
 #pragma once
 
 #include "heel/flow.h"
@@ -6,13 +6,12 @@
 
 namespace heel {
 
-/// Capacities hold a stall of the telemetry thread of about five seconds.
-struct TelemetryFeeds {
+/// They hold what comes while the telemetry thread is stopped for about five seconds.
+struct TelemetryQueues {
   SpscQueue<TickRecord> ticks{256};          ///< control thread
   SpscQueue<PoseEstimate> poses{256};        ///< vision thread
   SpscQueue<CaptureCounters> captures{256};  ///< capture thread
   SpscQueue<Event> capture_events{64};       ///< capture thread
-  SpscQueue<Event> vision_events{64};        ///< vision thread
   SpscQueue<Event> control_events{64};       ///< control thread
 };
 
