@@ -60,7 +60,7 @@ def draw_consistency(axes, bins, seen):
 COLUMNS = (
     ("Yaw error", draw_yaw),
     ("Found, wrong, certainty", draw_shares),
-    ("Stated deviation: 1 is consistent", draw_consistency),
+    ("Stated $\\sigma$: 1 is consistent", draw_consistency),
 )
 
 
