@@ -1,12 +1,15 @@
-// Everything that travels between threads, in the order it flows:
-//
-//   camera → FrameHeader → PoseEstimate → TargetState → Verdict → VelocityCommand → P3-AT
-//                                 RobotState (odometry, bumpers, flags) ← SIP ┘
-//
-// All of it is trivially copyable, SI units and radians. Frames of reference:
-//   camera   x right, y down, z forward
-//   robot    x forward, y left, z up; origin between the wheels, on the floor
-//   odom     the robot frame at the moment the session began; drifts as odometry does
+/// \file
+/// Everything that travels between threads, in the order it flows:
+/// \verbatim
+///   camera → FrameHeader → PoseEstimate → TargetState → StopReason → VelocityCommand → P3-AT
+///                                 RobotState (odometry, bumpers, flags) ← SIP ┘
+/// \endverbatim
+/// - Convention: all of it is trivially copyable. Frames of reference:
+///   - camera: x right, y down, z forward
+///   - robot: x forward, y left, z up; origin between the wheels, on the floor
+///   - odom: the robot frame at the moment the session began; drifts as odometry does
+/// - Units: SI and radians; pixels in names that end in _px.
+/// - Errors: named reasons (PoseReason, LinkPhase, StopReason).
 #pragma once
 
 #include <array>
@@ -20,7 +23,7 @@ namespace heel {
 
 // ── capture → vision ────────────────────────────────────────────────────────────────────────────
 
-/// What is known of a frame beside its pixels. Pixels are 8-bit grey (luma), row-major.
+/// A frame without its pixels. Pixels are 8-bit grey (luma), row-major.
 struct FrameHeader {
   std::uint64_t sequence = 0;  ///< counts every frame the camera made, dropped ones included
   TimeNs t_capture_ns = 0;     ///< when the exposure happened, as near as the driver tells
@@ -28,7 +31,7 @@ struct FrameHeader {
   std::uint32_t height_px = 0;
 };
 
-/// A borrowed look at a frame: valid only during the call it is passed to.
+/// A frame whose pixels belong to somebody else: valid only during the call it is passed to.
 struct FrameView {
   FrameHeader header;
   const std::uint8_t* grey = nullptr;  ///< first pixel of the first row
@@ -99,9 +102,9 @@ struct Odometry {
   double yaw_rate_rad_s = 0.0;
 };
 
-/// What one sonar heard last. A sonar that hears nothing tells of 5 m.
+/// What one sonar heard last. A sonar that hears nothing reports 5 m.
 struct SonarEcho {
-  TimeNs t_ns = 0;  ///< first byte of the SIP that told; 0: none has yet
+  TimeNs t_ns = 0;  ///< first byte of the SIP that reported it; 0: none yet
   double range_m = 0.0;
 };
 inline constexpr std::size_t kSonars = 16;  ///< 0…7 front from left to right, 8…15 rear from right to left
@@ -131,7 +134,7 @@ struct RobotState {
 /// The target in the odometry frame, carried from the frame's capture time to now.
 struct TargetState {
   bool known = false;
-  TimeNs t_capture_ns = 0;  ///< of the frame it rests on
+  TimeNs t_capture_ns = 0;  ///< of the frame it is computed from
   double certainty = 0.0;
   // In the robot frame at `now`:
   double x_m = 0.0;  ///< centre of the back
@@ -192,9 +195,9 @@ struct TickRecord {
   VelocityCommand command;  ///< after the gate, as sent
 };
 
-/// What a hot thread has to tell people. It pushes the record; the telemetry thread makes it text, logs it
-/// and writes it to events.log. (Changes of stop reason, link phase and target need no event: telemetry sees
-/// them in the ticks and poses.)
+/// What a real-time thread reports to people. It pushes the record; the telemetry thread makes it text, logs
+/// it and writes it to events.log. (Changes of stop reason, link phase and target need no event: telemetry
+/// sees them in the ticks and poses.)
 enum class EventKind : std::uint8_t {
   CameraOpened,       ///< text: what was agreed with the device
   CameraUnavailable,  ///< text: why it does not open
@@ -207,6 +210,7 @@ enum class EventKind : std::uint8_t {
   Warning,            ///< as Note, and someone should look at it
 };
 
+/// A report of a real-time thread; `a` and `b` mean what its kind says.
 struct Event {
   TimeNs t_ns = 0;
   EventKind kind = EventKind::Note;
@@ -217,7 +221,7 @@ struct Event {
 
 /// Counters of the frame path since the start; capture pushes them whenever they have changed.
 struct CaptureCounters {
-  TimeNs t_ns = 0;  ///< when they stood so
+  TimeNs t_ns = 0;  ///< when they were read
   std::uint64_t captured = 0;
   std::uint64_t dropped_by_driver = 0;  ///< gaps in the driver's sequence, buffers with the error flag
   std::uint64_t dropped_unread = 0;     ///< overtaken by a fresher frame
@@ -225,11 +229,13 @@ struct CaptureCounters {
   bool operator==(const CaptureCounters&) const = default;
 };
 
+/// What threads exchange is copied byte by byte.
 template <typename... T>
 inline constexpr bool kAllTriviallyCopyable = (std::is_trivially_copyable_v<T> && ...);
 static_assert(kAllTriviallyCopyable<FrameHeader, FrameView, PoseEstimate, RobotState, TargetState,
                                     VelocityCommand, TickRecord, Event, CaptureCounters>);
 
+/// The reasons and phases as people read them in logs, records and status lines.
 const char* to_string(PoseReason reason);
 const char* to_string(LinkPhase phase);
 const char* to_string(StopReason reason);

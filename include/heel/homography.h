@@ -1,6 +1,13 @@
-// The homography between two views of a plane: normalised DLT, RANSAC with symmetric transfer error,
-// least squares over the consensus set (Hartley & Zisserman, "Multiple View Geometry", 2nd ed., 4.1–4.8).
-// Convention everywhere: x_cur ~ H_cur_from_ref x_ref, scaled so that H(2,2) = 1 where that is possible.
+/// \file
+/// The homography between two views of a plane: normalised DLT, RANSAC with symmetric transfer error, least
+/// squares over the consensus set.
+///
+/// - Convention: x_cur ~ H_cur_from_ref x_ref, scaled so that H(2,2) = 1 where that is possible.
+/// - Units: undistorted pixels; squared errors in px².
+/// - Errors: a named HomographyStatus; nothing throws.
+/// - Source: R. Hartley, A. Zisserman, "Multiple View Geometry in Computer Vision", 2nd ed., 2003, 4.1 to
+///   4.8 and 5.2. Local optimisation: O. Chum, J. Matas, J. Kittler, "Locally Optimized RANSAC", DAGM 2003.
+///   MSAC's cost: P. Torr, A. Zisserman, "MLESAC", CVIU 78(1), 2000.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,6 +26,7 @@ struct PointPair {
   Eigen::Vector2d cur_px;
 };
 
+/// Why there is a homography, or none.
 enum class HomographyStatus : std::uint8_t {
   Ok,
   TooFewPairs,  ///< fewer than four
@@ -34,6 +42,7 @@ HomographyStatus homography_dlt(std::span<const PointPair> pairs, Eigen::Matrix3
 double symmetric_transfer_error_px2(const Eigen::Matrix3d& H_cur_from_ref,
                                     const Eigen::Matrix3d& H_ref_from_cur, const PointPair& pair);
 
+/// When a pair supports a sample, and when the search ends.
 struct RansacSettings {
   double inlier_px = 3.0;      ///< an inlier's symmetric transfer error is below 2 · inlier_px²
   double confidence = 0.999;   ///< stop when a better sample is this unlikely
@@ -43,6 +52,7 @@ struct RansacSettings {
   bool precision = true;  ///< compute rms_px and covariance as well
 };
 
+/// What the search found; a homography only when the status is Ok.
 struct RobustHomography {
   HomographyStatus status = HomographyStatus::TooFewPairs;
   Eigen::Matrix3d H_cur_from_ref = Eigen::Matrix3d::Identity();
@@ -54,12 +64,13 @@ struct RobustHomography {
   Eigen::Matrix<double, 9, 9> covariance = Eigen::Matrix<double, 9, 9>::Zero();
 };
 
-/// RANSAC with local optimisation (O. Chum, J. Matas, J. Kittler, "Locally optimized RANSAC", DAGM 2003) and
-/// MSAC's cost. Memory is taken once for `max_pairs`; pairs beyond that many are left out.
+/// RANSAC with local optimisation and MSAC's cost. Memory is taken once for `max_pairs`; pairs beyond that
+/// many are left out.
 ///
-/// Deterministic: seeded for every call anew, so the same pairs give the same result. Only a budget other
-/// than 0 makes it look at a clock (CLOCK_MONOTONIC, every few samples): the one place where a stage does,
-/// since a deadline has no other meaning. In lock step the budget is 0 and the iterations alone bound it.
+/// Deterministic: every call starts from the seed, so the same pairs give the same result. Only a budget
+/// other than 0 makes it look at a clock (CLOCK_MONOTONIC, every few samples): the one place where a stage
+/// does, since a deadline has no other meaning. In lock step the budget is 0 and the iterations alone bound
+/// it.
 ///
 /// The plane is taken to be opaque and in front of both cameras: a mirrored map is never returned.
 class HomographyEstimator {

@@ -1,4 +1,13 @@
-// The vision stage: one frame in, one PoseEstimate out; the paper's steps in the paper's order.
+/// \file
+/// The vision stage: one frame in, one PoseEstimate out. Features, matching, homography by RANSAC, motion of
+/// the plane, pose of the curved back, in this order.
+///
+/// - Convention: that of heel::PoseEstimate; positive `yaw_rad` turns the walking direction to the image's
+///   right.
+/// - Units: pixels, radians; metres where the template's distance is known.
+/// - Errors: the constructor throws heel::Error; a frame without a pose carries a heel::PoseReason.
+/// - Source: M. Burke, W. Brink, "Estimating Target Orientation with a Single Camera for Use in a
+///   Human-Following Robot", PRASA 2010.
 #pragma once
 
 #include <memory>
@@ -18,8 +27,8 @@ struct ExpectedView {
   bool upsample = false;  ///< it is small there: FeatureSettings::upsample
 };
 
-/// Pure but for its preallocated memory: the same frame (and expectation) gives the same estimate.
-/// `t_done_ns` is left 0 for the caller, who owns the clock.
+/// The same frame (and expectation) gives the same estimate; only memory is kept between frames. `t_done_ns`
+/// is left 0 for the caller, who reads the clock.
 class PoseEstimator {
  public:
   /// Throws heel::Error when the template cannot be followed or the camera's size is not the frames'.
@@ -33,15 +42,15 @@ class PoseEstimator {
   /// Searches only where the shirt is expected.
   PoseEstimate estimate(const FrameView& frame, const ExpectedView& expected);
 
-  /// Where the shirt can be at `t_ns`, when it was found as in `last` (found, same camera, not later than
-  /// `t_ns`) and moves no faster than `vision.tracking_rate_rad_s` through the view.
+  /// Where the shirt can be at `t_ns` if it crosses the view no faster than
+  /// VisionConfig::tracking_rate_rad_s. `last`: found, by the same camera, not later than `t_ns`.
   ExpectedView expected_view(const PoseEstimate& last, TimeNs t_ns) const;
 
-  /// True: `pose` of a whole frame, found or not, rests on pairs so few and so small that looking once more,
-  /// where they say the shirt is, may find it, or find it better.
+  /// Whether `pose` of a whole frame, found or not, is based on so few and so small features that a second
+  /// search, of the enlarged region where they are, may find the shirt, or find it more precisely.
   bool needs_upsampled_pass(const PoseEstimate& pose) const;
 
-  /// From now on `times`, which must outlive this, hears of the steps; null: nobody does.
+  /// From now on the end of each step is reported to `times`, which must outlive this; null: to nobody.
   void measure(StageTimes* times);
 
  private:

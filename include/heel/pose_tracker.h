@@ -1,16 +1,20 @@
-// Frame after frame: the shirt is looked for first where the last frame says it must be, then everywhere.
+/// \file
+/// Poses of a sequence of frames: each frame is searched where the last pose predicts the shirt, then as a
+/// whole.
+///
+/// - Convention, units, errors and source: those of heel/pose_estimator.h.
 #pragma once
 
 #include "heel/pose_estimator.h"
 
 namespace heel {
 
-/// Depends on the frames before only through the last estimate that was found; the same frames in the same
-/// order give the same estimates. A frame in which the shirt is not where it was expected is searched whole,
-/// so that tracking costs time at most, never a detection. Allocates nothing.
+/// Keeps the last estimate that was found, nothing else of earlier frames; the same frames in the same order
+/// give the same estimates. A frame in which the shirt is not where it was expected is searched as a whole:
+/// tracking may cost time but never a detection. Allocates nothing after construction.
 class PoseTracker {
  public:
-  /// As PoseEstimator. Without `config.tracking` every frame is searched whole.
+  /// As PoseEstimator. Without VisionConfig::tracking every frame is searched as a whole.
   PoseTracker(const ShirtTemplate& shirt, const CameraModel& camera, const VisionConfig& config);
 
   PoseEstimate estimate(const FrameView& frame);

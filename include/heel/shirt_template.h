@@ -1,4 +1,14 @@
-// The template: the reference view of the shirt, its region, its distance and its camera, in one file.
+/// \file
+/// The template: the reference view of the shirt with its region, its distance and its camera; and a verdict
+/// on how well a person can be followed by it.
+///
+/// - Convention: the reference view is fronto-parallel to the back at distance d: plane z = d, normal
+///   (0,0,1) in the reference camera's frame.
+/// - Units: pixels, metres.
+/// - Errors: judge_template() gives a reason, it does not throw. Both functions expect an image of
+///   camera.width_px × camera.height_px.
+/// - Source: M. Burke, W. Brink, "Estimating Target Orientation with a Single Camera for Use in a
+///   Human-Following Robot", PRASA 2010.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +20,10 @@
 
 namespace heel {
 
-/// What a .heel file holds. Features are computed anew from the image when it is loaded, so that they always
-/// come from the same code as the frame's.
+/// What a .heel file holds. Features are not stored but computed from the image, so that they always come
+/// from the same code as the frame's.
 struct ShirtTemplate {
-  std::vector<std::uint8_t>
-      grey;  ///< the whole reference image, row-major, camera.width_px × camera.height_px
+  std::vector<std::uint8_t> grey;  ///< whole image, row-major, camera.width_px × camera.height_px
   CameraModel camera;
   Region roi;               ///< the back of the shirt
   double distance_m = 0.0;  ///< camera to the back along z; 0: not known
@@ -30,11 +39,11 @@ struct TemplateVerdict {
   bool usable = false;
   std::string reason;  ///< one line when not usable
   int features = 0;
-  double spread = 0.0;  ///< 0…1: share of a 4 × 4 grid over the region that holds a feature
-  double self_similarity =
-      0.0;                    ///< share of features whose nearest other feature fails the ratio test's margin
-  double coarse_share = 0.0;  ///< share of features that survive at twice the distance
+  double spread = 0.0;           ///< 0…1: share of a 4 × 4 grid over the region that holds a feature
+  double self_similarity = 0.0;  ///< 0…1: share of features with a nearly equal one elsewhere on the shirt
+  double coarse_share = 0.0;     ///< 0…1: share of features recognised from twice the distance
 };
+/// Searches and matches the view itself, at half its size, as a frame would be.
 TemplateVerdict judge_template(const ShirtTemplate& shirt);
 
 }  // namespace heel

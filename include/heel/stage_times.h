@@ -1,5 +1,9 @@
-// Where a frame's time goes: the vision stages say which step they have just finished to whoever measures.
-// They read no clock themselves; with nobody measuring a mark is one comparison.
+/// \file
+/// Where a frame's time goes: vision reports the end of each step to an object that measures.
+///
+/// - Convention: vision reads no clock; the object that is called does. Without one a step costs one
+///   comparison.
+/// - Errors: none.
 #pragma once
 
 #include <cstddef>
@@ -21,13 +25,15 @@ enum class VisionStage : std::uint8_t {
 };
 inline constexpr std::size_t kVisionStages = 9;
 
+/// Implement this to measure, and pass it to the measure() of an extractor, estimator or tracker.
 class StageTimes {
  public:
   virtual ~StageTimes() = default;
-  /// Called at the end of a step. What passed since the step before it ended is this one's.
+  /// Called at the end of a step. The time since the end of the step before it is this step's.
   virtual void ended(VisionStage stage) = 0;
 };
 
+/// Reports the end of a step if anybody measures.
 inline void mark(StageTimes* times, VisionStage stage) {
   if (times != nullptr) times->ended(stage);
 }

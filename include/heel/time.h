@@ -1,4 +1,7 @@
-// Time inside heel: one monotonic clock, in nanoseconds, always passed in, never read by a stage.
+/// \file
+/// Time inside heel: one monotonic clock, passed as an argument, never read by a stage.
+///
+/// - Units: nanoseconds as signed 64-bit integers; the origin is the clock's own.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,12 @@
-// Settings of the vision stage: the keys of the section [vision] of the daemon's configuration file.
+/// \file
+/// Settings of the vision stage: the section [vision] of the daemon's configuration file.
+///
+/// - Units: stand in the names. Ranges and effects: docs/configuration.md.
 #pragma once
 
 namespace heel {
 
+/// The defaults are those of the shipped configuration.
 struct VisionConfig {
   int octaves = 2;
   int max_features = 1000;

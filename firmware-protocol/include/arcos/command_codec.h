@@ -1,5 +1,11 @@
-// Commands to bytes and back. Encoding follows the table: an argument the table does not allow, an id that is
-// never to be sent, or more than kMaxSentCount bytes give an empty Frame.
+/// \file
+/// Commands to bytes and back.
+///
+/// - Convention: what may be encoded stands in command_table().
+/// - Units: those of the command's meaning in the table; VEL2 in mm/s.
+/// - Errors: an argument that the table does not allow, an id that is never to be sent, or more than
+///   kMaxSentCount bytes give an empty Frame; decoding gives a DecodeResult.
+/// - Source: MobileRobots Inc., "Pioneer 3 Operations Manual", 2006, chapter on ARCOS.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +24,15 @@ inline constexpr int kVel2Step_mm_s = 20;  ///< unit of the VEL2 bytes
 /// Largest VEL2 byte sent. A client that clamps at 128 sends −128 instead: stay well below.
 inline constexpr int kVel2MaxSteps = 120;
 
+/// A command without argument.
 Frame encode_plain(CommandId id);
+/// A command with an integer; negative ones only where the table allows them.
 Frame encode_integer(CommandId id, std::int16_t value);
+/// A command with a text: length, then bytes.
 Frame encode_text(CommandId id, std::string_view text);
 /// Wheel speeds, rounded to 20 mm/s and clamped to ±kVel2MaxSteps.
 Frame encode_vel2(int left_mm_s, int right_mm_s);
+/// Digital outputs: the bits of `mask` are set to those of `values`.
 Frame encode_digout(std::uint8_t mask, std::uint8_t values);
 
 /// A command as received. `text` borrows the body it was decoded from.
@@ -33,6 +43,7 @@ struct Command {
   std::span<const std::uint8_t> text;
   std::size_t trailing_bytes = 0;  ///< bytes after the argument, ignored
 
+  /// Whether it is the command `wanted`.
   bool is(CommandId wanted) const { return id == static_cast<std::uint8_t>(wanted); }
   bool has_integer() const { return type == ArgumentType::Positive || type == ArgumentType::Negative; }
   /// The argument as the 16-bit word of two bytes it is for VEL2 and DIGOUT.
@@ -42,6 +53,7 @@ struct Command {
 /// Accepts what clients send: a lone type byte without argument counts as no argument.
 DecodeResult decode_command(std::span<const std::uint8_t> body, Command& out);
 
+/// The argument of VEL2.
 struct WheelSpeeds {
   int left_mm_s = 0;
   int right_mm_s = 0;

@@ -1,4 +1,9 @@
-// The one table of client commands: id, name, argument and meaning.
+/// \file
+/// The one table of client commands: id, name, argument and meaning.
+///
+/// - Units: each command's meaning names its own.
+/// - Source: MobileRobots Inc., "Pioneer 3 Operations Manual", 2006, chapter on ARCOS, client command
+///   packets.
 #pragma once
 
 #include <cstdint>
@@ -62,6 +67,7 @@ enum class CommandId : std::uint8_t {
   Maintenance = 255,
 };
 
+/// Which argument a command takes.
 enum class ArgumentKind : std::uint8_t {
   None,
   OptionalInteger,  ///< clients differ: none, or a non-negative integer
@@ -71,6 +77,7 @@ enum class ArgumentKind : std::uint8_t {
   TwoBytes,         ///< one word of two separate bytes
 };
 
+/// A row of the table.
 struct CommandInfo {
   CommandId id;
   const char* name;
@@ -82,7 +89,7 @@ struct CommandInfo {
 /// Ordered by id.
 std::span<const CommandInfo> command_table();
 
-/// nullptr when the id is in no table.
+/// The row of a command; nullptr when the table has none.
 const CommandInfo* find_command(std::uint8_t id);
 inline const CommandInfo* find_command(CommandId id) {
   return find_command(static_cast<std::uint8_t>(id));

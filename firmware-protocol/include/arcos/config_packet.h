@@ -1,5 +1,10 @@
-// CONFIGpac: the controller's settings, sent when CONFIG asks for them. Fields keep wire names and units.
-// On some robots it never passes its checksum: treat it as optional.
+/// \file
+/// CONFIGpac: the controller's settings, sent when CONFIG asks for them. Optional: on some robots it never
+/// passes its checksum.
+///
+/// - Units: fields keep the names and units of the wire.
+/// - Errors: a DecodeResult; encoding a packet that is too long gives an empty Frame.
+/// - Source: MobileRobots Inc., "Pioneer 3 Operations Manual", 2006, chapter on ARCOS, configuration packet.
 #pragma once
 
 #include <cstdint>

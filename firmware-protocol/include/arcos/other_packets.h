@@ -1,4 +1,10 @@
-// The smaller packets: the sync echo, ENCODER, IO and the controller's reset notice.
+/// \file
+/// The smaller packets: the echo of SYNC2, ENCODER, IO and the controller's reset notice.
+///
+/// - Units: ticks and raw values of the wire.
+/// - Errors: a DecodeResult; encoding a packet that is too long gives an empty Frame.
+/// - Source: MobileRobots Inc., "Pioneer 3 Operations Manual", 2006, chapter on ARCOS, server information
+///   packets.
 #pragma once
 
 #include <array>
@@ -28,6 +34,7 @@ struct RobotIdentity {
 DecodeResult decode_sync2_echo(std::span<const std::uint8_t> body, RobotIdentity& out);
 Frame encode_sync2_echo(const RobotIdentity& identity);
 
+/// The wheel encoders' counts.
 struct EncoderPacket {
   std::int32_t left_ticks = 0;
   std::int32_t right_ticks = 0;

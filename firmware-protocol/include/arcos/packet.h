@@ -1,5 +1,11 @@
-// Packets as bytes: the frame around a body, and the little-endian writer and reader every layout is built
-// from. Wire: FA FB, count, body (id, payload), checksum high byte, checksum low byte.
+/// \file
+/// Packets as bytes: the frame round a body, and the writer and reader that every layout is built from.
+///
+/// - Convention: on the wire FA FB, count, body (id, payload), checksum high byte, checksum low byte.
+///   Integers are little-endian, except for the checksum.
+/// - Errors: a body that is too long gives an empty Frame; reading past the end gives
+///   DecodeResult::Truncated.
+/// - Source: MobileRobots Inc., "Pioneer 3 Operations Manual", 2006, chapter on ARCOS, packet protocols.
 #pragma once
 
 #include <array>
@@ -29,6 +35,7 @@ enum class DecodeResult : std::uint8_t {
   TextTooLong,      ///< a string exceeds Text's capacity
   BadArgumentType,  ///< a command's argument type is none of 3B, 1B, 2B
 };
+/// As people read it.
 const char* to_string(DecodeResult result);
 
 /// A framed packet ready for the wire, in fixed memory. Empty when encoding was refused.

@@ -1,9 +1,12 @@
-// Bytes in, packets out. All state is in the object, in fixed memory; nothing is assumed about how the bytes
-// are cut into reads.
-//
-// Resynchronisation: when a candidate packet fails (impossible count, wrong checksum), only its first header
-// byte is given up and the search goes on with the very next byte, so that a good packet inside the span of
-// a bad one is still found.
+/// \file
+/// Bytes in, packets out. All state is in the object, in fixed memory; reads may cut the bytes anywhere.
+///
+/// - Convention: a packet carries the time that the caller gave with its first byte.
+/// - Units: nanoseconds of the caller's clock.
+/// - Errors: counted in ParserCounters. When a candidate packet fails (impossible count, wrong checksum),
+///   only its first header byte is given up and the search goes on with the next byte, so that a good packet
+///   inside the span of a bad one is found.
+/// - Source: MobileRobots Inc., "Pioneer 3 Operations Manual", 2006, chapter on ARCOS, packet protocols.
 #pragma once
 
 #include <array>
@@ -23,6 +26,7 @@ struct Packet {
   std::uint8_t id() const { return body.front(); }  ///< a body is never empty
 };
 
+/// What was received since the parser was made.
 struct ParserCounters {
   std::uint64_t packets = 0;
   std::uint64_t checksum_errors = 0;
@@ -30,9 +34,10 @@ struct ParserCounters {
   std::uint64_t bytes_discarded = 0;  ///< every byte that was not part of a packet
 };
 
+/// Finds packets in a stream of bytes.
 class Parser {
  public:
-  /// Takes bytes that arrived at `t_ns`; calls `on_packet(const Packet&)` for each packet they complete.
+  /// Takes bytes that arrived at `t_ns`; calls on_packet(const Packet&) for each packet that they complete.
   template <typename OnPacket>
   void feed(std::span<const std::uint8_t> bytes, std::int64_t t_ns, OnPacket&& on_packet) {
     for (const std::uint8_t byte : bytes) {

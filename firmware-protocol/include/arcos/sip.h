@@ -1,4 +1,10 @@
-// The standard information packet (SIP): what the robot says of itself every cycle. Fields keep wire units.
+/// \file
+/// The standard information packet (SIP): what the robot reports every cycle.
+///
+/// - Convention: heading and rotation counter-clockwise positive; bumper segments from bit 0.
+/// - Units: fields keep the names and units of the wire.
+/// - Errors: a DecodeResult; encoding too many sonar readings gives an empty Frame.
+/// - Source: MobileRobots Inc., "Pioneer 3 Operations Manual", 2006, chapter on ARCOS, standard SIP.
 #pragma once
 
 #include <array>
@@ -14,6 +20,7 @@ inline constexpr std::uint8_t kSipStanding = 0x32;
 inline constexpr std::uint8_t kSipMoving = 0x33;
 inline constexpr std::uint8_t kSipFirstId = 0x30;  ///< accepted range
 inline constexpr std::uint8_t kSipLastId = 0x34;
+/// Whether a packet with this id is a SIP.
 constexpr bool is_sip(std::uint8_t id) {
   return id >= kSipFirstId && id <= kSipLastId;
 }
@@ -30,6 +37,7 @@ enum SipFlag : std::uint16_t {
   kFlagPowerGood = 1u << 10,
 };
 
+/// What one sonar heard.
 struct SonarReading {
   std::uint8_t number = 0;
   std::uint16_t range_mm = 0;
@@ -39,6 +47,7 @@ struct SonarReading {
 /// As many as the longest packet holds after the 20 fixed bytes.
 inline constexpr std::size_t kMaxSonarReadings = (kMaxBodySize - 20) / 3;
 
+/// In wire order. A field of the tail is unset when the robot ended its packet before it.
 struct Sip {
   std::uint8_t id = kSipStanding;
   std::uint16_t x_pos = 0;  ///< × DistConvFactor → mm; wraps
@@ -53,7 +62,7 @@ struct Sip {
   std::uint8_t compass_2deg = 0;        ///< 2° units
   std::uint8_t sonar_count = 0;         ///< readings in `sonars` that are valid
   std::array<SonarReading, kMaxSonarReadings> sonars{};
-  // The tail: a robot may end its packet before any of these, and then sends none after it.
+  // The tail: a robot may end its packet before any of these; then it sends none of those after it.
   std::optional<std::uint8_t> gripper;
   std::optional<std::uint8_t> ad_port;
   std::optional<std::uint8_t> analog;  ///< 0…255 = 0…5 V
