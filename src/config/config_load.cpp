@@ -1,16 +1,14 @@
 #include "config/config_load.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "config/config_reader.h"
 #include "config/config_table.h"
 #include "config/config_value.h"
+#include "toml/toml_file.h"
 
 namespace heel {
 namespace {
@@ -48,23 +46,19 @@ ConfigError::ConfigError(std::vector<std::string> lines)
 LoadedConfig parse_config(std::string_view text, const std::string& file) {
   LoadedConfig loaded;
   loaded.file = file;
+  toml::table table;
   try {
-    ConfigReader(loaded).read(toml::parse(text, file));
-  } catch (const toml::parse_error& error) {
-    const auto at = error.source().begin;
-    throw ConfigError({fmt::format("{}:{}:{}: {}", file, at.line, at.column, error.description())});
+    table = parse_toml(text, file);
+  } catch (const Error& error) {
+    throw ConfigError({error.what()});
   }
+  ConfigReader(loaded).read(table);
   resolve_paths(loaded.config, fs::path(file).parent_path());
   return loaded;
 }
 
 LoadedConfig load_config(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (!in || fs::is_directory(path) || !(text << in.rdbuf())) {
-    throw ConfigError({path + ": cannot be read; expected a configuration file such as heel.toml"});
-  }
-  return parse_config(text.str(), path);
+  return parse_config(read_toml_text(path, "a configuration file such as heel.toml"), path);
 }
 
 std::vector<std::string> keys_needing_restart(const Config& before, const Config& after) {

@@ -1,5 +1,5 @@
 // Reads a configuration file: TOML, checked against the table of keys. Every error in a file is reported at
-// once, one line each: "heel.toml:12:8: control.gain_yaw_1_s: is 'fast', expected …".
+// once, one line each: "heel.toml:12:8: control.gain_yaw_1_s: 'fast' (expected a number 0…10 1/s)".
 #pragma once
 
 #include <string>
@@ -27,7 +27,8 @@ struct LoadedConfig {
   std::vector<int> line_of;  ///< in the order of config_keys(): the line that sets the key; 0: default
 };
 
-/// Throws ConfigError. Relative paths, those of default values included, start at the file's folder.
+/// Throws ConfigError, or Error when the file cannot be read. Relative paths, those of default values
+/// included, start at the file's folder.
 LoadedConfig load_config(const std::string& path);
 /// The same from text; `file` stands for the file's name in errors and for its folder.
 LoadedConfig parse_config(std::string_view text, const std::string& file);

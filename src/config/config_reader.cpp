@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "config/config_table.h"
 #include "config/config_value.h"
-#include "toml/nearest_name.h"
+#include "toml/toml_file.h"
 
 namespace heel {
 namespace {
@@ -74,16 +73,6 @@ class ValueSetter {
   Config& config_;
 };
 
-std::string shown(const toml::node& node) {
-  if (node.is_table()) return "a section";
-  if (node.is_array()) return "a list";
-  std::ostringstream text;
-  node.visit([&text](const auto& value) {
-    if constexpr (toml::is_value<decltype(value)>) text << value;
-  });
-  return text.str();
-}
-
 std::optional<std::size_t> index_of_key(std::string_view full_name) {
   for (std::size_t i = 0; i < config_keys().size(); ++i) {
     if (config_keys()[i].full_name() == full_name) return i;
@@ -103,11 +92,6 @@ std::vector<std::string> section_names() {
   return names;
 }
 
-std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
-  const std::string nearest = nearest_name(name, candidates);
-  return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
-}
-
 }  // namespace
 
 ConfigReader::ConfigReader(LoadedConfig& out) : out_(out) {
@@ -117,16 +101,16 @@ ConfigReader::ConfigReader(LoadedConfig& out) : out_(out) {
 void ConfigReader::read(const toml::table& root) {
   const std::vector<std::string> sections = section_names();
   for (const auto& [name, node] : root) {
-    const std::string_view key = name.str();
+    const std::string key(name.str());
     const auto* section = node.as_table();
     if (std::find(sections.begin(), sections.end(), key) == sections.end()) {
       // A key outside its section is a likely mistake: full key names are candidates as well.
       std::vector<std::string> candidates = sections;
       for (std::string& full_name : key_names()) candidates.push_back(std::move(full_name));
       add_error(name.source().begin, key,
-                (section ? "no such section" : "no such key") + suggestion(key, candidates));
+                (section ? "no such section" : "no such key") + nearest_name_question(key, candidates));
     } else if (!section) {
-      add_error(name.source().begin, key, fmt::format("is a section; write [{}]", key));
+      add_error(name.source().begin, key, fmt::format("is a section (expected [{}])", key));
     } else {
       read_section(key, *section);
     }
@@ -141,14 +125,15 @@ void ConfigReader::read_section(std::string_view section, const toml::table& tab
     const std::string full_name = fmt::format("{}.{}", section, name.str());
     const auto index = index_of_key(full_name);
     if (!index) {
-      add_error(name.source().begin, full_name, "no such key" + suggestion(full_name, key_names()));
+      add_error(name.source().begin, full_name,
+                "no such key" + nearest_name_question(full_name, key_names()));
       continue;
     }
     const ConfigKey& key = config_keys()[*index];
     out_.line_of[*index] = static_cast<int>(node.source().begin.line);
     if (!std::visit(ValueSetter(key, node, out_.config), key.field)) {
       add_error(node.source().begin, full_name,
-                fmt::format("is {}, expected {}", shown(node), expected_value(key)));
+                fmt::format("{} (expected {})", toml_value_text(node), expected_value(key)));
     }
   }
 }
@@ -160,13 +145,13 @@ void ConfigReader::check_relations() {
     const std::string value = toml_value(config_keys()[index], out_.config);
     // A key at its default value has no line: the error then names the file only.
     const auto line = static_cast<toml::source_index>(out_.line_of[index]);
-    add_error({line, line ? 1u : 0u}, relation.key, fmt::format("is {}, {}", value, relation.requirement));
+    add_error({line, line ? 1u : 0u}, std::string(relation.key),
+              fmt::format("{} ({})", value, relation.requirement));
   }
 }
 
-void ConfigReader::add_error(toml::source_position at, std::string_view key, std::string_view what) {
-  const std::string place = at.line == 0 ? out_.file : fmt::format("{}:{}:{}", out_.file, at.line, at.column);
-  errors_.push_back({at, fmt::format("{}: {}: {}", place, key, what)});
+void ConfigReader::add_error(toml::source_position at, const std::string& key, const std::string& what) {
+  errors_.push_back({at, toml_message(out_.file, at, key, what)});
 }
 
 void ConfigReader::throw_errors() {

@@ -27,7 +27,7 @@ class ConfigReader {
 
   void read_section(std::string_view section, const toml::table& table);
   void check_relations();
-  void add_error(toml::source_position at, std::string_view key, std::string_view what);
+  void add_error(toml::source_position at, const std::string& key, const std::string& what);
   void throw_errors();
 
   LoadedConfig& out_;

@@ -43,7 +43,7 @@ TEST(HeeldCheck, AllThatIsWrongWithAFileIsSaid) {
   const Outcome outcome = heeld(scene, {"--config", config, "--check"});
   EXPECT_EQ(outcome.status, kExitConfiguration);
   EXPECT_EQ(outcome.output, config + ":17:1: gate.v_max: no such key; did you mean gate.v_max_m_s?\n" +
-                                config + ":18:16: gate.separation_m: is -1, expected a number 0…5 m\n");
+                                config + ":18:16: gate.separation_m: -1 (expected a number 0…5 m)\n");
 }
 
 TEST(HeeldCheck, FilesItRefersToAreLoaded) {
@@ -76,7 +76,7 @@ TEST(HeeldCheck, MissingConfigurationIsNamed) {
   const Scene scene(1);
   const Outcome outcome = heeld(scene, {"--config", "/nowhere.toml"});
   EXPECT_EQ(outcome.status, kExitConfiguration);
-  EXPECT_THAT(outcome.output, HasSubstr("/nowhere.toml: cannot be read"));
+  EXPECT_THAT(outcome.output, HasSubstr("/nowhere.toml: cannot read"));
   EXPECT_EQ(heeld(scene, {}).status, kExitConfiguration);
 }
 
