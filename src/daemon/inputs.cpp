@@ -16,7 +16,7 @@ namespace {
 /// With speed 0, frames carry the times of the file, which have no relation to the robot's.
 void check_pace(const CameraConfig& config) {
   if (parse_source_address(config.source).kind != SourceKind::File || config.file_speed > 0.0) return;
-  throw Error("camera.file_speed: is 0, but heeld runs in real time; expected more than 0");
+  throw Error("camera.file_speed: 0 (expected more than 0, because heeld runs in real time)");
 }
 
 /// A device delivers the size that is requested; files and the simulator have their own size.
@@ -24,10 +24,8 @@ void check_frame_size(const CameraConfig& config, const CameraModel& camera) {
   const SourceKind kind = parse_source_address(config.source).kind;
   if (kind != SourceKind::V4l2 && kind != SourceKind::Libcamera) return;
   if (camera.width_px == config.width_px && camera.height_px == config.height_px) return;
-  throw Error(
-      fmt::format("{}: is for {}×{} pixels, but camera.width_px and camera.height_px request {}×{}; "
-                  "expected the same size, or calibrate at that size",
-                  config.info, camera.width_px, camera.height_px, config.width_px, config.height_px));
+  throw Error(fmt::format("{}: is for {}×{} pixels (expected {}×{}, as camera.width_px and camera.height_px)",
+                          config.info, camera.width_px, camera.height_px, config.width_px, config.height_px));
 }
 
 }  // namespace
@@ -35,9 +33,9 @@ void check_frame_size(const CameraConfig& config, const CameraModel& camera) {
 void check_against_camera(const Config& config, const CameraModel& camera) {
   const double half_view_rad = std::atan(0.5 * camera.width_px / camera.fx);
   if (config.control.bearing_max_rad < half_view_rad) return;
-  throw Error(fmt::format(
-      "control.bearing_max_rad: is {}, must be smaller than half the field of view of {}, {:.6g} rad",
-      config.control.bearing_max_rad, config.camera.info, half_view_rad));
+  throw Error(
+      fmt::format("control.bearing_max_rad: {} (expected less than {:.6g} rad, half the field of view of {})",
+                  config.control.bearing_max_rad, half_view_rad, config.camera.info));
 }
 
 Inputs load_inputs(const Config& config) {
@@ -50,8 +48,7 @@ Inputs load_inputs(const Config& config) {
   inputs.shirt = read_template(config.target.shirt);
   if (config.target.distance_m > 0.0) inputs.shirt.distance_m = config.target.distance_m;
   if (inputs.shirt.distance_m <= 0.0) {
-    throw Error(config.target.shirt +
-                ": has no distance; set target.distance_m to the distance it was taken at");
+    throw Error(config.target.shirt + ": has no distance (expected one, or target.distance_m)");
   }
   inputs.verdict = judge_template(inputs.shirt);
   if (!inputs.verdict.usable) {
