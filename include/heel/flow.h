@@ -131,6 +131,16 @@ struct RobotState {
 
 // ── control ─────────────────────────────────────────────────────────────────────────────────────
 
+/// Everything one control tick decides on. The inputs since the start and the configuration give every tick's
+/// decisions again, to the bit.
+struct ControlInput {
+  TimeNs now_ns = 0;  ///< when the tick ran
+  RobotState robot;
+  bool has_pose = false;  ///< a frame has been processed since the start
+  PoseEstimate pose;      ///< the newest; the same as in the tick before when no frame has come since
+  bool shutdown = false;  ///< this is the last tick
+};
+
 /// The target in the odometry frame, carried from the frame's capture time to now.
 struct TargetState {
   bool known = false;
@@ -144,6 +154,32 @@ struct TargetState {
   double goal_x_m = 0.0;
   double goal_y_m = 0.0;
 };
+
+/// What became of the newest pose in a tick.
+enum class MeasurementStatus : std::uint8_t {
+  None,      ///< no new frame
+  Accepted,  ///< the estimator took it
+  Rejected,  ///< not found, or an outlier
+};
+
+/// What may keep the robot at rest, as bits of Conditions.
+enum Condition : std::uint16_t {
+  kShutdown = 1 << 0,
+  kLinkDown = 1 << 1,
+  kStaleSip = 1 << 2,  ///< no packet from the robot for the timeout
+  kStopButton = 1 << 3,
+  kMotorsOff = 1 << 4,
+  kBumper = 1 << 5,        ///< pressed, or released less than the hold time ago
+  kStall = 1 << 6,         ///< wheels stalled, or free again for less than the hold time
+  kSonarSilent = 1 << 7,   ///< no reading from any front sonar for the timeout, though they are on
+  kStaleFrame = 1 << 8,    ///< no frame for the timeout, or none yet
+  kLowCertainty = 1 << 9,  ///< not following; the shirt is found, but with too little certainty
+  kTargetLost = 1 << 10,   ///< not following, having followed before
+  kNoTargetYet = 1 << 11,  ///< not following, never followed
+};
+/// Condition bits.
+using Conditions = std::uint16_t;
+inline constexpr Conditions kAllConditions = (1 << 12) - 1;
 
 /// Why the robot is at rest. One value for each row of the supervisor's table; None: following.
 enum class StopReason : std::uint8_t {
@@ -183,15 +219,19 @@ struct VelocityCommand {
 
 // ── everything → telemetry ──────────────────────────────────────────────────────────────────────
 
-/// One control tick, whole.
+/// One control tick: what it decided on, and what it decided.
 struct TickRecord {
   std::uint64_t tick = 0;
-  TimeNs t_ns = 0;         ///< when the tick ran
   TimeNs lateness_ns = 0;  ///< after its absolute deadline
-  StopReason stop_reason = StopReason::NoTargetYet;
-  RobotState robot;
+  ControlInput input;
+  MeasurementStatus measurement = MeasurementStatus::None;  ///< what became of input.pose
   TargetState target;
-  VelocityCommand wanted;   ///< from the control law
+  Conditions conditions = 0;
+  StopReason stop_reason = StopReason::NoTargetYet;
+  VelocityCommand wanted;  ///< from the control law
+  /// Bumper to the nearest sonar obstacle in the way; infinite: none; NaN: not needed, the robot stops at
+  /// once.
+  double free_distance_m = 0.0;
   VelocityCommand command;  ///< after the gate, as sent
 };
 
@@ -233,11 +273,12 @@ struct CaptureCounters {
 template <typename... T>
 inline constexpr bool kAllTriviallyCopyable = (std::is_trivially_copyable_v<T> && ...);
 static_assert(kAllTriviallyCopyable<FrameHeader, FrameView, PoseEstimate, RobotState, TargetState,
-                                    VelocityCommand, TickRecord, Event, CaptureCounters>);
+                                    VelocityCommand, ControlInput, TickRecord, Event, CaptureCounters>);
 
 /// The reasons and phases as people read them in logs, records and status lines.
 const char* to_string(PoseReason reason);
 const char* to_string(LinkPhase phase);
+const char* to_string(MeasurementStatus status);
 const char* to_string(StopReason reason);
 const char* to_string(EventKind kind);
 

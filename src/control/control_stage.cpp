@@ -93,17 +93,20 @@ TickRecord ControlStage::tick(const ControlInput& input) {
   Impl& s = *impl_;
   TickRecord record;
   record.tick = s.ticks++;
-  record.t_ns = input.now_ns;
-  record.robot = input.robot;
+  record.input = input;
 
   s.update_robot(input.robot);
-  const MeasurementStatus news = s.update_target(input);
+  record.measurement = s.update_target(input);
   record.target = s.estimator.at(input.now_ns);
-  const Verdict verdict = supervise(s.monitor.observe(input, news, s.supervisor, s.sonar_on));
+  record.conditions = s.monitor.observe(input, record.measurement, s.supervisor, s.sonar_on);
+  const Verdict verdict = supervise(record.conditions);
   record.stop_reason = verdict.reason;
   record.wanted = follow(record.target, s.control, s.mount, input.now_ns, s.gate.command_lifetime_s);
   const Clearances around{s.person_range_m(record.target), s.echoes.at(input.now_ns, input.robot.odometry)};
-  record.command = apply_gate(record.wanted, s.last_command, verdict.style, around, input.now_ns, s.gate);
+  const GateResult gated =
+      apply_gate(record.wanted, s.last_command, verdict.style, around, input.now_ns, s.gate);
+  record.free_distance_m = gated.free_distance_m;
+  record.command = gated.command;
   s.last_command = record.command;
   return record;
 }

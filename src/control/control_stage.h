@@ -10,14 +10,6 @@
 
 namespace heel {
 
-struct ControlInput {
-  TimeNs now_ns = 0;
-  RobotState robot;
-  PoseEstimate pose;      ///< the newest; its frame_sequence tells whether it is new
-  bool has_pose = false;  ///< a frame has been processed since start
-  bool shutdown = false;
-};
-
 /// Owns the estimator's and the supervisor's memory; reads no clock, holds no device. The daemon's control
 /// thread, the lock-step simulator and replay run this very code.
 class ControlStage {

@@ -45,12 +45,13 @@ Motion moving_at(const VelocityCommand& previous, TimeNs now_ns, const GateConfi
 
 }  // namespace
 
-VelocityCommand apply_gate(const VelocityCommand& wanted, const VelocityCommand& previous, StopStyle style,
-                           const Clearances& around, TimeNs now_ns, const GateConfig& limits) {
-  VelocityCommand out;
+GateResult apply_gate(const VelocityCommand& wanted, const VelocityCommand& previous, StopStyle style,
+                      const Clearances& around, TimeNs now_ns, const GateConfig& limits) {
+  GateResult result;
+  VelocityCommand& out = result.command;
   out.t_issued_ns = now_ns;
   out.t_expires_ns = now_ns + ns_from_seconds(limits.command_lifetime_s);
-  if (style == StopStyle::AtOnce) return out;
+  if (style == StopStyle::AtOnce) return result;
 
   unsigned limited_by = wanted.limited_by;
   Motion aim{wanted.v_m_s, wanted.yaw_rate_rad_s};
@@ -71,9 +72,9 @@ VelocityCommand apply_gate(const VelocityCommand& wanted, const VelocityCommand&
               kGateSeparation, limited_by);
   // The way the robot is to take must be free, and so must the way it is on until it has changed over.
   const Motion now = moving_at(previous, now_ns, limits);
-  const double free_m = std::min(around.echoes.free_distance_m(aim.v_m_s, aim.yaw_rate_rad_s),
-                                 around.echoes.free_distance_m(now.v_m_s, now.yaw_rate_rad_s));
-  const double cautious_m_s = approach_limit(free_m, limits.clearance_m, limits);
+  result.free_distance_m = std::min(around.echoes.free_distance_m(aim.v_m_s, aim.yaw_rate_rad_s),
+                                    around.echoes.free_distance_m(now.v_m_s, now.yaw_rate_rad_s));
+  const double cautious_m_s = approach_limit(result.free_distance_m, limits.clearance_m, limits);
   aim.v_m_s = bounded(aim.v_m_s, -cautious_m_s, cautious_m_s, kGateObstacle, limited_by);
 
   const bool stale = now_ns > previous.t_expires_ns;  // after a gap the first command is zero
@@ -85,7 +86,7 @@ VelocityCommand apply_gate(const VelocityCommand& wanted, const VelocityCommand&
       std::clamp(aim.yaw_rate_rad_s, now.yaw_rate_rad_s - yaw_step, now.yaw_rate_rad_s + yaw_step);
   if (out.v_m_s != aim.v_m_s || out.yaw_rate_rad_s != aim.yaw_rate_rad_s) limited_by |= kGateAcceleration;
   out.limited_by = static_cast<std::uint8_t>(limited_by);
-  return out;
+  return result;
 }
 
 }  // namespace heel

@@ -21,7 +21,14 @@ struct Clearances {
   SonarObstacles echoes;
 };
 
-VelocityCommand apply_gate(const VelocityCommand& wanted, const VelocityCommand& previous, StopStyle style,
-                           const Clearances& around, TimeNs now_ns, const GateConfig& limits);
+struct GateResult {
+  VelocityCommand command;
+  /// Bumper to the nearest echo in the way; infinite: none; NaN: not asked for, because the robot stops at
+  /// once.
+  double free_distance_m = std::numeric_limits<double>::quiet_NaN();
+};
+
+GateResult apply_gate(const VelocityCommand& wanted, const VelocityCommand& previous, StopStyle style,
+                      const Clearances& around, TimeNs now_ns, const GateConfig& limits);
 
 }  // namespace heel

@@ -45,6 +45,18 @@ const char* to_string(LinkPhase phase) {
   return "?";
 }
 
+const char* to_string(MeasurementStatus status) {
+  switch (status) {
+    case MeasurementStatus::None:
+      return "none";
+    case MeasurementStatus::Accepted:
+      return "accepted";
+    case MeasurementStatus::Rejected:
+      return "rejected";
+  }
+  return "?";
+}
+
 const char* to_string(StopReason reason) {
   switch (reason) {
     case StopReason::None:

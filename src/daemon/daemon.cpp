@@ -182,7 +182,7 @@ void Daemon::log_counters() const {
       "camera: {} frames, {} dropped by the driver, {} replaced by newer ones before vision read them; "
       "reopened {} times",
       frames.captured, frames.dropped_by_driver, frames.dropped_unread, frames.reopened);
-  const RobotState robot = telemetry_.snapshot().tick.robot;
+  const RobotState robot = telemetry_.snapshot().tick.input.robot;
   spdlog::info(
       "robot: {} packets, {} with a wrong checksum or length, {} bytes discarded; reconnected {} times",
       robot.sips, robot.checksum_errors, robot.bytes_discarded, robot.reconnects);

@@ -49,8 +49,8 @@ void StatusReporter::log_link_errors(const ControlLoop& control) {
 }
 
 bool StatusReporter::robot_has_answered() const {
-  const LinkPhase phase = tick_.robot.phase;
-  return tick_.robot.has_sip && (phase == LinkPhase::Running || phase == LinkPhase::Disabled);
+  const LinkPhase phase = tick_.input.robot.phase;
+  return tick_.input.robot.has_sip && (phase == LinkPhase::Running || phase == LinkPhase::Disabled);
 }
 
 bool StatusReporter::ready_by_now() const {
@@ -60,7 +60,7 @@ bool StatusReporter::ready_by_now() const {
 std::string StatusReporter::status_line() const {
   if (!complete_) {
     const std::string robot =
-        robot_has_answered() ? "" : fmt::format("the robot ({})", to_string(tick_.robot.phase));
+        robot_has_answered() ? "" : fmt::format("the robot ({})", to_string(tick_.input.robot.phase));
     const char* const camera = frame_seen_ ? "" : "the camera";
     const char* const both = robot.empty() || frame_seen_ ? "" : " and ";
     return fmt::format("waiting for {}{}{}", robot, both, camera);

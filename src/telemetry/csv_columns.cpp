@@ -23,36 +23,53 @@ void add_array(std::vector<CsvColumn<Record>>& columns, const std::string& name,
 std::vector<CsvColumn<TickRecord>> make_tick_columns() {
   using T = TickRecord;
   using L = CsvLine;
-  return {
-      {"t_s", [](L& l, const T& t, int) { l.seconds(t.t_ns); }},
+  std::vector<CsvColumn<T>> columns{
+      {"t_s", [](L& l, const T& t, int) { l.seconds(t.input.now_ns); }},
       {"tick", [](L& l, const T& t, int) { l.integer(t.tick); }},
       {"lateness_us", [](L& l, const T& t, int) { l.number(static_cast<double>(t.lateness_ns) * 1e-3); }},
       {"stop_code", [](L& l, const T& t, int) { l.integer(static_cast<std::uint64_t>(t.stop_reason)); }},
       {"stop_reason", [](L& l, const T& t, int) { l.text(to_string(t.stop_reason)); }},
-      {"link_code", [](L& l, const T& t, int) { l.integer(static_cast<std::uint64_t>(t.robot.phase)); }},
-      {"link_phase", [](L& l, const T& t, int) { l.text(to_string(t.robot.phase)); }},
+      {"link_code",
+       [](L& l, const T& t, int) { l.integer(static_cast<std::uint64_t>(t.input.robot.phase)); }},
+      {"link_phase", [](L& l, const T& t, int) { l.text(to_string(t.input.robot.phase)); }},
       // The robot, as its newest packet says.
-      {"odom_t_s", [](L& l, const T& t, int) { l.seconds(t.robot.odometry.t_ns); }},
-      {"odom_x_m", [](L& l, const T& t, int) { l.number(or_none(t.robot.has_sip, t.robot.odometry.x_m)); }},
-      {"odom_y_m", [](L& l, const T& t, int) { l.number(or_none(t.robot.has_sip, t.robot.odometry.y_m)); }},
+      {"odom_t_s", [](L& l, const T& t, int) { l.seconds(t.input.robot.odometry.t_ns); }},
+      {"odom_x_m",
+       [](L& l, const T& t, int) { l.number(or_none(t.input.robot.has_sip, t.input.robot.odometry.x_m)); }},
+      {"odom_y_m",
+       [](L& l, const T& t, int) { l.number(or_none(t.input.robot.has_sip, t.input.robot.odometry.y_m)); }},
       {"odom_heading_rad",
-       [](L& l, const T& t, int) { l.number(or_none(t.robot.has_sip, t.robot.odometry.heading_rad)); }},
+       [](L& l, const T& t, int) {
+         l.number(or_none(t.input.robot.has_sip, t.input.robot.odometry.heading_rad));
+       }},
       {"odom_v_m_s",
-       [](L& l, const T& t, int) { l.number(or_none(t.robot.has_sip, t.robot.odometry.v_m_s)); }},
+       [](L& l, const T& t, int) { l.number(or_none(t.input.robot.has_sip, t.input.robot.odometry.v_m_s)); }},
       {"odom_yaw_rate_rad_s",
-       [](L& l, const T& t, int) { l.number(or_none(t.robot.has_sip, t.robot.odometry.yaw_rate_rad_s)); }},
-      {"motors_enabled", [](L& l, const T& t, int) { l.flag(t.robot.motors_enabled); }},
-      {"stop_button", [](L& l, const T& t, int) { l.flag(t.robot.stop_button); }},
-      {"e_stall", [](L& l, const T& t, int) { l.flag(t.robot.e_stall); }},
-      {"stall_left", [](L& l, const T& t, int) { l.flag(t.robot.stall_left); }},
-      {"stall_right", [](L& l, const T& t, int) { l.flag(t.robot.stall_right); }},
-      {"bumpers_front", [](L& l, const T& t, int) { l.integer(std::uint64_t{t.robot.bumpers_front}); }},
-      {"bumpers_rear", [](L& l, const T& t, int) { l.integer(std::uint64_t{t.robot.bumpers_rear}); }},
-      {"battery_v", [](L& l, const T& t, int) { l.number(or_none(t.robot.has_sip, t.robot.battery_v)); }},
-      {"sips", [](L& l, const T& t, int) { l.integer(t.robot.sips); }},
-      {"checksum_errors", [](L& l, const T& t, int) { l.integer(t.robot.checksum_errors); }},
-      {"bytes_discarded", [](L& l, const T& t, int) { l.integer(t.robot.bytes_discarded); }},
-      {"reconnects", [](L& l, const T& t, int) { l.integer(t.robot.reconnects); }},
+       [](L& l, const T& t, int) {
+         l.number(or_none(t.input.robot.has_sip, t.input.robot.odometry.yaw_rate_rad_s));
+       }},
+      {"motors_enabled", [](L& l, const T& t, int) { l.flag(t.input.robot.motors_enabled); }},
+      {"stop_button", [](L& l, const T& t, int) { l.flag(t.input.robot.stop_button); }},
+      {"e_stall", [](L& l, const T& t, int) { l.flag(t.input.robot.e_stall); }},
+      {"stall_left", [](L& l, const T& t, int) { l.flag(t.input.robot.stall_left); }},
+      {"stall_right", [](L& l, const T& t, int) { l.flag(t.input.robot.stall_right); }},
+      {"bumpers_front", [](L& l, const T& t, int) { l.integer(std::uint64_t{t.input.robot.bumpers_front}); }},
+      {"bumpers_rear", [](L& l, const T& t, int) { l.integer(std::uint64_t{t.input.robot.bumpers_rear}); }},
+      {"battery_v",
+       [](L& l, const T& t, int) { l.number(or_none(t.input.robot.has_sip, t.input.robot.battery_v)); }},
+      {"sips", [](L& l, const T& t, int) { l.integer(t.input.robot.sips); }},
+      {"checksum_errors", [](L& l, const T& t, int) { l.integer(t.input.robot.checksum_errors); }},
+      {"bytes_discarded", [](L& l, const T& t, int) { l.integer(t.input.robot.bytes_discarded); }},
+      {"reconnects", [](L& l, const T& t, int) { l.integer(t.input.robot.reconnects); }},
+      {"shutdown", [](L& l, const T& t, int) { l.flag(t.input.shutdown); }},
+      // The newest pose, and what became of it.
+      {"has_pose", [](L& l, const T& t, int) { l.flag(t.input.has_pose); }},
+      {"pose_frame", [](L& l, const T& t, int) { l.integer(t.input.pose.frame_sequence); }},
+      {"pose_t_capture_s", [](L& l, const T& t, int) { l.seconds(t.input.pose.t_capture_ns); }},
+      {"measurement_code",
+       [](L& l, const T& t, int) { l.integer(static_cast<std::uint64_t>(t.measurement)); }},
+      {"measurement", [](L& l, const T& t, int) { l.text(to_string(t.measurement)); }},
+      {"conditions", [](L& l, const T& t, int) { l.integer(std::uint64_t{t.conditions}); }},
       // The target, in the robot frame now.
       {"target_known", [](L& l, const T& t, int) { l.flag(t.target.known); }},
       {"target_t_capture_s", [](L& l, const T& t, int) { l.seconds(t.target.t_capture_ns); }},
@@ -70,7 +87,16 @@ std::vector<CsvColumn<TickRecord>> make_tick_columns() {
       {"command_yaw_rate_rad_s", [](L& l, const T& t, int) { l.number(t.command.yaw_rate_rad_s); }},
       {"command_expires_s", [](L& l, const T& t, int) { l.seconds(t.command.t_expires_ns); }},
       {"limited_by", [](L& l, const T& t, int) { l.integer(std::uint64_t{t.command.limited_by}); }},
+      {"free_distance_m", [](L& l, const T& t, int) { l.number(t.free_distance_m); }},
   };
+  add_array<T>(columns, "sonar_t_s", kSonars, [](L& l, const T& t, int i) {
+    l.seconds(t.input.robot.sonar[static_cast<std::size_t>(i)].t_ns);
+  });
+  add_array<T>(columns, "sonar_range_m", kSonars, [](L& l, const T& t, int i) {
+    const SonarEcho& echo = t.input.robot.sonar[static_cast<std::size_t>(i)];
+    l.number(or_none(echo.t_ns != 0, echo.range_m));
+  });
+  return columns;
 }
 
 std::vector<CsvColumn<PoseEstimate>> make_pose_columns() {

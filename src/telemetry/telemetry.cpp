@@ -74,14 +74,14 @@ void Telemetry::take(const TickRecord& tick) {
                                  ? std::string("following")
                                  : std::string("at rest: ") + to_string(tick.stop_reason);
     log_event({.part = "supervisor", .event = to_string(tick.stop_reason)}, spdlog::level::info, text);
-    if (recorder_) recorder_->remark(tick.t_ns, text);
+    if (recorder_) recorder_->remark(tick.input.now_ns, text);
   }
-  if (first || tick.robot.phase != newest_.tick.robot.phase) {
-    const std::string text = std::string("link to the robot: ") + to_string(tick.robot.phase);
-    const bool lost = tick.robot.phase == LinkPhase::Lost;
-    log_event({.part = "robot", .event = to_string(tick.robot.phase)},
+  if (first || tick.input.robot.phase != newest_.tick.input.robot.phase) {
+    const std::string text = std::string("link to the robot: ") + to_string(tick.input.robot.phase);
+    const bool lost = tick.input.robot.phase == LinkPhase::Lost;
+    log_event({.part = "robot", .event = to_string(tick.input.robot.phase)},
               lost ? spdlog::level::warn : spdlog::level::info, text);
-    if (recorder_) recorder_->remark(tick.t_ns, text);
+    if (recorder_) recorder_->remark(tick.input.now_ns, text);
   }
   ++newest_.ticks;
   newest_.tick = tick;

@@ -79,6 +79,23 @@ TEST(ControlStage, WaitsForFramesThenStartsGently) {
   EXPECT_GT(run.v_m_s, 0.2);
 }
 
+TEST(ControlStage, TheRecordHoldsTheInputAndWhatBecameOfThePose) {
+  Following run;
+  run.tick();
+  EXPECT_EQ(run.record.input.now_ns, 5 * kNsPerS);
+  EXPECT_EQ(run.record.input.pose.frame_sequence, 1u);
+  EXPECT_EQ(run.record.input.robot.sonar[3].t_ns, 5 * kNsPerS);
+  EXPECT_EQ(run.record.measurement, MeasurementStatus::Accepted);
+  EXPECT_EQ(run.record.conditions, kNoTargetYet);
+  run.tick();
+  EXPECT_EQ(run.record.input.pose.frame_sequence, 1u);
+  EXPECT_EQ(run.record.measurement, MeasurementStatus::None);
+  run.visible = false;
+  run.tick();
+  EXPECT_EQ(run.record.input.pose.frame_sequence, 2u);
+  EXPECT_EQ(run.record.measurement, MeasurementStatus::Rejected);
+}
+
 TEST(ControlStage, FollowsAWalkingPersonRoundABend) {
   Following run;
   run.run(10.0);

@@ -20,7 +20,7 @@ VelocityCommand command(double v_m_s, double yaw_rate_rad_s, TimeNs t_issued_ns 
 
 VelocityCommand pass(const VelocityCommand& wanted, const VelocityCommand& previous,
                      StopStyle style = StopStyle::Go, const Clearances& around = {}) {
-  return apply_gate(wanted, previous, style, around, kNow_ns, GateConfig{});
+  return apply_gate(wanted, previous, style, around, kNow_ns, GateConfig{}).command;
 }
 
 TEST(Gate, LetsAModestCommandThroughUntouched) {
@@ -62,7 +62,7 @@ TEST(Gate, ComesToRestWithinTheDeceleration) {
   while (last.v_m_s != 0.0 || last.yaw_rate_rad_s != 0.0) {
     now_ns += kTick_ns;
     const auto next =
-        apply_gate(command(0.7, -1.0, now_ns), last, StopStyle::ComeToRest, {}, now_ns, GateConfig{});
+        apply_gate(command(0.7, -1.0, now_ns), last, StopStyle::ComeToRest, {}, now_ns, GateConfig{}).command;
     ASSERT_LE(last.v_m_s - next.v_m_s, 1.5 * 0.02 + 1e-12);
     last = next;
   }
@@ -96,7 +96,7 @@ TEST(Gate, StopsShortOfTheSeparation) {
   TimeNs now_ns = kNow_ns;
   for (int i = 0; i < 2000; ++i) {
     now_ns += kTick_ns;
-    last = apply_gate(command(0.7, 0, now_ns), last, StopStyle::Go, {range_m, {}}, now_ns, limits);
+    last = apply_gate(command(0.7, 0, now_ns), last, StopStyle::Go, {range_m, {}}, now_ns, limits).command;
     range_m -= last.v_m_s * 0.02;
   }
   EXPECT_GE(range_m, limits.separation_m - 1e-3);
@@ -108,6 +108,20 @@ TEST(Gate, StopsShortOfTheSeparation) {
   EXPECT_LT(pass(command(-0.5, 0), command(0, 0, kNow_ns - kTick_ns), StopStyle::Go, {0.3, {}}).v_m_s, 0.0);
 }
 
+TEST(Gate, SaysHowFarTheWayIsFreeWhenItAsks) {
+  const auto free_distance_m = [](StopStyle style, const Clearances& around) {
+    return apply_gate(command(0.5, 0), command(0.5, 0, kNow_ns - kTick_ns), style, around, kNow_ns,
+                      GateConfig{})
+        .free_distance_m;
+  };
+  Clearances around;
+  EXPECT_EQ(free_distance_m(StopStyle::Go, around), kInf);
+  around.echoes.add({0.313 + 1.25, 0.1});
+  EXPECT_NEAR(free_distance_m(StopStyle::Go, around), 1.25, 1e-12);
+  EXPECT_NEAR(free_distance_m(StopStyle::ComeToRest, around), 1.25, 1e-12);
+  EXPECT_TRUE(std::isnan(free_distance_m(StopStyle::AtOnce, around)));
+}
+
 TEST(Gate, StopsShortOfWhatTheSonarsHear) {
   const GateConfig limits;
   double thing_m = 3.0;  // ahead of the bumper
@@ -117,7 +131,7 @@ TEST(Gate, StopsShortOfWhatTheSonarsHear) {
     now_ns += kTick_ns;
     Clearances around;
     around.echoes.add({0.313 + thing_m, 0.1});
-    last = apply_gate(command(v_m_s, 0, now_ns), last, StopStyle::Go, around, now_ns, limits);
+    last = apply_gate(command(v_m_s, 0, now_ns), last, StopStyle::Go, around, now_ns, limits).command;
     thing_m -= last.v_m_s * 0.02;
   };
   for (int i = 0; i < 2000; ++i) step(0.7);
@@ -167,7 +181,7 @@ RC_GTEST_PROP(GateProperty, NothingEverExceedsALimitAndEverythingExpires, ()) {
   const VelocityCommand wanted = any_command();
   const VelocityCommand previous = any_command();
   const auto style = *rc::gen::element(StopStyle::Go, StopStyle::ComeToRest, StopStyle::AtOnce);
-  const auto out = apply_gate(wanted, previous, style, any_surroundings(), kNow_ns, limits);
+  const auto out = apply_gate(wanted, previous, style, any_surroundings(), kNow_ns, limits).command;
 
   RC_ASSERT(std::isfinite(out.v_m_s) && std::isfinite(out.yaw_rate_rad_s));
   RC_ASSERT(std::abs(out.v_m_s) <= limits.v_max_m_s);
@@ -188,7 +202,8 @@ RC_GTEST_PROP(GateProperty, NoStepIsLargerThanTheAccelerationsAllow, ()) {
     VelocityCommand wanted = any_command();
     wanted.t_expires_ns = now_ns + 1;
     const auto out = apply_gate(wanted, last, *rc::gen::element(StopStyle::Go, StopStyle::ComeToRest),
-                                any_surroundings(), now_ns, limits);
+                                any_surroundings(), now_ns, limits)
+                         .command;
     const double gain = std::abs(out.v_m_s) - std::abs(last.v_m_s);
     RC_ASSERT(gain <= limits.acceleration_m_s2 * dt_s + 1e-12);
     RC_ASSERT(-gain <= limits.deceleration_m_s2 * dt_s + 1e-12);

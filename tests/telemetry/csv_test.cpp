@@ -73,14 +73,22 @@ TEST(CsvLine, TextCannotBreakTheLineAndTooMuchIsCut) {
 TEST(CsvColumns, ATickLandsUnderItsNames) {
   TickRecord tick;
   tick.tick = 17;
-  tick.t_ns = 2'500'000'000;
+  tick.input.now_ns = 2'500'000'000;
   tick.lateness_ns = 12'500;
   tick.stop_reason = StopReason::Bumper;
-  tick.robot.phase = LinkPhase::Running;
-  tick.robot.has_sip = true;
-  tick.robot.odometry = {2'400'000'000, 1.5, -2.5, 7.25, 0.125, -0.5};
-  tick.robot.bumpers_front = 5;
-  tick.robot.battery_v = 12.25;
+  tick.input.robot.phase = LinkPhase::Running;
+  tick.input.robot.has_sip = true;
+  tick.input.robot.odometry = {2'400'000'000, 1.5, -2.5, 7.25, 0.125, -0.5};
+  tick.input.robot.bumpers_front = 5;
+  tick.input.robot.battery_v = 12.25;
+  tick.input.robot.sonar[15] = {2'375'000'000, 0.75};
+  tick.input.shutdown = true;
+  tick.input.has_pose = true;
+  tick.input.pose.frame_sequence = 41;
+  tick.input.pose.t_capture_ns = 2'450'000'000;
+  tick.measurement = MeasurementStatus::Rejected;
+  tick.conditions = kBumper | kTargetLost;
+  tick.free_distance_m = 1.125;
   tick.target.known = true;
   tick.target.x_m = 2.0;
   tick.target.yaw_rad = -0.75;
@@ -105,6 +113,16 @@ TEST(CsvColumns, ATickLandsUnderItsNames) {
       {"odom_yaw_rate_rad_s", "-0.5"},
       {"bumpers_front", "5"},
       {"battery_v", "12.25"},
+      {"sonar_t_s_15", "2.375000000"},
+      {"sonar_range_m_15", "0.75"},
+      {"shutdown", "1"},
+      {"has_pose", "1"},
+      {"pose_frame", "41"},
+      {"pose_t_capture_s", "2.450000000"},
+      {"measurement_code", "2"},
+      {"measurement", "rejected"},
+      {"conditions", "1056"},
+      {"free_distance_m", "1.125"},
       {"target_x_m", "2"},
       {"target_yaw_rad", "-0.75"},
       {"goal_y_m", "0.0625"},
@@ -119,7 +137,8 @@ TEST(CsvColumns, ATickLandsUnderItsNames) {
 
 TEST(CsvColumns, WhatIsNotKnownIsNan) {
   const auto tick = row_of(tick_columns(), TickRecord{});
-  for (const char* name : {"odom_x_m", "battery_v", "target_x_m", "target_yaw_rad", "goal_x_m"}) {
+  for (const char* name :
+       {"odom_x_m", "battery_v", "sonar_range_m_0", "target_x_m", "target_yaw_rad", "goal_x_m"}) {
     EXPECT_EQ(tick.at(name), "nan") << name;
   }
   PoseEstimate estimate;
@@ -183,11 +202,9 @@ TEST(CsvColumns, CountsOfTheFramePathLandUnderTheirNames) {
 
 // Arrays are documented by their first and last column.
 bool in_the_middle_of_an_array(const std::string& name, const std::set<std::string>& names) {
-  const std::size_t bar = name.rfind('_');
-  if (bar + 2 != name.size() || name.back() < '1' || name.back() > '9') return false;
-  std::string next = name;
-  ++next.back();
-  return names.contains(next);
+  const std::size_t digits = name.find_last_not_of("0123456789") + 1;
+  if (digits == name.size() || name[digits - 1] != '_' || name[digits] == '0') return false;
+  return names.contains(name.substr(0, digits) + std::to_string(std::stoi(name.substr(digits)) + 1));
 }
 
 TEST(CsvColumns, EveryColumnIsInTheReadmeAndDistinct) {

@@ -81,7 +81,7 @@ TEST(Recorder, WritesHeadersAndRowsOfEachKind) {
   const std::string directory = folder.file("a/new/folder");
   Recorder recorder(directory);
   TickRecord tick;
-  tick.t_ns = 1'500'000'000;
+  tick.input.now_ns = 1'500'000'000;
   recorder.record(tick);
   recorder.record(tick);
   PoseEstimate pose;

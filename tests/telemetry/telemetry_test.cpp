@@ -38,11 +38,11 @@ TEST_F(TelemetryTest, ChangesOfStopReasonAndLinkAreToldOnce) {
   for (const StopReason reason : {StopReason::NoTargetYet, StopReason::NoTargetYet, StopReason::None,
                                   StopReason::None, StopReason::TargetLost, StopReason::None}) {
     tick.stop_reason = reason;
-    tick.robot.phase = LinkPhase::Running;
+    tick.input.robot.phase = LinkPhase::Running;
     ++tick.tick;
     queues_.ticks.push(tick);
   }
-  tick.robot.phase = LinkPhase::Lost;
+  tick.input.robot.phase = LinkPhase::Lost;
   queues_.ticks.push(tick);
   telemetry.drain(kNsPerS);
   EXPECT_EQ(log_.told("at rest: no target seen yet"), 1);

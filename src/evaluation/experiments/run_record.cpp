@@ -51,7 +51,7 @@ PoseSample pose_sample(const PoseEstimate& pose, const sim::TruthMoment& truth) 
 
 TickSample tick_sample(const TickRecord& tick) {
   TickSample sample;
-  sample.t_s = seconds_from_ns(tick.t_ns);
+  sample.t_s = seconds_from_ns(tick.input.now_ns);
   sample.stop_reason = to_string(tick.stop_reason);
   sample.v_m_s = tick.command.v_m_s;
   sample.yaw_rate_rad_s = tick.command.yaw_rate_rad_s;

@@ -232,8 +232,8 @@ void Lockstep::tick(TimeNs t_ns, bool shutdown) {
   input.pose = newest_pose_;
   input.has_pose = has_pose_;
   input.shutdown = shutdown;
-  TickRecord record = control_.tick(input);
-  record.tick = counts_.ticks++;
+  const TickRecord record = control_.tick(input);
+  ++counts_.ticks;
   send(session_.send(record.command, t_ns), t_ns);
   observer_.on_tick(record, truth_at(t_ns));
 }

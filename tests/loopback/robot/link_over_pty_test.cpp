@@ -1,64 +1,19 @@
 // The link and the simulated P3-AT as two ends of real lines, in real time: pty and TCP, hang-up and return.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cmath>
 #include <memory>
-#include <mutex>
 #include <string>
-#include <thread>
 
+#include "loopback/robot/robot_thread.h"
 #include "realtime/clock.h"
 #include "robot/robot_link.h"
-#include "sim/transport/robot_server.h"
 
 namespace heel {
 namespace {
 
-/// A robot on a line of its own, on its own thread.
-class RobotThread {
- public:
-  explicit RobotThread(const std::string& address, int baud = 38400) : robot_(settings(baud)) {
-    transport_ = sim::open_transport(address, baud);
-    thread_ = std::thread([this] { run(); });
-  }
-  ~RobotThread() {
-    stop_ = true;
-    thread_.join();
-  }
-  std::string address() const { return transport_->address(); }
-  sim::RobotTruth truth() const {
-    const std::lock_guard lock(mutex_);
-    return truth_;
-  }
-
- private:
-  static sim::P3AtSettings settings(int baud) {
-    sim::P3AtSettings settings;
-    settings.boot_baud = baud;
-    return settings;
-  }
-  void run() {
-    sim::RobotServer server(robot_, *transport_, [](TimeNs, const std::string&) {});
-    const TimeNs begin_ns = monotonic_now_ns();
-    while (!stop_) {
-      server.step(monotonic_now_ns() - begin_ns);
-      {
-        const std::lock_guard lock(mutex_);
-        truth_ = robot_.truth();
-      }
-      sleep_until_ns(monotonic_now_ns() + kNsPerMs);
-    }
-  }
-  sim::P3At robot_;
-  std::unique_ptr<sim::Transport> transport_;
-  mutable std::mutex mutex_;
-  sim::RobotTruth truth_;
-  std::atomic<bool> stop_{false};
-  std::thread thread_;
-};
+using test::pty_address;
+using test::RobotThread;
 
 class LinkBench {
  public:
@@ -92,10 +47,6 @@ class LinkBench {
   double v_m_s = 0.0;
   TimeNs longest_ns = 0;
 };
-
-std::string pty_address(const char* name) {
-  return "pty:" + testing::TempDir() + "heel-" + name + "-" + std::to_string(::getpid());
-}
 
 TEST(LinkOverPty, DrivesAndShutsDown) {
   const std::string address = pty_address("drive");

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "control/control_stage.h"
 #include "evaluation/experiments/run_record.h"
 #include "evaluation/metrics/metrics.h"
 #include "heel/error.h"
+#include "support/decisions.h"
 #include "support/sanitized.h"
 
 namespace heel::sim {
@@ -97,6 +99,37 @@ TEST(Lockstep, RepeatsToTheBit) {
   EXPECT_EQ(first.numbers, second.numbers);
   EXPECT_EQ(first.frames, second.frames);
   EXPECT_NE(first.frames, other.frames);
+}
+
+class Records : public LockstepObserver {
+ public:
+  void on_tick(const TickRecord& tick, const TruthMoment& /*truth*/) override { ticks.push_back(tick); }
+  std::vector<TickRecord> ticks;
+};
+
+TEST(Lockstep, TheRecordedInputsGiveTheRecordedDecisionsAgain) {
+  LockstepSettings settings = troubled_walk();
+  settings.scenario.duration_s = test::kSanitized ? 3.0 : 5.0;
+  for (const char* fault : {"garble@1.2+1=0.02", "bumper@1.6+0.3=4"})
+    settings.scenario.robot.faults.emplace_back(fault);
+  settings.config.supervisor.bumper_hold_s = 0.2;
+  Records run;
+  run_lockstep(settings, run);
+
+  ControlStage again(settings.config);
+  test::DecisionCounts counts;
+  for (const TickRecord& record : run.ticks) {
+    ASSERT_EQ(test::decision_bytes(again.tick(record.input)), test::decision_bytes(record)) << record.tick;
+    counts.add(record);
+  }
+  // What decides is there: the lines above would hold in an empty run, too.
+  EXPECT_GT(counts.moving, 20);
+  EXPECT_GT(counts.accepted, 20);
+  EXPECT_GT(counts.obstacle_in_the_way, 0);
+  EXPECT_GT(counts.sonar_readings, 20);
+  EXPECT_GT(counts.stop_reasons(), 3U);
+  EXPECT_GT(run.ticks.back().input.robot.checksum_errors, 0U);
+  EXPECT_EQ(run.ticks.back().stop_reason, StopReason::Shutdown);
 }
 
 TEST(Lockstep, FollowsAWalkingPerson) {

@@ -1,0 +1,72 @@
+// The control thread's body with a simulated P3-AT over a pty in real time: its records hold what it decided
+// on.
+#include "daemon/control_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+#include <vector>
+
+#include "loopback/robot/robot_thread.h"
+#include "support/decisions.h"
+
+namespace heel {
+namespace {
+
+/// A person straight ahead who keeps 1 m more than the template's distance, whatever the robot does.
+PoseEstimate pose_of_frame(std::uint64_t sequence, TimeNs t_capture_ns) {
+  PoseEstimate pose;
+  pose.frame_sequence = sequence;
+  pose.t_capture_ns = t_capture_ns;
+  pose.reason = PoseReason::Found;
+  pose.certainty = 0.4;
+  pose.R_cur_from_ref = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  pose.t_over_d = {0, 0, 0.5};
+  pose.has_distance = true;
+  pose.position_m = {0, 0, 3.0};
+  return pose;
+}
+
+TEST(ControlLoopOverPty, TheRecordedInputsGiveTheRecordedDecisionsAgain) {
+  const std::string address = test::pty_address("control");
+  const test::RobotThread robot(address);
+  Config config;
+  config.robot.address = address;
+  config.robot.config_wait_s = 0.2;
+  Mailbox<PoseEstimate> poses;
+  TelemetryQueues queues;
+  ControlLoop loop(config, poses, queues);
+  std::vector<TickRecord> records;
+  const auto drain = [&] {
+    for (TickRecord record; queues.ticks.pop(record);) records.push_back(record);
+  };
+  {
+    std::jthread thread([&] { loop.run(); });
+    const TimeNs t_end_ns = monotonic_now_ns() + 10 * kNsPerS;
+    int moving = 0;
+    for (std::uint64_t frame = 1; moving < 50 && monotonic_now_ns() < t_end_ns; ++frame) {
+      poses.post(pose_of_frame(frame, monotonic_now_ns()));
+      sleep_until_ns(monotonic_now_ns() + 33 * kNsPerMs);
+      drain();
+      moving += robot.truth().v_m_s > 0.1;
+    }
+    loop.stop();
+  }
+  drain();
+
+  ControlStage again(config);
+  test::DecisionCounts counts;
+  for (const TickRecord& record : records) {
+    ASSERT_EQ(test::decision_bytes(again.tick(record.input)), test::decision_bytes(record)) << record.tick;
+    counts.add(record);
+  }
+  EXPECT_GT(counts.moving, 50);
+  EXPECT_GT(counts.accepted, 30);
+  EXPECT_GT(counts.sonar_readings, 10);
+  EXPECT_EQ(queues.ticks.dropped(), 0U);
+  ASSERT_FALSE(records.empty());
+  EXPECT_EQ(records.back().stop_reason, StopReason::Shutdown);
+}
+
+}  // namespace
+}  // namespace heel
