@@ -45,7 +45,7 @@ enum class PoseReason : std::uint8_t {
   Found,
   TooFewFeatures,    ///< the frame holds fewer than four features in the scale range
   TooFewMatches,     ///< fewer than four pairs survived sign, ratio and mutual check
-  NoHomography,      ///< no non-degenerate sample before the deadline
+  NoHomography,      ///< no sample of four pairs has more support than itself
   TooFewInliers,     ///< certainty or inlier count below the floor
   ImplausibleShape,  ///< the template's outline lands mirrored, folded, or absurdly large or small
   NoValidMotion,     ///< no decomposition puts the shirt in front of both cameras, facing the camera

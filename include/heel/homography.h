@@ -16,8 +16,6 @@
 #include <span>
 #include <vector>
 
-#include "heel/time.h"
-
 namespace heel {
 
 /// A pair of matched points, undistorted pixels.
@@ -48,7 +46,6 @@ struct RansacSettings {
   double confidence = 0.999;   ///< stop when a better sample is this unlikely
   int max_iterations = 10000;  ///< 0.999 sure with 83 % wrong
   std::uint64_t seed = 1;
-  TimeNs budget_ns = 0;   ///< 0: no deadline; otherwise the best so far is returned when it has passed
   bool precision = true;  ///< compute rms_px and covariance as well
 };
 
@@ -67,10 +64,8 @@ struct RobustHomography {
 /// RANSAC with local optimisation and MSAC's cost. Memory is taken once for `max_pairs`; pairs beyond that
 /// many are left out.
 ///
-/// Deterministic: every call starts from the seed, so the same pairs give the same result. Only a budget
-/// other than 0 makes it look at a clock (CLOCK_MONOTONIC, every few samples): the one place where a stage
-/// does, since a deadline has no other meaning. In lock step the budget is 0 and the iterations alone bound
-/// it.
+/// Pure but for its work space: every call starts from the seed and reads no clock, so the same pairs give
+/// the same result. `max_iterations` alone bounds the time.
 ///
 /// The plane is taken to be opaque and in front of both cameras: a mirrored map is never returned.
 class HomographyEstimator {

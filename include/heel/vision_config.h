@@ -15,7 +15,6 @@ struct VisionConfig {
   int min_inliers = 8;          ///< four or five are garbage
   double min_certainty = 0.05;  ///< below: not found at all
   int ransac_iterations = 5000;
-  double ransac_budget_ms = 10.0;          ///< 0: no deadline
   double distance_min_m = 0.8;             ///< nearest at which the target is looked for
   double distance_max_m = 6.0;             ///< farthest
   bool tracking = true;                    ///< look first where the last frame says the target must be

@@ -86,6 +86,13 @@ std::vector<std::string> key_names() {
   return names;
 }
 
+std::string why_unknown(std::string_view full_name) {
+  for (const auto& removed : removed_config_keys()) {
+    if (removed.full_name == full_name) return fmt::format("removed: {}; delete this line", removed.reason);
+  }
+  return "no such key" + nearest_name_question(std::string(full_name), key_names());
+}
+
 std::vector<std::string> section_names() {
   std::vector<std::string> names;
   for (const auto& section : config_sections()) names.emplace_back(section.name);
@@ -125,8 +132,7 @@ void ConfigReader::read_section(std::string_view section, const toml::table& tab
     const std::string full_name = fmt::format("{}.{}", section, name.str());
     const auto index = index_of_key(full_name);
     if (!index) {
-      add_error(name.source().begin, full_name,
-                "no such key" + nearest_name_question(full_name, key_names()));
+      add_error(name.source().begin, full_name, why_unknown(full_name));
       continue;
     }
     const ConfigKey& key = config_keys()[*index];

@@ -82,7 +82,6 @@ const ConfigKey kKeys[] = {
     number(HEEL_KEY(vision, min_inliers), "", {4, 500}, No, "Smallest number of inliers of a detection; wrong homographies reach four or five."),
     number(HEEL_KEY(vision, min_certainty), "", {0, 1}, No, "Smallest certainty of a detection: inliers / features of the template."),
     number(HEEL_KEY(vision, ransac_iterations), "", {10, 100000}, No, "Largest number of RANSAC samples in one frame."),
-    number(HEEL_KEY(vision, ransac_budget_ms), "ms", {0, 1000}, No, "Time limit of RANSAC; 0 sets none, which makes results repeatable."),
     number(HEEL_KEY(vision, distance_min_m), "m", {0.2, 20}, No, "Nearest distance at which the person is searched for."),
     number(HEEL_KEY(vision, distance_max_m), "m", {0.5, 30}, No, "Farthest distance at which the person is searched for."),
     flag(HEEL_KEY(vision, tracking), No, "Whether to search first where the last frame predicts the person, and in the whole frame only if the person is not there."),
@@ -168,6 +167,10 @@ constexpr ConfigRelation kRelations[] = {
      "must not be larger than robot.v_limit_mm_s"},
 };
 
+constexpr RemovedConfigKey kRemovedKeys[] = {
+    {"vision.ransac_budget_ms", "vision.ransac_iterations alone limits RANSAC"},
+};
+
 }  // namespace
 
 std::span<const ConfigSection> config_sections() {
@@ -180,6 +183,10 @@ std::span<const ConfigKey> config_keys() {
 
 std::span<const ConfigRelation> config_relations() {
   return kRelations;
+}
+
+std::span<const RemovedConfigKey> removed_config_keys() {
+  return kRemovedKeys;
 }
 
 }  // namespace heel

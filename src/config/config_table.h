@@ -60,4 +60,11 @@ std::span<const ConfigSection> config_sections();
 std::span<const ConfigKey> config_keys();
 std::span<const ConfigRelation> config_relations();
 
+/// A key of an earlier version. A file that still sets it is refused with the reason.
+struct RemovedConfigKey {
+  std::string_view full_name;
+  std::string_view reason;  ///< what does its work now
+};
+std::span<const RemovedConfigKey> removed_config_keys();
+
 }  // namespace heel

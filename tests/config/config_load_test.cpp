@@ -42,6 +42,12 @@ TEST(ConfigLoad, UnknownKeyNamesPlaceAndNearest) {
       ElementsAre("f.toml:2:3: control.gain_yaw_1s: no such key; did you mean control.gain_yaw_1_s?"));
 }
 
+TEST(ConfigLoad, RemovedKeySaysWhyAndWhatToDo) {
+  EXPECT_THAT(complaints_about("[vision]\nransac_budget_ms = 10.0\n"),
+              ElementsAre("f.toml:2:1: vision.ransac_budget_ms: removed: vision.ransac_iterations alone "
+                          "limits RANSAC; delete this line"));
+}
+
 TEST(ConfigLoad, UnknownSectionNamesPlaceAndNearest) {
   EXPECT_THAT(complaints_about("[contorl]\nrate_hz = 50\n"),
               ElementsAre("f.toml:1:2: contorl: no such section; did you mean control?"));
@@ -142,6 +148,11 @@ TEST(ConfigTable, EveryKeyIsDescribedOnceInAKnownSectionWithADefaultInRange) {
     for (const auto& section : config_sections()) section_known |= section.name == key.section;
     EXPECT_TRUE(section_known) << key.full_name();
   }
+}
+
+TEST(ConfigTable, RemovedKeysAreNoKeys) {
+  for (const auto& removed : removed_config_keys())
+    for (const auto& key : config_keys()) EXPECT_NE(key.full_name(), removed.full_name);
 }
 
 TEST(ConfigTable, EveryNumberRefusesJustOutsideItsRange) {

@@ -80,8 +80,7 @@ std::string data_folder(const ExperimentOptions& options) {
 
 void look_at_real_images(const ExperimentOptions& options) {
   const std::string data = data_folder(options);
-  VisionConfig vision;
-  vision.ransac_budget_ms = 0.0;  // a deadline would make the result depend on the machine
+  const VisionConfig vision;
   const auto pairs = evaluation::look_at_pairs(data, vision);
   if (!pairs.empty()) evaluation::write_pairs(pairs, options.out + "/real_pairs.csv");
   const auto video = evaluation::look_at_video(data, kVideoStep, vision);

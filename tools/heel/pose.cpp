@@ -94,7 +94,7 @@ void make_folder(const std::string& folder) {
   if (error) throw Error("--picture-dir: " + folder + ": " + error.message());
 }
 
-void run_pose(PoseOptions options) {
+void run_pose(const PoseOptions& options) {
   if (options.last < options.first) {
     throw Error("--last " + std::to_string(options.last) + ": before --first " +
                 std::to_string(options.first) + " (expected the same frame or a later one)");
@@ -102,8 +102,6 @@ void run_pose(PoseOptions options) {
   ShirtTemplate shirt = read_template(options.template_file);
   if (options.oriented) shirt.oriented = true;
   const CameraModel camera = read_camera_model(options.camera_file);
-  // Without a deadline the same input gives the same output, however busy the machine is.
-  options.vision.ransac_budget_ms = 0.0;
   PoseEstimator estimator(shirt, camera, options.vision);
   if (!options.picture_dir.empty()) make_folder(options.picture_dir);
 

@@ -277,7 +277,6 @@ void apply_scenario(const Scenario& scenario, Config& config) {
   config.camera.mount_z_m = camera.mount_z_m;
   config.camera.mount_pitch_rad = camera.mount_pitch_rad;
   config.robot.address = "pty:lockstep@38400";
-  config.vision.ransac_budget_ms = 0.0;  // a deadline would make the run depend on the machine
 }
 
 P3AtSettings robot_settings(const Scenario& scenario) {

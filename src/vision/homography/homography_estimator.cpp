@@ -6,7 +6,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -19,18 +18,11 @@
 namespace heel {
 namespace {
 
-constexpr int kSamplesBetweenClockReads = 16;
 constexpr int kLocalRounds = 2;  // DLT → new consensus → DLT
 // Tukey's limit at 6 σ loses little of least squares' efficiency (5.1 σ: 5 % in the plane); the median of the
 // squared error of two coordinates is 1.386 σ².
 constexpr double kSoftLimitMedians = 6.0 * 6.0 / 1.386;
 constexpr double kSoftLimitMin = 0.25, kSoftLimitMax = 6.0;  // of the inliers' limit
-
-TimeNs monotonic_now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 /// Samples needed to have drawn one of inliers only with the given confidence (H&Z, Eq. (4.18)).
 int samples_needed(int inliers, int pairs, double confidence, int at_most) {
@@ -157,17 +149,13 @@ void HomographyEstimator::Impl::optimise_locally() {
   }
 }
 
-/// Samples until a better one is too unlikely, the iterations are used up or the deadline has passed.
+/// Samples until a better one is too unlikely or the iterations are used up.
 int HomographyEstimator::Impl::search() {
   Random random(settings.seed);
   const int pairs = static_cast<int>(centred.size());
-  const TimeNs deadline_ns = settings.budget_ns > 0 ? monotonic_now_ns() + settings.budget_ns : 0;
   int needed = settings.max_iterations;
   int iterations = 0;
   while (iterations < needed) {
-    if (deadline_ns > 0 && iterations % kSamplesBetweenClockReads == 0 && iterations > 0 &&
-        monotonic_now_ns() >= deadline_ns)
-      break;
     ++iterations;
     if (!sample_and_score(random)) continue;
     optimise_locally();

@@ -74,7 +74,6 @@ RansacSettings ransac_settings(const VisionConfig& config) {
   RansacSettings settings;
   settings.inlier_px = config.inlier_px;
   settings.max_iterations = config.ransac_iterations;
-  settings.budget_ns = static_cast<TimeNs>(config.ransac_budget_ms * static_cast<double>(kNsPerMs));
   settings.precision = false;  // the pose has its own
   return settings;
 }

@@ -8,6 +8,8 @@
 
 #include "heel/homography.h"
 #include "heel/motion.h"
+#include "heel/shirt_template.h"
+#include "heel/vision_config.h"
 #include "vision/pose/motion_refine.h"
 #include "vision/pose/scene.h"
 
@@ -53,6 +55,30 @@ void heel_homography(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(estimator.estimate(all[next++ % all.size()].pairs, mask));
 }
 
+/// The worst frame for the iteration bound: pairs that keep their order, so that most samples give a
+/// homography to score, but scatter so widely that none is supported well enough to stop early. As many pairs
+/// as the largest template gives, vision's own settings. The argument is the scatter in pixels.
+void heel_homography_without_consensus(benchmark::State& state) {
+  const heel::VisionConfig vision;
+  const int pairs = heel::ShirtTemplate{}.max_features;
+  std::vector<std::vector<PointPair>> all;
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+    heel::test::Random random(seed);
+    const heel::test::View view = heel::test::random_view(random, heel::test::plain_camera());
+    all.push_back(heel::test::inlier_pairs(random, view.H, pairs, static_cast<double>(state.range(0)), 0.0));
+  }
+  heel::RansacSettings settings;
+  settings.inlier_px = vision.inlier_px;
+  settings.max_iterations = vision.ransac_iterations;
+  settings.precision = false;
+  heel::HomographyEstimator estimator(pairs, settings);
+  std::vector<std::uint8_t> mask;
+  std::size_t next = 0;
+  double iterations = 0.0;
+  for (auto _ : state) iterations += estimator.estimate(all[next++ % all.size()], mask).iterations;
+  state.counters["samples"] = benchmark::Counter(iterations, benchmark::Counter::kAvgIterations);
+}
+
 void opencv_homography(benchmark::State& state, int method) {
   const std::vector<Problem> all = problems(static_cast<double>(state.range(0)) / 100.0);
   std::size_t next = 0;
@@ -92,6 +118,7 @@ void heel_frontal_pose(benchmark::State& state) {
 }
 
 BENCHMARK(heel_homography)->Arg(20)->Arg(50)->Arg(80)->Arg(100)->Unit(benchmark::kMicrosecond);
+BENCHMARK(heel_homography_without_consensus)->Arg(5)->Arg(10)->Arg(20)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(opencv_homography, usac_magsac, static_cast<int>(cv::USAC_MAGSAC))
     ->Arg(20)
     ->Arg(50)

@@ -47,9 +47,7 @@ TEST(StillScene, BlurIsTheCommandedLengthInTheMiddleOfThePicture) {
 TEST(StillScene, TheShirtIsFoundAndTrackedNearTheTruth) {
   const sim::Scenario base = small_base();
   const ShirtTemplate shirt = sim::teach_from_world(still_scenario(base, {}), 1.5);
-  VisionConfig vision;
-  vision.ransac_budget_ms = 0.0;
-  StillScene scene(base, {}, shirt, vision);
+  StillScene scene(base, {}, shirt, VisionConfig{});
   const auto rows = scene.look("near", {.x_m = 0.2, .z_m = 1.8, .yaw_rad = 0.2});
   EXPECT_FALSE(rows[0].pose.tracked) << "nothing was seen before";
   EXPECT_TRUE(rows[1].pose.tracked);

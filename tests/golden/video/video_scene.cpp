@@ -50,7 +50,6 @@ std::string VideoScene::write_config(double gain_yaw_1_s, const std::string& cam
   text +=
       "mount_x_m = 0.15\nmount_z_m = 1.1\n"
       "[target]\nshirt = \"knit.heel\"\n"
-      "[vision]\nransac_budget_ms = 0\n"
       "[control]\nrate_hz = 50\ngain_distance_1_s = 1.0\ngain_lateral_rad_s_m = 1.0\ngain_yaw_1_s = " +
       std::to_string(gain_yaw_1_s) +
       "\ndeadband_distance_m = 0.05\nreverse = false\n"

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 #include <opencv2/calib3d.hpp>
 
@@ -183,20 +182,17 @@ TEST(HomographyEstimator, PairsBeyondItsMemoryAreLeftOut) {
   EXPECT_EQ(std::count(mask.begin() + 100, mask.end(), 1), 0);
 }
 
-TEST(HomographyEstimator, DeadlineReturnsTheBestSoFar) {
+TEST(HomographyEstimator, IterationBoundReturnsTheBestSoFar) {
   RansacSettings settings;
-  settings.max_iterations = 100'000'000;
-  settings.confidence = 1.0 - 1e-15;  // would take minutes
-  settings.budget_ns = 5 * heel::kNsPerMs;
+  settings.max_iterations = 500;
+  settings.confidence = 1.0 - 1e-15;  // needs 8,800 samples with a quarter of the pairs right
   HomographyEstimator estimator(1000, settings);
   std::vector<std::uint8_t> mask;
   const Problem p = problem(2, 1000, 0.75, 1.0);
-  const auto start = std::chrono::steady_clock::now();
   const RobustHomography result = estimator.estimate(p.pairs, mask);
-  const auto took = std::chrono::steady_clock::now() - start;
-  EXPECT_LT(result.iterations, settings.max_iterations);
-  EXPECT_LT(took, std::chrono::milliseconds(500));  // generous: the machine may be busy
+  EXPECT_EQ(result.iterations, settings.max_iterations);
   EXPECT_EQ(result.status, HomographyStatus::Ok);
+  EXPECT_LT(corner_error_px(result.H_cur_from_ref, p.view.H), 3.0);
 }
 
 TEST(HomographyEstimator, AllocatesNothing) {

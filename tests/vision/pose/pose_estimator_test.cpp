@@ -24,8 +24,8 @@ using heel::PoseEstimator;
 using heel::PoseReason;
 using heel::ShirtTemplate;
 using heel::VisionConfig;
+using heel::test::flat_shirt_config;
 using heel::test::homography;
-using heel::test::lock_step_config;
 using heel::test::render;
 using heel::test::robot_camera;
 using heel::test::shirt;
@@ -35,7 +35,7 @@ using heel::test::view_of;
 
 TEST(PoseEstimator, FindsYawTranslationAndPositionThroughTwoLenses) {
   const ShirtTemplate taught = shirt();
-  PoseEstimator estimator(taught, robot_camera(), lock_step_config());
+  PoseEstimator estimator(taught, robot_camera(), flat_shirt_config());
   double squared_yaw = 0.0, worst_deg = 0.0;
   int views = 0;
   for (const double yaw_deg : {-40.0, -30.0, -20.0, -8.0, 0.0, 8.0, 20.0, 30.0, 40.0}) {
@@ -76,7 +76,7 @@ TEST(PoseEstimator, FindsYawTranslationAndPositionThroughTwoLenses) {
 
 TEST(PoseEstimator, ReferenceViewItselfIsFoundWithoutMotion) {
   ShirtTemplate taught = shirt();
-  PoseEstimator estimator(taught, taught.camera, lock_step_config());
+  PoseEstimator estimator(taught, taught.camera, flat_shirt_config());
   const cv::Mat same(480, 640, CV_8U, taught.grey.data());
   const PoseEstimate pose = estimator.estimate(view_of(same));
   ASSERT_TRUE(pose.found()) << to_string(pose.reason);
@@ -88,7 +88,7 @@ TEST(PoseEstimator, ReferenceViewItselfIsFoundWithoutMotion) {
 TEST(PoseEstimator, WithoutDistanceThereAreNoMetres) {
   ShirtTemplate taught = shirt();
   taught.distance_m = 0.0;
-  PoseEstimator estimator(taught, robot_camera(), lock_step_config());
+  PoseEstimator estimator(taught, robot_camera(), flat_shirt_config());
   const Eigen::Matrix3d R = heel::test::rotation(0.2, 0.0, 0.0);
   const PoseEstimate pose =
       estimator.estimate(view_of(render(taught, homography(R, t_over_d_for(R, 0.0, 1.2)), 5)));
@@ -100,8 +100,8 @@ TEST(PoseEstimator, WithoutDistanceThereAreNoMetres) {
 
 TEST(PoseEstimator, SameFrameSameEstimateToTheBit) {
   const ShirtTemplate taught = shirt();
-  PoseEstimator one(taught, robot_camera(), lock_step_config()),
-      two(taught, robot_camera(), lock_step_config());
+  PoseEstimator one(taught, robot_camera(), flat_shirt_config()),
+      two(taught, robot_camera(), flat_shirt_config());
   const Eigen::Matrix3d R = heel::test::rotation(-0.3, 0.0, 0.0);
   const cv::Mat frame = render(taught, homography(R, t_over_d_for(R, 0.0, 1.2)), 5);
   const PoseEstimate first = one.estimate(view_of(frame));
@@ -114,7 +114,7 @@ TEST(PoseEstimator, SameFrameSameEstimateToTheBit) {
 }
 
 TEST(PoseEstimator, ClutterIsNeverTheShirt) {
-  PoseEstimator estimator(shirt(), robot_camera(), lock_step_config());
+  PoseEstimator estimator(shirt(), robot_camera(), flat_shirt_config());
   std::set<PoseReason> reasons;
   for (std::uint64_t seed = 1000; seed < (heel::test::kThreadSanitizer ? 1010 : 1200); ++seed) {
     const PoseEstimate pose = estimator.estimate(view_of(texture(seed, 640, 480)));
@@ -126,7 +126,7 @@ TEST(PoseEstimator, ClutterIsNeverTheShirt) {
 
 TEST(PoseEstimator, RefusalsAreNamed) {
   const ShirtTemplate taught = shirt();
-  PoseEstimator estimator(taught, robot_camera(), lock_step_config());
+  PoseEstimator estimator(taught, robot_camera(), flat_shirt_config());
   EXPECT_EQ(estimator.estimate(view_of(cv::Mat::zeros(480, 640, CV_8U))).reason, PoseReason::TooFewFeatures);
   EXPECT_EQ(estimator.estimate(view_of(texture(3, 320, 240))).reason, PoseReason::WrongFrameSize);
 
@@ -135,7 +135,7 @@ TEST(PoseEstimator, RefusalsAreNamed) {
   EXPECT_EQ(estimator.estimate(view_of(dots)).reason, PoseReason::TooFewMatches);
 
   // Found by features, but at a size the shirt cannot have where the robot may follow.
-  VisionConfig narrow = lock_step_config();
+  VisionConfig narrow = flat_shirt_config();
   narrow.distance_min_m = 0.6;
   narrow.distance_max_m = 0.8;
   PoseEstimator near_only(taught, robot_camera(), narrow);
@@ -145,7 +145,7 @@ TEST(PoseEstimator, RefusalsAreNamed) {
   const PoseEstimate refused = near_only.estimate(view_of(far));
   EXPECT_FALSE(refused.found());
 
-  VisionConfig demanding = lock_step_config();
+  VisionConfig demanding = flat_shirt_config();
   demanding.min_certainty = 0.99;
   EXPECT_EQ(PoseEstimator(taught, robot_camera(), demanding).estimate(view_of(far)).reason,
             PoseReason::TooFewInliers);

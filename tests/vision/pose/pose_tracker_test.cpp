@@ -18,8 +18,8 @@ using heel::PoseEstimator;
 using heel::PoseTracker;
 using heel::ShirtTemplate;
 using heel::TimeNs;
+using heel::test::flat_shirt_config;
 using heel::test::homography;
-using heel::test::lock_step_config;
 using heel::test::render;
 using heel::test::robot_camera;
 using heel::test::shirt;
@@ -46,8 +46,8 @@ Eigen::Matrix3d homography_of(const PoseEstimate& pose) {
 
 TEST(PoseTracker, FollowsTheBackAcrossTheViewAsWellAsASearchOfEverything) {
   const ShirtTemplate taught = shirt();
-  PoseTracker tracker(taught, robot_camera(), lock_step_config());
-  PoseEstimator everywhere(taught, robot_camera(), lock_step_config());
+  PoseTracker tracker(taught, robot_camera(), flat_shirt_config());
+  PoseEstimator everywhere(taught, robot_camera(), flat_shirt_config());
   double tracked_error_px = 0.0, whole_error_px = 0.0;
   int frames = 0;
   for (; frames < 24; ++frames) {
@@ -76,8 +76,8 @@ TEST(PoseTracker, FollowsTheBackAcrossTheViewAsWellAsASearchOfEverything) {
 TEST(PoseTracker, LooksCloselyAtAShirtFarAway) {
   ShirtTemplate taught = shirt();
   taught.distance_m = 1.5;
-  PoseTracker tracker(taught, robot_camera(), lock_step_config());
-  PoseEstimator from_afar(taught, robot_camera(), lock_step_config());
+  PoseTracker tracker(taught, robot_camera(), flat_shirt_config());
+  PoseEstimator from_afar(taught, robot_camera(), flat_shirt_config());
   for (int number = 0; number < 5; ++number) {
     const double yaw_rad = 0.15 * (number - 2);
     const Eigen::Matrix3d R = heel::test::rotation(yaw_rad, 0.02, 0.0);
@@ -100,7 +100,7 @@ TEST(PoseTracker, LooksCloselyAtAShirtFarAway) {
 
 TEST(PoseTracker, AJumpIsFoundInTheSameFrame) {
   const ShirtTemplate taught = shirt();
-  PoseTracker tracker(taught, robot_camera(), lock_step_config());
+  PoseTracker tracker(taught, robot_camera(), flat_shirt_config());
   EXPECT_TRUE(tracker.estimate(frame_at(seen(taught, 0.0, -0.3, 1.2), 0)).found());
   const PoseEstimate jumped = tracker.estimate(frame_at(seen(taught, 0.2, 0.35, 1.2), 1));
   ASSERT_TRUE(jumped.found());
@@ -111,7 +111,7 @@ TEST(PoseTracker, AJumpIsFoundInTheSameFrame) {
 
 TEST(PoseTracker, LostAndForgottenItIsLookedForEverywhere) {
   const ShirtTemplate taught = shirt();
-  PoseTracker tracker(taught, robot_camera(), lock_step_config());
+  PoseTracker tracker(taught, robot_camera(), flat_shirt_config());
   const cv::Mat view = seen(taught, 0.1, 0.0, 1.2), clutter = texture(9, 640, 480);
   EXPECT_TRUE(tracker.estimate(frame_at(view, 0)).found());
   EXPECT_FALSE(tracker.estimate(frame_at(clutter, 1)).found());
@@ -123,7 +123,7 @@ TEST(PoseTracker, LostAndForgottenItIsLookedForEverywhere) {
 
 TEST(PoseTracker, AFilmThatBeginsAgainIsSearchedWhole) {
   const ShirtTemplate taught = shirt();
-  PoseTracker tracker(taught, robot_camera(), lock_step_config());
+  PoseTracker tracker(taught, robot_camera(), flat_shirt_config());
   const cv::Mat view = seen(taught, 0.1, 0.0, 1.2);
   EXPECT_TRUE(tracker.estimate(frame_at(view, 100)).found());
   const PoseEstimate again = tracker.estimate(frame_at(view, 0));
@@ -137,7 +137,7 @@ TEST(PoseTracker, StaysWithItsPersonWhenAnotherWearsTheSameShirt) {
   cv::Mat both = ours.clone();
   other(cv::Rect(320, 0, 320, 480)).copyTo(both(cv::Rect(320, 0, 320, 480)));
   for (const cv::Mat& first : {ours, other}) {
-    PoseTracker tracker(taught, robot_camera(), lock_step_config());
+    PoseTracker tracker(taught, robot_camera(), flat_shirt_config());
     const PoseEstimate alone = tracker.estimate(frame_at(first, 0));
     ASSERT_TRUE(alone.found());
     for (int number = 1; number < 5; ++number) {
@@ -150,7 +150,7 @@ TEST(PoseTracker, StaysWithItsPersonWhenAnotherWearsTheSameShirt) {
 
 TEST(PoseTracker, WithoutTrackingItIsTheEstimator) {
   const ShirtTemplate taught = shirt();
-  heel::VisionConfig config = lock_step_config();
+  heel::VisionConfig config = flat_shirt_config();
   config.tracking = false;
   PoseTracker tracker(taught, robot_camera(), config);
   PoseEstimator estimator(taught, robot_camera(), config);
@@ -166,7 +166,7 @@ TEST(PoseTracker, WithoutTrackingItIsTheEstimator) {
 
 TEST(PoseTracker, ExpectedViewGrowsWithTimeAndHoldsTheBack) {
   const ShirtTemplate taught = shirt();
-  PoseEstimator estimator(taught, robot_camera(), lock_step_config());
+  PoseEstimator estimator(taught, robot_camera(), flat_shirt_config());
   const PoseEstimate pose = estimator.estimate(frame_at(seen(taught, 0.3, 0.2, 1.0), 0));
   ASSERT_TRUE(pose.found());
   const heel::ExpectedView soon = estimator.expected_view(pose, kFramePeriod_ns);

@@ -36,12 +36,6 @@ Eigen::Matrix3d homography_of(const PoseEstimate& pose) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.H_cur_from_ref.data());
 }
 
-heel::VisionConfig lock_step_config() {
-  heel::VisionConfig config;
-  config.ransac_budget_ms = 0.0;
-  return config;
-}
-
 struct Pair {
   const char* set;
   int to;
@@ -63,7 +57,7 @@ TEST_P(OxfordPairTest, CornerErrorBelowThreePixels) {
   const ShirtTemplate whole =
       taught_from(pair.reference, {0, 0, pair.reference.cols, pair.reference.rows}, oriented);
   const PoseEstimate pose =
-      heel::PoseEstimator(whole, whole.camera, lock_step_config()).estimate(view_of(pair.current));
+      heel::PoseEstimator(whole, whole.camera, heel::VisionConfig{}).estimate(view_of(pair.current));
   ASSERT_TRUE(pose.found()) << to_string(pose.reason);
   const double error_px = heel::test::mean_corner_error_px(pair, homography_of(pose));
   RecordProperty("corner_error_px", std::to_string(error_px));
@@ -94,7 +88,7 @@ TEST(PersonFromBehind, FoundWhereSheIsAndNowhereElse) {
   ASSERT_EQ(frames.size(), 1394u);
   const heel::Region back{400, 90, 100, 175};
   const ShirtTemplate shirt = taught_from(frames[1000], back, false);
-  heel::PoseEstimator estimator(shirt, shirt.camera, lock_step_config());
+  heel::PoseEstimator estimator(shirt, shirt.camera, heel::VisionConfig{});
 
   const std::size_t step = heel::test::kThreadSanitizer ? 50 : heel::test::kSanitized ? 5 : 1;
   int looked_at = 0, certain = 0, others = 0, found_in_others = 0;

@@ -104,10 +104,10 @@ inline heel::FrameView view_of(const cv::Mat& image) {
   return view;
 }
 
-inline heel::VisionConfig lock_step_config() {
+/// The default configuration for a shirt that is exactly a plane, as the rendered one is.
+inline heel::VisionConfig flat_shirt_config() {
   heel::VisionConfig config;
-  config.ransac_budget_ms = 0.0;
-  config.back_curvature_1_m = 0.0;  // what is rendered here is a plane, exactly
+  config.back_curvature_1_m = 0.0;
   config.back_curvature_sigma_1_m = 0.0;
   config.back_shape_sigma_m = 0.0;
   return config;
