@@ -1,6 +1,6 @@
-// Matching once more where a homography says to look: near the predicted place, at the predicted scale, a
-// feature need no longer be told apart from the whole frame, only from its neighbours. That brings back the
-// pairs that the ratio test had to throw away, above all at the template's edges, where they steady the fit
+// Nearest neighbours among the features near a predicted place and of the predicted size. There a feature
+// need be distinct only from its neighbours, not from the whole frame. This brings back pairs that the ratio
+// test over the whole frame has to reject, mainly at the template's edges, where pairs constrain the pose
 // most.
 #pragma once
 
@@ -10,61 +10,36 @@
 
 #include "heel/features.h"
 #include "heel/matching.h"
+#include "vision/matching/feature_grid.h"
 
 namespace heel {
 
 struct GuidedMatchSettings {
-  double radius_px = 8.0;     ///< about the predicted place, undistorted pixels of the frame
-  double scale_ratio = 1.5;   ///< of the feature's scale to the predicted one, either way
+  double radius_px = 8.0;     ///< round the predicted place, undistorted pixels of the frame
+  double scale_ratio = 1.5;   ///< largest ratio of a feature's scale to the predicted one, or its inverse
   float max_distance = 0.6f;  ///< between unit descriptors
   float ratio = 0.9f;         ///< nearest / second nearest within the radius
 };
 
-/// Where a template feature should be in the frame, undistorted, and how many times larger.
-struct PredictedView {
-  Eigen::Vector2d px;
-  double scale = 0.0;  ///< 0: not to be seen
+/// Where a template feature should be in the frame, and how much larger than in the template.
+struct PredictedFeature {
+  Eigen::Vector2d px;  ///< undistorted
+  double scale = 0.0;  ///< 0: not visible
 };
 
-/// Pairs template features with frame features near where they should be. Each frame feature is given to at
-/// most one template feature, the nearest.
+/// Each frame feature is paired with at most one template feature, the nearest.
 class GuidedMatcher {
  public:
+  /// Takes memory for `max_cur` frame features once.
   GuidedMatcher(int max_cur, const GuidedMatchSettings& settings);
 
-  /// The frame's features for the matches to come, and their undistorted positions, in the same order; both
-  /// are to outlive these.
-  void look_at(const FeatureSet& cur, std::span<const Eigen::Vector2d> cur_px);
-
-  /// `predicted`: one for each template feature, in their order. Allocates nothing when `out` has capacity
-  /// for a match for each template feature.
-  void match(std::span<const PredictedView> predicted, const FeatureSet& ref, std::vector<Match>& out);
+  /// `predicted`: one for each feature of `ref`, in their order. Allocates nothing when `out` has capacity
+  /// for a match for each feature of `ref`.
+  void match(const FeatureSet& ref, std::span<const PredictedFeature> predicted, const FeatureGrid& cur,
+             std::vector<Match>& out);
 
  private:
-  /// What is asked first of a frame feature.
-  struct Candidate {
-    double x_px, y_px;
-    double sigma_px;
-    std::int32_t index;
-    std::int8_t laplacian;
-  };
-  /// A rectangle of cells, both ends included.
-  struct Cells {
-    int left, top, right, bottom;
-  };
-  int column_of(double x_px) const;
-  int row_of(double y_px) const;
-  Cells cells_near(const Eigen::Vector2d& px) const;
-
   GuidedMatchSettings settings_;
-  const FeatureSet* cur_ = nullptr;
-  // The frame's features by cells as wide as the radius (wider where few features spread far), row by row:
-  // cell i has those from begin_[i] to begin_[i + 1].
-  std::vector<Candidate> candidates_;
-  std::vector<std::int32_t> begin_;
-  Eigen::Vector2d origin_px_ = Eigen::Vector2d::Zero();
-  double cell_px_ = 1.0;
-  int columns_ = 0, rows_ = 0;
   std::vector<std::int32_t> taken_by_;  // for each frame feature, index into `out` or −1
 };
 

@@ -40,24 +40,23 @@ BackPoseSelector::BackPoseSelector(const ReferenceView& reference, const Eigen::
       flat_(flat_surface(reference, config)),
       curved_(flat_),
       frontal_estimator_(reference.px.size()),
-      surface_refiner_({reference.set, reference.px, reference.K_inverse}, frontal_estimator_) {
+      surface_refiner_(reference.px, reference.K_inverse, frontal_estimator_) {
   if (!(reference.distance_m > 0.0)) return;
   curved_.bend = config.back_curvature_1_m * reference.distance_m;
   curved_.bend_sigma = config.back_curvature_sigma_1_m * reference.distance_m;
 }
 
-FrontalPose BackPoseSelector::estimate(const PlaneSolution& seen, GuidedMatcher& matcher,
-                                       std::span<const Eigen::Vector2d> frame_px) {
+FrontalPose BackPoseSelector::estimate(const PlaneSolution& seen, TemplateMatcher& matcher,
+                                       const FeatureGrid& frame) {
   FrontalProblem problem{seen.inliers, K_ref_, K_cur_, seen.H_cur_from_ref, centre_px_, flat_};
   FrontalPose of_plane = frontal_estimator_.estimate(problem, seen.motion);
   if (curved_.bend == 0.0) return of_plane;
   problem.surface = curved_;
-  const FrontalPose of_curve =
-      surface_refiner_.follow(problem, frontal_estimator_.estimate(problem, seen.motion), matcher, frame_px);
-  const double better =
-      explained(seen.inliers.size(), of_plane) / explained(surface_refiner_.pairs(), of_curve);
-  if (!(better >= kFlatter)) return of_curve;
-  const AlternativeHypothesis curved{of_curve.motion, std::pow(better, -kFlatness)};
+  const CurvedSurfacePose of_curve =
+      surface_refiner_.refine(problem, frontal_estimator_.estimate(problem, seen.motion), matcher, frame);
+  const double better = explained(seen.inliers.size(), of_plane) / explained(of_curve.pairs, of_curve.pose);
+  if (!(better >= kFlatter)) return of_curve.pose;
+  const AlternativeHypothesis curved{of_curve.pose.motion, std::pow(better, -kFlatness)};
   inflate_covariance({&curved, 1}, of_plane);
   return of_plane;
 }

@@ -9,7 +9,8 @@
 #include "heel/homography.h"
 #include "heel/motion.h"
 #include "heel/vision_config.h"
-#include "vision/matching/guided_matcher.h"
+#include "vision/matching/feature_grid.h"
+#include "vision/matching/template_matcher.h"
 #include "vision/pose/back_surface.h"
 #include "vision/pose/curved_surface_refiner.h"
 #include "vision/pose/motion_refine.h"
@@ -33,9 +34,7 @@ class BackPoseSelector {
   BackPoseSelector(const BackPoseSelector&) = delete;
   BackPoseSelector& operator=(const BackPoseSelector&) = delete;
 
-  /// `matcher` looks at the frame's features, `frame_px` are their undistorted pixels.
-  FrontalPose estimate(const PlaneSolution& seen, GuidedMatcher& matcher,
-                       std::span<const Eigen::Vector2d> frame_px);
+  FrontalPose estimate(const PlaneSolution& seen, TemplateMatcher& matcher, const FeatureGrid& frame);
 
  private:
   Eigen::Matrix3d K_ref_, K_cur_;

@@ -1,66 +1,64 @@
-// From the pose that a homography's pairs give to the pose of the curved back. The pairs that agree on a
-// plane lie on one facet of a turned back; those off it tell best how it is turned. So the features are
-// matched once more round where the curved surface puts them, those that fit are kept, and the pose is
-// refined, a few times over; from both minima, since a facet alone hardly tells them apart. More of the back
-// fits the right one.
+// From the pose that a homography's pairs give to the pose of the curved back. The pairs that agree on one
+// plane lie on one facet of a turned back; those off that plane show best how far the back is turned. So the
+// features are matched again near where the curved surface puts them, those that fit are kept and the pose is
+// refined, several times. Starts are both minima of the plane's pose, which one facet hardly distinguishes,
+// and, where few pairs fit, other yaws. The pose that fits most of the back is the answer.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <vector>
 
-#include "vision/matching/guided_matcher.h"
+#include "vision/matching/feature_grid.h"
+#include "vision/matching/template_matcher.h"
 #include "vision/pose/alternative_hypotheses.h"
 #include "vision/pose/back_surface.h"
 #include "vision/pose/motion_refine.h"
 
 namespace heel {
 
-/// The reference view: its features, their undistorted pixels in the same order, and its matrix.
-struct ReferenceFeatures {
-  const FeatureSet& features;
-  std::span<const Eigen::Vector2d> px;
-  Eigen::Matrix3d K_inverse;
+struct CurvedSurfacePose {
+  FrontalPose pose;
+  std::size_t pairs = 0;  ///< that the pose rests on; 0: too few fitted, the pose is the start
 };
 
 class CurvedSurfaceRefiner {
  public:
-  /// What `reference` refers to is to outlive this. Memory is taken once.
-  CurvedSurfaceRefiner(const ReferenceFeatures& reference, FrontalPoseEstimator& estimator);
+  /// `reference_px`: the template's features, undistorted, in the matcher's order; they and `estimator` must
+  /// outlive this. Memory is taken once.
+  CurvedSurfaceRefiner(std::span<const Eigen::Vector2d> reference_px, const Eigen::Matrix3d& K_ref_inverse,
+                       FrontalPoseEstimator& estimator);
 
-  /// `problem`: as the homography's pairs posed it, `start` its solution; its pairs are replaced by those
-  /// that fit the surface. `matcher` looks at the frame's features, `frame_px` are their undistorted pixels.
-  /// Where too few fit, `start` is the answer, of no pairs. Its deviations know of the other fits that were
-  /// tried.
-  FrontalPose follow(const FrontalProblem& problem, const FrontalPose& start, GuidedMatcher& matcher,
-                     std::span<const Eigen::Vector2d> frame_px);
-
-  /// How many pairs the last answer rests on.
-  std::size_t pairs() const { return best_fitting_.size(); }
+  /// `problem`: the homography's pairs on the curved surface, `start` its solution. The deviations of the
+  /// answer include the other fits that were tried.
+  CurvedSurfacePose refine(const FrontalProblem& problem, const FrontalPose& start, TemplateMatcher& matcher,
+                           const FeatureGrid& frame);
 
  private:
   struct Fit {
     FrontalMotion motion;
-    double support = -1.0;  ///< pairs, each less its squared error's share of the limit; −1: too few
+    double support = -1.0;  ///< pairs, each less its squared error's share of the limit; −1: too few pairs
+    std::span<const PointPair> pairs;  ///< a view of fitting_: valid until the next fit
   };
 
-  void predict(const FrontalProblem& problem, const FrontalMotion& motion);
-  void keep_what_fits(const FrontalProblem& problem, const FrontalMotion& motion, double limit_px,
-                      std::span<const Eigen::Vector2d> frame_px);
+  Fit fit_surface(FrontalProblem problem, const FrontalMotion& start, TemplateMatcher& matcher,
+                  const FeatureGrid& frame);
+  std::span<const PredictedFeature> predict(const FrontalProblem& problem, const FrontalMotion& motion);
+  std::span<const PointPair> pairs_that_fit(const FrontalProblem& problem, const FrontalMotion& motion,
+                                            double limit_px, std::span<const PredictedFeature> predicted,
+                                            std::span<const Match> matches, const FeatureGrid& frame);
   FrontalMotion turned(const FrontalProblem& problem, const FrontalMotion& motion, double angle_rad) const;
-  void attempt(const FrontalProblem& problem, const FrontalMotion& start, GuidedMatcher& matcher,
-               std::span<const Eigen::Vector2d> frame_px);
-  void inflate_covariance_by_other_fits(FrontalPose& pose);
-  Fit improve(FrontalProblem problem, const FrontalMotion& start, GuidedMatcher& matcher,
-              std::span<const Eigen::Vector2d> frame_px);
+  std::span<const AlternativeHypothesis> alternatives_to(const FrontalMotion& chosen, std::span<Fit> fits,
+                                                         double best_support);
 
-  ReferenceFeatures reference_;
+  std::span<const Eigen::Vector2d> reference_px_;
+  Eigen::Matrix3d K_ref_inverse_;
   FrontalPoseEstimator& estimator_;
-  std::vector<PredictedView> predicted_;
-  std::vector<Match> matches_;
+  // Work space: written and read within one call.
+  std::vector<PredictedFeature> predicted_;
   std::vector<PointPair> fitting_, best_fitting_;
-  Fit best_;
-  std::vector<Fit> fits_;  // all that were tried
+  std::vector<Fit> fits_;
   std::vector<AlternativeHypothesis> alternatives_;
 };
 

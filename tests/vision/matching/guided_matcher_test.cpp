@@ -17,11 +17,12 @@ namespace {
 
 using heel::Descriptor;
 using heel::Feature;
+using heel::FeatureGrid;
 using heel::FeatureSet;
 using heel::GuidedMatcher;
 using heel::GuidedMatchSettings;
 using heel::Match;
-using heel::PredictedView;
+using heel::PredictedFeature;
 
 /// A descriptor about `apart` away from the one with the same first direction.
 Descriptor descriptor(std::size_t direction, float apart = 0.f) {
@@ -53,17 +54,18 @@ struct Scene {
   void add_cur(double x, double y, float sigma, const Descriptor& what, int laplacian = 1) {
     add(cur, cur_px, x, y, sigma, what, laplacian);
   }
-  std::vector<PredictedView> predicted() const {
-    std::vector<PredictedView> views;
+  std::vector<PredictedFeature> predicted() const {
+    std::vector<PredictedFeature> views;
     for (const Eigen::Vector2d& px : ref_px)
       views.push_back({heel::test::mapped(H, px), heel::local_scale(H, px)});
     return views;
   }
   std::vector<Match> match() const {
     GuidedMatcher matcher(100, GuidedMatchSettings{});
+    FeatureGrid grid(100, GuidedMatchSettings{}.radius_px);
     std::vector<Match> out;
-    matcher.look_at(cur, cur_px);
-    matcher.match(predicted(), ref, out);
+    grid.assign(cur, cur_px);
+    matcher.match(ref, predicted(), grid, out);
     return out;
   }
 };
@@ -78,7 +80,7 @@ IndexPairs as_pairs(const std::vector<Match>& matches) {
 }
 
 /// The same rules without any order of the frame's features.
-std::vector<Match> by_trying_every_pair(const Scene& scene, const std::vector<PredictedView>& views) {
+std::vector<Match> by_trying_every_pair(const Scene& scene, const std::vector<PredictedFeature>& views) {
   const GuidedMatchSettings rules;
   std::map<int, Match> of_frame_feature;
   for (std::size_t r = 0; r < views.size(); ++r) {
@@ -168,12 +170,13 @@ TEST(GuidedMatcher, AgreesWithTryingEveryPairAndAllocatesNothing) {
                   descriptor(direction, 0.2f));
   }
   GuidedMatcher matcher(200, GuidedMatchSettings{});
+  FeatureGrid grid(200, GuidedMatchSettings{}.radius_px);
   std::vector<Match> out;
   out.reserve(200);
-  const std::vector<PredictedView> views = scene.predicted();
+  const std::vector<PredictedFeature> views = scene.predicted();
   const std::uint64_t before = heel::test::allocations_of_this_thread();
-  matcher.look_at(scene.cur, scene.cur_px);
-  matcher.match(views, scene.ref, out);
+  grid.assign(scene.cur, scene.cur_px);
+  matcher.match(scene.ref, views, grid, out);
   if (heel::test::counts_allocations()) {
     EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
   }
@@ -192,7 +195,7 @@ TEST(GuidedMatcher, FindsPairsHoweverFarFeaturesLie) {
     scene.add_ref(place.x(), place.y(), 3.f, descriptor(static_cast<std::size_t>(i % 60)));
     scene.add_cur(place.x() + 3.0, place.y() - 4.0, 3.f, descriptor(static_cast<std::size_t>(i % 60), 0.2f));
   }
-  std::vector<PredictedView> views = scene.predicted();
+  std::vector<PredictedFeature> views = scene.predicted();
   const double infinite = std::numeric_limits<double>::infinity();
   scene.cur_px[5] = {std::numeric_limits<double>::quiet_NaN(), 0.0};
   scene.cur_px[6] = {infinite, -infinite};
@@ -202,9 +205,10 @@ TEST(GuidedMatcher, FindsPairsHoweverFarFeaturesLie) {
   views[3].px = {-1e300, 1e300};
   views[4].scale = 0.0;
   GuidedMatcher matcher(100, GuidedMatchSettings{});
+  FeatureGrid grid(100, GuidedMatchSettings{}.radius_px);
   std::vector<Match> out;
-  matcher.look_at(scene.cur, scene.cur_px);
-  matcher.match(views, scene.ref, out);
+  grid.assign(scene.cur, scene.cur_px);
+  matcher.match(scene.ref, views, grid, out);
   EXPECT_GT(out.size(), 85u);
   EXPECT_EQ(as_pairs(out), as_pairs(by_trying_every_pair(scene, views)));
 }

@@ -62,6 +62,36 @@ struct FeaturedBack {
   }
 };
 
+/// A refiner for the template, and what it needs of the frame.
+class RefinerFor {
+ public:
+  explicit RefinerFor(const FeaturedBack& shown)
+      : estimator(shown.reference_px.size()),
+        shown_(shown),
+        matcher_(shown.reference, kMaxFeatures, heel::MatchSettings{}.ratio),
+        grid_(kMaxFeatures, heel::GuidedMatchSettings{}.radius_px),
+        refiner_(shown.reference_px, K_inverse, estimator) {}
+
+  heel::CurvedSurfacePose refine(const FrontalProblem& problem, const FrontalPose& start) {
+    return refine(problem, start, shown_.frame, shown_.frame_px);
+  }
+  heel::CurvedSurfacePose refine(const FrontalProblem& problem, const FrontalPose& start,
+                                 const heel::FeatureSet& frame, std::span<const Eigen::Vector2d> frame_px) {
+    grid_.assign(frame, frame_px);
+    return refiner_.refine(problem, start, matcher_, grid_);
+  }
+
+  FrontalPoseEstimator estimator;
+
+ private:
+  static constexpr int kMaxFeatures = FeaturedBack::kFeatures + FeaturedBack::kClutter;
+
+  const FeaturedBack& shown_;
+  heel::TemplateMatcher matcher_;
+  heel::FeatureGrid grid_;
+  heel::CurvedSurfaceRefiner refiner_;
+};
+
 TEST(CurvedSurfaceRefiner, FindsTheWholeBackFromOneFacetAndEitherMinimum) {
   const BackSurface surface = back(1.5);
   double of_facet_deg = 0.0, of_back_deg = 0.0;
@@ -70,18 +100,15 @@ TEST(CurvedSurfaceRefiner, FindsTheWholeBackFromOneFacetAndEitherMinimum) {
     Random random(seed);
     const View view = view_at(random.uniform(-0.8, 0.8), random.uniform(0.8, 1.8));
     FeaturedBack shown(random, view, surface);
-    FrontalPoseEstimator estimator(shown.reference_px.size());
-    heel::GuidedMatcher matcher(FeaturedBack::kFeatures + FeaturedBack::kClutter, {});
-    matcher.look_at(shown.frame, shown.frame_px);
-    heel::CurvedSurfaceRefiner follower({shown.reference, shown.reference_px, K_inverse}, estimator);
+    RefinerFor refiner(shown);
     const FrontalProblem problem = problem_of(shown.facet, view, surface);
-    const FrontalPose start = estimator.estimate(problem, motion_of(view));
+    const FrontalPose start = refiner.estimator.estimate(problem, motion_of(view));
     FrontalPose swapped = start;
     std::swap(swapped.motion, swapped.other);
     const double truth = heel::yaw_of_rotation(view.R);
     of_facet_deg += std::abs(start.yaw_rad - truth) * 180.0 / M_PI / kTrials;
     for (const FrontalPose& from : {start, swapped}) {
-      const FrontalPose pose = follower.follow(problem, from, matcher, shown.frame_px);
+      const FrontalPose pose = refiner.refine(problem, from).pose;
       EXPECT_NEAR(pose.yaw_rad, truth, 0.03) << "seed " << seed;
       of_back_deg += std::abs(pose.yaw_rad - truth) * 180.0 / M_PI / (2 * kTrials);
     }
@@ -103,13 +130,10 @@ TEST(CurvedSurfaceRefiner, TriesTheWholeRangeOfYawWhereLittleFits) {
     // Three of four frame features look like nothing known.
     for (std::size_t i = 0; i < FeaturedBack::kFeatures; ++i)
       if (i % 4 != 0) shown.frame.descriptors[i] = FeaturedBack::random_descriptor(random);
-    FrontalPoseEstimator estimator(shown.reference_px.size());
-    heel::GuidedMatcher matcher(FeaturedBack::kFeatures + FeaturedBack::kClutter, {});
-    matcher.look_at(shown.frame, shown.frame_px);
-    heel::CurvedSurfaceRefiner follower({shown.reference, shown.reference_px, K_inverse}, estimator);
+    RefinerFor refiner(shown);
 
     // Both minima turned away from the truth about the strip in the middle.
-    FrontalPose start = estimator.estimate(problem_of(shown.facet, view, surface), motion_of(view));
+    FrontalPose start = refiner.estimator.estimate(problem_of(shown.facet, view, surface), motion_of(view));
     const Eigen::Vector3d middle(0.0, 0.0, 1.0);
     for (heel::FrontalMotion* motion : {&start.motion, &start.other}) {
       const Eigen::Matrix3d R =
@@ -121,10 +145,9 @@ TEST(CurvedSurfaceRefiner, TriesTheWholeRangeOfYawWhereLittleFits) {
     }
     const double truth = heel::yaw_of_rotation(view.R);
     wrong_start += std::abs(heel::yaw_of_rotation(start.motion.R_cur_from_ref) - truth) > 1.0;
-    const FrontalPose pose =
-        follower.follow(problem_of(shown.facet, view, surface), start, matcher, shown.frame_px);
-    EXPECT_NEAR(pose.yaw_rad, truth, 0.06) << "seed " << seed;
-    EXPECT_GT(follower.pairs(), 35U) << "seed " << seed;
+    const heel::CurvedSurfacePose found = refiner.refine(problem_of(shown.facet, view, surface), start);
+    EXPECT_NEAR(found.pose.yaw_rad, truth, 0.06) << "seed " << seed;
+    EXPECT_GT(found.pairs, 35U) << "seed " << seed;
   }
   EXPECT_EQ(wrong_start, 40);
 }
@@ -133,14 +156,12 @@ TEST(CurvedSurfaceRefiner, KeepsItsStartWhereNothingFits) {
   Random random(8);
   const View view = view_at(0.2, 1.5);
   const FeaturedBack shown(random, view, back(1.5));
-  FrontalPoseEstimator estimator(shown.reference_px.size());
-  heel::GuidedMatcher matcher(10, {});
-  const heel::FeatureSet nothing;
-  matcher.look_at(nothing, {});
-  heel::CurvedSurfaceRefiner follower({shown.reference, shown.reference_px, K_inverse}, estimator);
+  RefinerFor refiner(shown);
   const FrontalProblem problem = problem_of(shown.facet, view, back(1.5));
-  const FrontalPose start = estimator.estimate(problem, motion_of(view));
-  EXPECT_EQ(follower.follow(problem, start, matcher, {}).yaw_rad, start.yaw_rad);
+  const FrontalPose start = refiner.estimator.estimate(problem, motion_of(view));
+  const heel::CurvedSurfacePose kept = refiner.refine(problem, start, heel::FeatureSet{}, {});
+  EXPECT_EQ(kept.pose.yaw_rad, start.yaw_rad);
+  EXPECT_EQ(kept.pairs, 0U);
 }
 
 TEST(CurvedSurfaceRefiner, AllocatesNothing) {
@@ -148,18 +169,15 @@ TEST(CurvedSurfaceRefiner, AllocatesNothing) {
   Random random(9);
   const View view = view_at(0.5, 1.3);
   FeaturedBack shown(random, view, back(1.5));
-  FrontalPoseEstimator estimator(shown.reference_px.size());
-  heel::GuidedMatcher matcher(FeaturedBack::kFeatures + FeaturedBack::kClutter, {});
-  heel::CurvedSurfaceRefiner follower({shown.reference, shown.reference_px, K_inverse}, estimator);
+  RefinerFor refiner(shown);
   const FrontalProblem problem = problem_of(shown.facet, view, back(1.5, 0.005));
   for (const bool few : {false, true}) {
     // So few that the whole range of yaw is tried.
     for (std::size_t i = 0; few && i < FeaturedBack::kFeatures; ++i)
       if (i % 4 != 0) shown.frame.descriptors[i] = FeaturedBack::random_descriptor(random);
-    matcher.look_at(shown.frame, shown.frame_px);
     const std::uint64_t before = heel::test::allocations_of_this_thread();
-    const FrontalPose start = estimator.estimate(problem, motion_of(view));
-    const FrontalPose pose = follower.follow(problem, start, matcher, shown.frame_px);
+    const FrontalPose start = refiner.estimator.estimate(problem, motion_of(view));
+    const FrontalPose pose = refiner.refine(problem, start).pose;
     EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
     EXPECT_NEAR(pose.yaw_rad, 0.5, 0.05);
   }
@@ -186,14 +204,11 @@ TEST(CurvedSurfaceRefiner, OwnsUpToWhatAStripOfTheBackCannotTell) {
           shown.frame.descriptors[i] = FeaturedBack::random_descriptor(random);
         }
       }
-      FrontalPoseEstimator estimator(shown.reference_px.size());
-      heel::GuidedMatcher matcher(FeaturedBack::kFeatures + FeaturedBack::kClutter, {});
-      matcher.look_at(shown.frame, shown.frame_px);
-      heel::CurvedSurfaceRefiner follower({shown.reference, shown.reference_px, K_inverse}, estimator);
+      RefinerFor refiner(shown);
       const FrontalProblem problem = problem_of(seen, view, assumed);
-      FrontalPose start = estimator.estimate(problem, motion_of(view));
+      FrontalPose start = refiner.estimator.estimate(problem, motion_of(view));
       if (seed % 2 == 0) std::swap(start.motion, start.other);
-      const FrontalPose pose = follower.follow(problem, start, matcher, shown.frame_px);
+      const FrontalPose pose = refiner.refine(problem, start).pose;
       const double error = std::abs(pose.yaw_rad - heel::yaw_of_rotation(view.R));
       beyond_3 += error > 3.0 * pose.yaw_sigma_rad;
       beyond_3_without += error > 3.0 * std::sqrt(pose.covariance(1, 1));

@@ -1,0 +1,57 @@
+// Where in a frame, and at which feature sizes, the template can be: anywhere from which it can be followed,
+// or near the place where an earlier frame showed it.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "heel/camera_model.h"
+#include "heel/features.h"
+#include "heel/pose_estimator.h"
+#include "heel/shirt_template.h"
+#include "heel/vision_config.h"
+#include "vision/homography/shape_plausibility.h"
+#include "vision/template/reference_view.h"
+
+namespace heel {
+
+/// Smallest and largest magnification of the template, current to reference image, between the configured
+/// distances.
+struct MagnificationRange {
+  double min = 1.0, max = 1.0;
+};
+
+/// Throws heel::Error when the camera has no size or focal length.
+MagnificationRange magnification_range(const ShirtTemplate& shirt, const CameraModel& camera,
+                                       const VisionConfig& config);
+
+/// Settings that find every feature of the template within the range of magnification.
+FeatureSettings frame_feature_settings(const ShirtTemplate& shirt, const FeatureSet& reference,
+                                       const MagnificationRange& range, const VisionConfig& config);
+
+/// What the outline of the template can look like within the range of magnification.
+ShapeLimits frame_shape_limits(const MagnificationRange& range);
+
+class ViewPredictor {
+ public:
+  /// `reference` must outlive this.
+  ViewPredictor(const ReferenceView& reference, const CameraModel& camera, const VisionConfig& config,
+                const FeatureSettings& frame_settings);
+
+  /// The whole frame, every size at which the template can be followed.
+  const ExpectedView& whole_frame() const { return whole_frame_; }
+
+  /// The bounding box of the outline and the sizes of the features under H, with a margin for what may have
+  /// changed in `dt_s`.
+  ExpectedView near(const Eigen::Matrix3d& H_cur_from_ref, double dt_s) const;
+
+  /// True: the template is so small that few of its features are as large as the smallest filter.
+  bool is_small(const Eigen::Matrix3d& H_cur_from_ref) const;
+
+ private:
+  const ReferenceView& reference_;
+  CameraModel camera_;
+  double tracking_rate_rad_s_;
+  ExpectedView whole_frame_;
+};
+
+}  // namespace heel
