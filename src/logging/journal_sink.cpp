@@ -1,5 +1,6 @@
 #include "logging/journal_sink.h"
 
+#include <fmt/format.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 #include <sys/uio.h>
@@ -19,7 +20,7 @@ class JournalSink final : public spdlog::sinks::base_sink<std::mutex> {
     std::vector<iovec> parts;
     parts.reserve(fields.size());
     for (std::string& field : fields) parts.push_back({field.data(), field.size()});
-    // A journal that is not there costs the message: nothing waits for it.
+    // Without a journal the message is lost; nothing waits for it.
     sd_journal_sendv(parts.data(), static_cast<int>(parts.size()));
   }
   void flush_() override {}
@@ -28,8 +29,8 @@ class JournalSink final : public spdlog::sinks::base_sink<std::mutex> {
 }  // namespace
 
 void log_event(const LogTopic& topic, spdlog::level::level_enum level, const std::string& text) {
-  // spdlog carries three things beside a message's text, meant for the place in the source, which heel does
-  // not log.
+  // spdlog carries the place in the source beside a message's text. heel does not log it and uses its members
+  // for the fields.
   spdlog::log(spdlog::source_loc{topic.part, 1, topic.event}, level, "{}", text);
 }
 
@@ -41,8 +42,8 @@ std::vector<std::string> journal_fields(const spdlog::details::log_msg& message)
   fields.emplace_back("PRIORITY=").push_back(kPriority[static_cast<std::size_t>(message.level)]);
   fields.emplace_back("SYSLOG_IDENTIFIER=heeld");
   if (!message.source.empty()) {
-    fields.push_back(std::string("HEEL_PART=") + message.source.filename);
-    fields.push_back(std::string("HEEL_EVENT=") + message.source.funcname);
+    fields.push_back(fmt::format("HEEL_PART={}", message.source.filename));
+    fields.push_back(fmt::format("HEEL_EVENT={}", message.source.funcname));
   }
   return fields;
 }

@@ -1,4 +1,5 @@
-// Log messages in the journal's own protocol (sd_journal_sendv(3)), so that they can be asked for by field:
+// Log messages in the journal's own protocol (sd_journal_sendv(3)), with fields that journalctl can select
+// by:
 //   journalctl -u heeld HEEL_PART=camera        journalctl HEEL_EVENT="camera lost"
 #pragma once
 
@@ -10,17 +11,16 @@
 
 namespace heel {
 
-/// What a message is about. Both are static strings: messages are written by another thread, later.
+/// What a message is about. Both must be static strings, because another thread writes the message later.
 struct LogTopic {
   const char* part;   ///< "camera", "robot", "supervisor", …
-  const char* event;  ///< what happened, in one of few words: to_string() of an enumeration
+  const char* event;  ///< what happened: to_string() of an enumeration
 };
 
-/// As spdlog::log, with the journal's fields HEEL_PART and HEEL_EVENT. Elsewhere the text says it all.
+/// As spdlog::log, with the fields HEEL_PART and HEEL_EVENT in the journal.
 void log_event(const LogTopic& topic, spdlog::level::level_enum level, const std::string& text);
 
-/// "NAME=value" of each field of a message: MESSAGE, PRIORITY, SYSLOG_IDENTIFIER and what log_event was
-/// given.
+/// "NAME=value" for each field of a message: MESSAGE, PRIORITY, SYSLOG_IDENTIFIER, and those of log_event.
 std::vector<std::string> journal_fields(const spdlog::details::log_msg& message);
 
 spdlog::sink_ptr make_journal_sink();

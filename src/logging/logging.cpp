@@ -1,5 +1,6 @@
 #include "logging/logging.h"
 
+#include <fmt/format.h>
 #include <spdlog/async.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
@@ -23,8 +24,8 @@ spdlog::level::level_enum parse_level(const std::string& level) {
   for (const char* known : {"trace", "debug", "info", "warn", "error", "critical", "off"}) {
     if (level == known) return spdlog::level::from_str(level);
   }
-  throw Error("log level '" + level +
-              "': not known; expected trace, debug, info, warn, error, critical or off");
+  throw Error(fmt::format(
+      "log level '{}': unknown (expected trace, debug, info, warn, error, critical or off)", level));
 }
 
 spdlog::sink_ptr make_sink() {
@@ -40,7 +41,7 @@ bool stderr_is_journal() {
   const char* stream = std::getenv("JOURNAL_STREAM");
   struct stat file {};
   if (stream == nullptr || fstat(STDERR_FILENO, &file) != 0) return false;
-  return stream == std::to_string(file.st_dev) + ":" + std::to_string(file.st_ino);
+  return stream == fmt::format("{}:{}", file.st_dev, file.st_ino);
 }
 
 std::unique_ptr<spdlog::formatter> make_terminal_formatter() {
@@ -50,7 +51,7 @@ std::unique_ptr<spdlog::formatter> make_terminal_formatter() {
 void start_logging(const std::string& level) {
   const spdlog::level::level_enum parsed = parse_level(level);
   spdlog::init_thread_pool(kQueuedMessages, 1);
-  // A reader of standard error that does not keep up costs old messages, never anyone's time.
+  // When the reader of standard error is too slow, the oldest messages are dropped and no thread waits.
   auto logger = std::make_shared<spdlog::async_logger>("heel", make_sink(), spdlog::thread_pool(),
                                                        spdlog::async_overflow_policy::overrun_oldest);
   logger->set_level(parsed);
@@ -64,10 +65,10 @@ void set_log_level(const std::string& level) {
 
 void stop_logging() {
   const auto level = spdlog::get_level();
-  // Kept until the logging thread has been joined: whoever lets go of a logger last destroys it.
+  // Kept until the logging thread has been joined, so that this thread destroys the logger.
   const auto last_logger = spdlog::default_logger();
   spdlog::shutdown();
-  // shutdown() leaves no default logger at all; a late message (a destructor's) must still find one.
+  // shutdown() leaves no default logger; a later message, such as a destructor's, needs one.
   auto logger = std::make_shared<spdlog::logger>("heel", make_sink());
   logger->set_level(level);
   spdlog::set_default_logger(std::move(logger));

@@ -32,7 +32,7 @@ std::vector<CsvColumn<TickRecord>> make_tick_columns() {
       {"link_code",
        [](L& l, const T& t, int) { l.integer(static_cast<std::uint64_t>(t.input.robot.phase)); }},
       {"link_phase", [](L& l, const T& t, int) { l.text(to_string(t.input.robot.phase)); }},
-      // The robot, as its newest packet says.
+      // The robot, from its newest packet.
       {"odom_t_s", [](L& l, const T& t, int) { l.seconds(t.input.robot.odometry.t_ns); }},
       {"odom_x_m",
        [](L& l, const T& t, int) { l.number(or_none(t.input.robot.has_sip, t.input.robot.odometry.x_m)); }},
@@ -70,7 +70,7 @@ std::vector<CsvColumn<TickRecord>> make_tick_columns() {
        [](L& l, const T& t, int) { l.integer(static_cast<std::uint64_t>(t.measurement)); }},
       {"measurement", [](L& l, const T& t, int) { l.text(to_string(t.measurement)); }},
       {"conditions", [](L& l, const T& t, int) { l.integer(std::uint64_t{t.conditions}); }},
-      // The target, in the robot frame now.
+      // The target in the robot frame, at the time of the tick.
       {"target_known", [](L& l, const T& t, int) { l.flag(t.target.known); }},
       {"target_t_capture_s", [](L& l, const T& t, int) { l.seconds(t.target.t_capture_ns); }},
       {"target_certainty",
@@ -80,7 +80,7 @@ std::vector<CsvColumn<TickRecord>> make_tick_columns() {
       {"target_yaw_rad", [](L& l, const T& t, int) { l.number(or_none(t.target.known, t.target.yaw_rad)); }},
       {"goal_x_m", [](L& l, const T& t, int) { l.number(or_none(t.target.known, t.target.goal_x_m)); }},
       {"goal_y_m", [](L& l, const T& t, int) { l.number(or_none(t.target.known, t.target.goal_y_m)); }},
-      // What was asked for and what went to the wire.
+      // The command of the control law, and the command sent.
       {"wanted_v_m_s", [](L& l, const T& t, int) { l.number(t.wanted.v_m_s); }},
       {"wanted_yaw_rate_rad_s", [](L& l, const T& t, int) { l.number(t.wanted.yaw_rate_rad_s); }},
       {"command_v_m_s", [](L& l, const T& t, int) { l.number(t.command.v_m_s); }},

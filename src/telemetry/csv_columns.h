@@ -1,5 +1,5 @@
-// The columns of ticks.csv, poses.csv and capture.csv: one table each makes the header, the rows and (held to
-// it by a test) src/telemetry/README.md.
+// The columns of ticks.csv, poses.csv and capture.csv. Each file's header and rows are made from one table; a
+// test compares src/telemetry/README.md with it.
 #pragma once
 
 #include <span>
@@ -15,14 +15,14 @@ template <typename Record>
 struct CsvColumn {
   std::string name;
   void (*write)(CsvLine& line, const Record& record, int index);
-  int index = 0;  ///< handed to write: which element of an array
+  int index = 0;  ///< passed to `write`: the element of an array
 };
 
 std::span<const CsvColumn<TickRecord>> tick_columns();
 std::span<const CsvColumn<PoseEstimate>> pose_columns();
 std::span<const CsvColumn<CaptureCounters>> capture_columns();
 
-/// The names, separated by commas, with a line end.
+/// The column names, separated by commas, with a line end.
 template <typename Record>
 std::string csv_header(std::span<const CsvColumn<Record>> columns) {
   std::string header;
@@ -30,7 +30,7 @@ std::string csv_header(std::span<const CsvColumn<Record>> columns) {
   return header + '\n';
 }
 
-/// The record as a line; valid until `line` is used again.
+/// The record as one line; valid until `line` is used again.
 template <typename Record>
 std::string_view csv_row(CsvLine& line, std::span<const CsvColumn<Record>> columns, const Record& record) {
   line.clear();

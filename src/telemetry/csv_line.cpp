@@ -7,7 +7,7 @@ namespace heel {
 
 namespace {
 
-/// The shortest text that reads back as the same value.
+/// The shortest text that reads back as the same number.
 class Digits {
  public:
   template <typename Number>
@@ -23,7 +23,7 @@ class Digits {
 }  // namespace
 
 void CsvLine::put(char c) {
-  // Room is always kept for the line end; what is too long is cut, never overrun.
+  // Space for the line end is kept; a line that is too long is cut.
   if (size_ + 1 < kCapacity) bytes_[size_++] = c;
 }
 

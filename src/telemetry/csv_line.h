@@ -1,5 +1,5 @@
-// One line of comma-separated values, built without allocating. Numbers are written so that reading them back
-// gives the same value, in no locale.
+// One line of comma-separated values, built without allocation. Numbers are written independently of the
+// locale, and reading them back gives the same value.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@ class CsvLine {
  public:
   void clear() { size_ = 0; }
 
-  void number(double value);  ///< shortest text that reads back the same; nan where there is no value
+  void number(double value);  ///< the shortest text that reads back the same; NaN becomes nan
   void integer(std::int64_t value);
   void integer(std::uint64_t value);
   void flag(bool value) { integer(std::uint64_t{value ? 1u : 0u}); }
-  void seconds(TimeNs t_ns);          ///< exact: seconds with nine decimals
+  void seconds(TimeNs t_ns);          ///< seconds with nine decimals, exact
   void text(std::string_view value);  ///< commas, quotes and line ends become spaces
 
-  /// The line with its line end, valid until the next member is called.
+  /// The line with its line end; valid until the next call.
   std::string_view finish();
 
  private:

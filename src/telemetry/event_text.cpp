@@ -1,6 +1,6 @@
 #include "telemetry/event_text.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <string_view>
@@ -21,7 +21,8 @@ std::string event_text(const Event& event) {
   const std::string_view text = text_of(event);
   switch (event.kind) {
     case EventKind::FrameRefused:
-      return fmt::format("{}: {}x{} px is not the size the camera file says", name, event.a, event.b);
+      return fmt::format("{}: {}x{} px is not the size in the calibration file; check camera.info", name,
+                         event.a, event.b);
     case EventKind::FrameCorrupt:
       return fmt::format("{}: {} ({} so far)", name, text, event.a);
     case EventKind::Overrun:
@@ -63,7 +64,7 @@ const char* event_part(EventKind kind) {
       return "schedule";
     case EventKind::Note:
     case EventKind::Warning:
-      return "robot";  // what the session with it says
+      return "robot";  // all notes and warnings come from its session
     case EventKind::CameraOpened:
     case EventKind::CameraUnavailable:
     case EventKind::CameraLost:

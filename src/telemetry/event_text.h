@@ -1,4 +1,4 @@
-// Events as people read them.
+// Events as text for the log and events.log.
 #pragma once
 
 #include <spdlog/common.h>
@@ -14,10 +14,10 @@ std::string event_text(const Event& event);
 
 spdlog::level::level_enum event_level(EventKind kind);
 
-/// The part of heel it concerns: "camera", "robot" or "schedule".
+/// The part of heel that the event is about: "camera", "robot" or "schedule".
 const char* event_part(EventKind kind);
 
-/// Events that can come with every frame or tick, and are therefore logged at most once a second.
+/// True for events that can occur at every frame or tick; they are logged at most once a second.
 bool event_repeats(EventKind kind);
 
 }  // namespace heel

@@ -15,7 +15,7 @@ namespace heel {
 RecordFile::RecordFile(std::string path) : path_(std::move(path)) {
   fd_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
   if (fd_ < 0) throw Error(path_ + ": cannot create the recording: " + std::strerror(errno));
-  waiting_.reserve(kMostWaitingBytes);
+  waiting_.reserve(kMaxWaitingBytes);
 }
 
 RecordFile::~RecordFile() {
@@ -24,7 +24,7 @@ RecordFile::~RecordFile() {
 }
 
 void RecordFile::append(std::string_view line) {
-  if (waiting_.size() + line.size() > kMostWaitingBytes) {
+  if (waiting_.size() + line.size() > kMaxWaitingBytes) {
     ++lines_lost_;
     return;
   }
@@ -43,13 +43,13 @@ void RecordFile::flush() {
       if (error == EINTR) error = 0;
     }
   }
-  // The rest of a line that went out in part stays first in the queue, so that it is completed later.
+  // The rest of a line that was written in part stays first, so that the next flush completes it.
   waiting_.erase(0, written);
   if (error != 0 && !failing_) {
-    spdlog::error("recording {}: {}; going on without it until it can be written", path_,
+    spdlog::error("recording {}: cannot write: {}; recording continues when it can be written again", path_,
                   std::strerror(error));
   } else if (error == 0 && failing_) {
-    spdlog::warn("recording {}: can be written again, {} lines were lost", path_, lines_lost_);
+    spdlog::warn("recording {}: can be written again; {} lines were lost", path_, lines_lost_);
   }
   failing_ = error != 0;
 }

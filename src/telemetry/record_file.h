@@ -1,5 +1,5 @@
-// A file that whole lines are appended to, and that outlives a full disk: it says so once, keeps what it can,
-// goes on when there is room again, and never leaves half a line behind.
+// A file to which whole lines are appended. When the disk is full, it logs one error, keeps waiting lines in
+// memory as far as they fit, continues when there is space again, and leaves no partial line.
 #pragma once
 
 #include <cstddef>
@@ -11,21 +11,22 @@ namespace heel {
 
 class RecordFile {
  public:
-  /// Creates the file; throws heel::Error naming it when that fails or it exists.
+  /// Creates the file. Throws heel::Error, which names it, when that fails or the file exists.
   explicit RecordFile(std::string path);
   ~RecordFile();
   RecordFile(const RecordFile&) = delete;
   RecordFile& operator=(const RecordFile&) = delete;
 
-  /// Keeps a line (with its line end) for the next flush. Lost, and counted, when too much is waiting.
+  /// Adds a line (with its line end) to the next flush. When too much is waiting, the line is dropped and
+  /// counted.
   void append(std::string_view line);
-  /// Writes what is waiting.
+  /// Writes all waiting lines.
   void flush();
 
   const std::string& path() const { return path_; }
   std::uint64_t lines_lost() const { return lines_lost_; }
 
-  static constexpr std::size_t kMostWaitingBytes = 1 << 20;
+  static constexpr std::size_t kMaxWaitingBytes = 1 << 20;
 
  private:
   std::string path_;

@@ -35,8 +35,8 @@ bool any_exists(const fs::path& folder, int n) {
   return false;
 }
 
-/// An earlier recording is never overwritten; its files keep one number.
-void set_earlier_aside(const fs::path& folder) {
+/// An earlier recording is never overwritten: all of its files get the same number.
+void rename_earlier_recording(const fs::path& folder) {
   if (!any_exists(folder, 0)) return;
   int number = 1;
   while (any_exists(folder, number)) ++number;
@@ -59,10 +59,10 @@ std::string wall_clock() {
 Recorder::Recorder(const std::string& directory) {
   try {
     fs::create_directories(directory);
-    set_earlier_aside(directory);
+    rename_earlier_recording(directory);
   } catch (const fs::filesystem_error& error) {
     throw Error("telemetry.directory " + directory + ": " + error.code().message() +
-                "; expected a folder that can be written");
+                " (expected a folder that can be written)");
   }
   ticks_ = std::make_unique<RecordFile>(kNames[0].path(directory));
   poses_ = std::make_unique<RecordFile>(kNames[1].path(directory));
@@ -71,7 +71,7 @@ Recorder::Recorder(const std::string& directory) {
   ticks_->append(csv_header(tick_columns()));
   poses_->append(csv_header(pose_columns()));
   capture_->append(csv_header(capture_columns()));
-  remark(monotonic_now_ns(), "recording begins at " + wall_clock());
+  record_text(monotonic_now_ns(), "recording begins at " + wall_clock());
 }
 
 void Recorder::record(const TickRecord& tick) {
@@ -87,10 +87,10 @@ void Recorder::record(const CaptureCounters& capture) {
 }
 
 void Recorder::record(const Event& event) {
-  remark(event.t_ns, event_text(event));
+  record_text(event.t_ns, event_text(event));
 }
 
-void Recorder::remark(TimeNs t_ns, std::string_view text) {
+void Recorder::record_text(TimeNs t_ns, std::string_view text) {
   line_.clear();
   line_.seconds(t_ns);
   std::string whole(line_.finish());

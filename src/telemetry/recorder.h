@@ -1,9 +1,9 @@
-// A recording: ticks.csv, poses.csv, capture.csv and events.log in one folder. Columns:
-// src/telemetry/README.md.
+// A recording: ticks.csv, poses.csv, capture.csv and events.log in one folder. src/telemetry/README.md
+// explains the columns.
 //
 //   Recorder recorder("/var/lib/heel/run");
 //   recorder.record(tick);  recorder.record(pose);  recorder.record(event);
-//   recorder.flush();       // in steady intervals
+//   recorder.flush();       // at regular intervals
 #pragma once
 
 #include <memory>
@@ -18,16 +18,16 @@ namespace heel {
 
 class Recorder {
  public:
-  /// Makes the folder when there is none; renames the files of an earlier recording in it (ticks.csv becomes
-  /// ticks.1.csv or the first free number). Throws heel::Error naming the file.
+  /// Creates the folder if it is missing, and renames the files of an earlier recording in it (ticks.csv
+  /// becomes ticks.1.csv, or the first free number). Throws heel::Error, which names the file.
   explicit Recorder(const std::string& directory);
 
   void record(const TickRecord& tick);
   void record(const PoseEstimate& pose);
   void record(const CaptureCounters& capture);
   void record(const Event& event);
-  /// A line of its own in events.log.
-  void remark(TimeNs t_ns, std::string_view text);
+  /// Adds a line to events.log.
+  void record_text(TimeNs t_ns, std::string_view text);
   void flush();
 
  private:

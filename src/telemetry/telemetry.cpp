@@ -1,5 +1,6 @@
 #include "telemetry/telemetry.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "logging/journal_sink.h"
@@ -11,11 +12,11 @@ namespace heel {
 
 namespace {
 
-constexpr TimeNs kRound_ns = 50 * kNsPerMs;
-constexpr TimeNs kFlush_ns = 500 * kNsPerMs;
-constexpr TimeNs kRepeat_ns = kNsPerS;
+constexpr TimeNs kDrainPeriod_ns = 50 * kNsPerMs;
+constexpr TimeNs kFlushPeriod_ns = 500 * kNsPerMs;
+constexpr TimeNs kRepeatedEventPeriod_ns = kNsPerS;
 
-static_assert(static_cast<std::size_t>(EventKind::Warning) < 16, "Telemetry::logged_ns_ is too short");
+static_assert(static_cast<std::size_t>(EventKind::Warning) < 16, "Telemetry::t_logged_ns_ is too short");
 
 }  // namespace
 
@@ -24,7 +25,7 @@ Telemetry::Telemetry(TelemetryQueues& queues, const TelemetryConfig& config) : q
 }
 
 void Telemetry::run() {
-  PeriodicDeadline deadline(kRound_ns, monotonic_now_ns());
+  PeriodicDeadline deadline(kDrainPeriod_ns, monotonic_now_ns());
   while (stop_.load(std::memory_order_acquire) == 0) {
     TimeNs now_ns = monotonic_now_ns();
     if (now_ns < deadline.next_ns()) {
@@ -58,30 +59,30 @@ void Telemetry::drain(TimeNs now_ns) {
     for (Event event; events->pop(event);) take(event);
   }
   log_losses(now_ns);
-  if (recorder_ && now_ns - flushed_ns_ >= kFlush_ns) {
+  if (recorder_ && now_ns - t_flushed_ns_ >= kFlushPeriod_ns) {
     recorder_->flush();
-    flushed_ns_ = now_ns;
+    t_flushed_ns_ = now_ns;
   }
   const std::lock_guard lock(published_mutex_);
   published_ = newest_;
 }
 
-// What a person wants to read of the ticks is where they change.
+// Of the ticks only changes are logged.
 void Telemetry::take(const TickRecord& tick) {
   const bool first = newest_.ticks == 0;
   if (first || tick.stop_reason != newest_.tick.stop_reason) {
     const std::string text = tick.stop_reason == StopReason::None
-                                 ? std::string("following")
-                                 : std::string("at rest: ") + to_string(tick.stop_reason);
+                                 ? "following"
+                                 : fmt::format("at rest: {}", to_string(tick.stop_reason));
     log_event({.part = "supervisor", .event = to_string(tick.stop_reason)}, spdlog::level::info, text);
-    if (recorder_) recorder_->remark(tick.input.now_ns, text);
+    if (recorder_) recorder_->record_text(tick.input.now_ns, text);
   }
   if (first || tick.input.robot.phase != newest_.tick.input.robot.phase) {
-    const std::string text = std::string("link to the robot: ") + to_string(tick.input.robot.phase);
+    const std::string text = fmt::format("link to the robot: {}", to_string(tick.input.robot.phase));
     const bool lost = tick.input.robot.phase == LinkPhase::Lost;
     log_event({.part = "robot", .event = to_string(tick.input.robot.phase)},
               lost ? spdlog::level::warn : spdlog::level::info, text);
-    if (recorder_) recorder_->remark(tick.input.now_ns, text);
+    if (recorder_) recorder_->record_text(tick.input.now_ns, text);
   }
   ++newest_.ticks;
   newest_.tick = tick;
@@ -90,10 +91,10 @@ void Telemetry::take(const TickRecord& tick) {
 
 void Telemetry::take(const Event& event) {
   ++newest_.events;
-  TimeNs& logged_ns = logged_ns_[static_cast<std::size_t>(event.kind)];
-  const bool too_soon = logged_ns != 0 && event.t_ns - logged_ns < kRepeat_ns;
+  TimeNs& t_logged_ns = t_logged_ns_[static_cast<std::size_t>(event.kind)];
+  const bool too_soon = t_logged_ns != 0 && event.t_ns - t_logged_ns < kRepeatedEventPeriod_ns;
   if (event_repeats(event.kind) && too_soon) return;
-  logged_ns = event.t_ns;
+  t_logged_ns = event.t_ns;
   log_event({.part = event_part(event.kind), .event = to_string(event.kind)}, event_level(event.kind),
             event_text(event));
   if (recorder_) recorder_->record(event);
@@ -102,10 +103,11 @@ void Telemetry::take(const Event& event) {
 void Telemetry::log_losses(TimeNs now_ns) {
   newest_.records_lost = queues_.ticks.dropped() + queues_.poses.dropped() + queues_.captures.dropped() +
                          queues_.capture_events.dropped() + queues_.control_events.dropped();
-  if (newest_.records_lost == lost_told_ || now_ns - losses_told_ns_ < kRepeat_ns) return;
-  spdlog::warn("telemetry fell behind: {} records lost so far", newest_.records_lost);
-  lost_told_ = newest_.records_lost;
-  losses_told_ns_ = now_ns;
+  if (newest_.records_lost == losses_logged_ || now_ns - t_losses_logged_ns_ < kRepeatedEventPeriod_ns)
+    return;
+  spdlog::warn("telemetry is too slow: {} records lost so far", newest_.records_lost);
+  losses_logged_ = newest_.records_lost;
+  t_losses_logged_ns_ = now_ns;
 }
 
 TelemetrySnapshot Telemetry::snapshot() const {

@@ -1,11 +1,11 @@
-// The telemetry thread: takes what the hot threads have pushed, logs events, records everything, and keeps
-// the newest of each kind for whoever asks (status, live view). Neither hot nor real-time: it may lock and
-// format.
+// The loop of the telemetry thread: takes the records that the real-time threads have pushed, logs events,
+// writes the recording, and keeps the newest record of each kind. It is no real-time thread: it may lock,
+// allocate and format.
 //
 //   TelemetryQueues queues;
 //   Telemetry telemetry(queues, config.telemetry);            // throws heel::Error, before the threads start
 //   std::jthread thread([&] { enter_thread(plan, false); telemetry.run(); });
-//   …  telemetry.stop(); thread.join();                      // writes out the rest
+//   …  telemetry.stop(); thread.join();                      // writes the rest
 #pragma once
 
 #include <array>
@@ -21,9 +21,9 @@
 
 namespace heel {
 
-/// The newest of everything.
+/// The newest record of each kind.
 struct TelemetrySnapshot {
-  std::uint64_t ticks = 0;  ///< taken so far; 0: `tick` says nothing yet
+  std::uint64_t ticks = 0;  ///< taken so far; 0: `tick` has no value yet
   std::uint64_t poses = 0;
   std::uint64_t events = 0;
   std::uint64_t records_lost = 0;  ///< dropped by full queues
@@ -34,14 +34,14 @@ struct TelemetrySnapshot {
 
 class Telemetry {
  public:
-  /// Records when config.directory is not empty. Throws heel::Error when it cannot.
+  /// Writes a recording when config.directory is not empty. Throws heel::Error when it cannot be created.
   Telemetry(TelemetryQueues& queues, const TelemetryConfig& config);
 
-  /// The thread's body: a round every 50 ms until stop(), then a last one.
+  /// Drains the queues every 50 ms until stop(), and then once more.
   void run();
   /// From any thread.
   void stop();
-  /// One round: takes everything that waits. run() does this; a program without threads may, too.
+  /// Takes all waiting records once. run() calls this; a program without threads may call it itself.
   void drain(TimeNs now_ns);
 
   /// From any thread.
@@ -59,11 +59,11 @@ class Telemetry {
   mutable std::mutex published_mutex_;
   TelemetrySnapshot published_;
 
-  std::array<TimeNs, 16> logged_ns_{};  // by EventKind: when a repeating one was logged last
-  std::uint64_t lost_told_ = 0;
-  TimeNs losses_told_ns_ = 0;
-  TimeNs flushed_ns_ = 0;
-  std::atomic<std::uint32_t> stop_{0};  // also the futex of the pause between rounds
+  std::array<TimeNs, 16> t_logged_ns_{};  // by EventKind: when it was logged last
+  std::uint64_t losses_logged_ = 0;
+  TimeNs t_losses_logged_ns_ = 0;
+  TimeNs t_flushed_ns_ = 0;
+  std::atomic<std::uint32_t> stop_{0};  // also the futex of the pause between two drains
 };
 
 }  // namespace heel

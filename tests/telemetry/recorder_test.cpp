@@ -51,20 +51,20 @@ TEST(RecordFile, AFullDiskIsToldOnceAndNothingHalfIsLeftWhenThereIsRoomAgain) {
       file.flush();
     }
     EXPECT_EQ(read_text(file.path()).size(), 250u);
-    EXPECT_EQ(log.told("going on without it"), 1) << log.text();
+    EXPECT_EQ(log.told("cannot write: "), 1) << log.text();
     EXPECT_THAT(log.text(), HasSubstr(file.path()));
   }
   file.append(line_of('e'));
   file.flush();
   EXPECT_EQ(read_text(file.path()), line_of('a') + line_of('b') + line_of('c') + line_of('d') + line_of('e'));
-  EXPECT_THAT(log.text(), HasSubstr("can be written again, 0 lines were lost"));
+  EXPECT_THAT(log.text(), HasSubstr("can be written again; 0 lines were lost"));
 }
 
 TEST(RecordFile, WhatWaitsTooLongIsLostInWholeLinesAndCounted) {
   const test::TemporaryFolder folder;
   const test::CollectedLog log;
   RecordFile file(folder.file("record"));
-  const std::size_t fit = RecordFile::kMostWaitingBytes / 100;
+  const std::size_t fit = RecordFile::kMaxWaitingBytes / 100;
   {
     const SmallDisk disk(0);
     for (std::size_t i = 0; i < fit + 7; ++i) file.append(line_of('x'));
