@@ -12,7 +12,7 @@ endfunction()
 # THREADS: what it tests runs in several threads. The thread sanitizer's preset leaves the others out
 # (HEEL_ONLY_THREADED_TESTS): one thread races with nobody, at fifty times the price.
 # AS_ONE: all its tests are one entry of that name, because they share what took long to make.
-# Tests that need ../shared-style data find it in HEEL_TEST_DATA and call GTEST_SKIP() without it.
+# Tests that need real images or video say so by HEEL_NEEDS_TEST_DATA (support/test_data.h).
 function(heel_test name)
   cmake_parse_arguments(ARG "SERIAL;THREADS;COUNTS_ALLOCATIONS" "TIMEOUT;AS_ONE" "SOURCES;DEPENDS;LABELS;PROGRAMS" ${ARGN})
   if(NOT HEEL_BUILD_TESTS)
@@ -29,7 +29,6 @@ function(heel_test name)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
-  target_compile_definitions(${name} PRIVATE HEEL_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE heel_options heel_test_support ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
   foreach(program IN LISTS ARG_PROGRAMS)
     string(TOUPPER ${program} macro)

@@ -9,6 +9,7 @@
 #include "config/config_table.h"
 #include "config/config_text.h"
 #include "config/config_value.h"
+#include "support/complaint.h"
 
 namespace heel {
 namespace {
@@ -116,12 +117,8 @@ TEST(ConfigLoad, RelativePathsStartAtTheFile) {
 }
 
 TEST(ConfigLoad, MissingFileIsNamed) {
-  try {
-    load_config("/nowhere/heel.toml");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/nowhere/heel.toml: cannot read (expected a configuration file"));
-  }
+  EXPECT_THAT(test::complaint_of([] { load_config("/nowhere/heel.toml"); }),
+              HasSubstr("/nowhere/heel.toml: cannot read (expected a configuration file"));
 }
 
 TEST(ConfigLoad, NamesKeysThatNeedARestart) {

@@ -4,28 +4,23 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "config/config_table.h"
 #include "config/config_value.h"
+#include "support/temporary_folder.h"
+#include "support/test_data.h"
 
 namespace heel {
 namespace {
 
-std::string content_of(const std::string& path) {
-  std::ifstream in(path);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
+using test::read_text;
+using test::source_path;
 
 TEST(ConfigText, ExampleFileIsUpToDate) {
-  EXPECT_EQ(content_of(HEEL_SOURCE_DIR "/config/heel.toml"), default_config_text());
+  EXPECT_EQ(read_text(source_path("config/heel.toml")), default_config_text());
 }
 
 TEST(ConfigText, ManualIsUpToDate) {
-  EXPECT_EQ(content_of(HEEL_SOURCE_DIR "/docs/configuration.md"), config_manual_text());
+  EXPECT_EQ(read_text(source_path("docs/configuration.md")), config_manual_text());
 }
 
 TEST(ConfigText, ExampleFileSetsEveryKeyToItsDefault) {

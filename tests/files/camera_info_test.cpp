@@ -9,7 +9,9 @@
 
 #include "heel/camera_model.h"
 #include "heel/error.h"
+#include "support/complaint.h"
 #include "support/temporary_folder.h"
+#include "support/test_data.h"
 
 namespace heel {
 namespace {
@@ -69,12 +71,7 @@ class CameraFile : public ::testing::Test {
  protected:
   CameraModel read(const std::string& text) { return read_camera_model(write_text(path, text)); }
   std::string refusal_of(const std::string& text) {
-    try {
-      read(text);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "accepted";
+    return test::complaint_of([&] { read(text); });
   }
 
   TemporaryFolder folder;
@@ -142,7 +139,7 @@ TEST_F(CameraFile, ComesBackToTheBit) {
 
 TEST(CameraExamples, AreReadable) {
   int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(HEEL_SOURCE_DIR "/config/camera")) {
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_path("config/camera"))) {
     if (entry.path().extension() != ".yaml") continue;
     ++files;
     const CameraModel camera = read_camera_model(entry.path().string());

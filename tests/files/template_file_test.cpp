@@ -12,6 +12,7 @@
 
 #include "heel/error.h"
 #include "heel/shirt_template.h"
+#include "support/complaint.h"
 #include "support/temporary_folder.h"
 
 namespace heel {
@@ -46,12 +47,7 @@ ShirtTemplate small_template() {
 }
 
 std::string refusal_of(const std::string& path) {
-  try {
-    read_template(path);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::complaint_of([&] { read_template(path); });
 }
 
 /// A file with `header` as its JSON and a checksum that fits: only the content can be wrong.

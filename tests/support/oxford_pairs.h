@@ -1,11 +1,9 @@
 // The Oxford sets' image pairs with their true homographies (K. Mikolajczyk et al., "A comparison of affine
-// region detectors", IJCV 2005), read from HEEL_TEST_DATA, else ../shared/data beside the source. They are
-// not part of heel.
+// region detectors", IJCV 2005), read from the test data.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/core.hpp>
@@ -15,14 +13,9 @@
 #include <vector>
 
 #include "heel/flow.h"
+#include "support/test_data.h"
 
 namespace heel::test {
-
-inline std::filesystem::path data_folder() {
-  const char* given = std::getenv("HEEL_TEST_DATA");
-  if (given != nullptr) return given;
-  return std::filesystem::path(HEEL_SOURCE_DIR).parent_path() / "shared" / "data";
-}
 
 struct OxfordPair {
   std::string set;  ///< graf, boat, leuven
@@ -33,13 +26,14 @@ struct OxfordPair {
   std::string name() const { return set + " 1-" + std::to_string(to); }
 };
 
-inline bool has_oxford_set(const std::string& set) {
-  return std::filesystem::exists(data_folder() / "oxford" / set / "H1to2p");
+/// Of the test data.
+inline std::string oxford_folder(const std::string& set) {
+  return "oxford/" + set;
 }
 
 /// Throws std::runtime_error naming what cannot be read.
 inline OxfordPair load_oxford_pair(const std::string& set, int to) {
-  const std::filesystem::path folder = data_folder() / "oxford" / set;
+  const std::filesystem::path folder = data_path(oxford_folder(set));
   const auto image = [&](int number) {
     const std::string path = folder / ("img" + std::to_string(number) + (set == "boat" ? ".pgm" : ".ppm"));
     const cv::Mat grey = cv::imread(path, cv::IMREAD_GRAYSCALE);

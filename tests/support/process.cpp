@@ -11,10 +11,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
+
+#include "support/temporary_folder.h"
 
 namespace heel::test {
 
@@ -26,38 +26,59 @@ double monotonic_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-std::string content_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+namespace {
+
+/// In a child process: becomes the program `argv`.
+void execute(const std::vector<std::string>& argv, const std::map<std::string, std::string>& environment) {
+  std::vector<char*> arguments;
+  for (const auto& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  unsetenv("NOTIFY_SOCKET");
+  for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
+  execv(arguments[0], arguments.data());
+  _exit(127);
 }
+
+/// In a child process: `path` in place of the standard stream `stream`.
+void redirect(int stream, const std::string& path) {
+  const int flags = stream == STDIN_FILENO ? O_RDONLY : O_WRONLY | O_CREAT | O_TRUNC;
+  const int file = open(path.c_str(), flags, 0644);
+  if (file < 0) _exit(126);
+  dup2(file, stream);
+  close(file);
+}
+
+}  // namespace
 
 Process::Process(const std::vector<std::string>& argv, const std::string& log_path,
                  const std::map<std::string, std::string>& environment)
     : log_path_(log_path), log_is_ours_(log_path.empty()) {
-  std::vector<char*> arguments;
-  for (const auto& argument : argv) arguments.push_back(const_cast<char*>(argument.c_str()));
-  arguments.push_back(nullptr);
+  start([&] { execute(argv, environment); });
+}
+
+Process::Process(const std::function<void()>& body) : log_is_ours_(true) {
+  start(body);
+}
+
+void Process::start(const std::function<void()>& body) {
   if (log_is_ours_) log_path_ = std::filesystem::temp_directory_path() / "heel-test-XXXXXX";
   const int log = log_is_ours_ ? mkostemp(log_path_.data(), O_CLOEXEC)
                                : open(log_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (log < 0) throw std::runtime_error("cannot write " + log_path_);
   pid_ = fork();
   if (pid_ == 0) {
+    redirect(STDIN_FILENO, "/dev/null");
     dup2(log, STDOUT_FILENO);
     dup2(log, STDERR_FILENO);
-    unsetenv("NOTIFY_SOCKET");
-    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
-    execv(arguments[0], arguments.data());
-    _exit(127);
+    body();
+    _exit(0);
   }
   close(log);
 }
 
 Process::~Process() {
   if (running()) signal(SIGKILL);
-  wait(5.0);
+  wait();
   if (log_is_ours_) unlink(log_path_.c_str());
 }
 
@@ -76,7 +97,7 @@ int Process::wait(double timeout_s) {
 }
 
 std::string Process::output() const {
-  return content_of(log_path_);
+  return read_text(log_path_);
 }
 
 bool Process::says(const std::string& text, double timeout_s) {
@@ -89,6 +110,22 @@ bool Process::says(const std::string& text, double timeout_s) {
       },
       timeout_s);
   return found;
+}
+
+Outcome run_program(const std::vector<std::string>& argv, const std::string& out_path) {
+  const TemporaryFolder folder;
+  const std::string out = out_path.empty() ? folder.file("out") : out_path;
+  const std::string err = folder.file("err");
+  Process process([&] {
+    redirect(STDOUT_FILENO, out);
+    redirect(STDERR_FILENO, err);
+    execute(argv, {});
+  });
+  Outcome outcome;
+  outcome.status = process.wait(kProgramPatience_s);
+  if (out_path.empty()) outcome.out = read_text(out);
+  outcome.err = read_text(err);
+  return outcome;
 }
 
 NotifySocket::NotifySocket(const std::string& path) : path_(path) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "support/temporary_folder.h"
+#include "support/test_data.h"
 #include "telemetry/csv_columns.h"
 
 namespace heel {
@@ -208,7 +209,7 @@ bool in_the_middle_of_an_array(const std::string& name, const std::set<std::stri
 }
 
 TEST(CsvColumns, EveryColumnIsInTheReadmeAndDistinct) {
-  const std::string readme = test::read_text(HEEL_SOURCE_DIR "/src/telemetry/README.md");
+  const std::string readme = test::read_text(test::source_path("src/telemetry/README.md"));
   ASSERT_FALSE(readme.empty());
   for (const std::string& header :
        {csv_header(tick_columns()), csv_header(pose_columns()), csv_header(capture_columns())}) {

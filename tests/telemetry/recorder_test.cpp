@@ -8,9 +8,9 @@
 #include <csignal>
 #include <string>
 
-#include "heel/error.h"
+#include "support/collected_log.h"
+#include "support/complaint.h"
 #include "support/temporary_folder.h"
-#include "telemetry/collected_log.h"
 
 namespace heel {
 namespace {
@@ -51,7 +51,7 @@ TEST(RecordFile, AFullDiskIsToldOnceAndNothingHalfIsLeftWhenThereIsRoomAgain) {
       file.flush();
     }
     EXPECT_EQ(read_text(file.path()).size(), 250u);
-    EXPECT_EQ(log.told("cannot write: "), 1) << log.text();
+    EXPECT_EQ(log.count("cannot write: "), 1) << log.text();
     EXPECT_THAT(log.text(), HasSubstr(file.path()));
   }
   file.append(line_of('e'));
@@ -128,12 +128,8 @@ TEST(Recorder, AnEarlierRecordingIsKeptUnderOneNumber) {
 TEST(Recorder, AFolderThatCannotBeMadeIsNamed) {
   const test::TemporaryFolder folder;
   const std::string file = test::write_text(folder.file("file"), "not a folder");
-  try {
-    const Recorder recorder(file + "/run");
-    FAIL() << "recorded";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("telemetry.directory " + file + "/run"));
-  }
+  EXPECT_THAT(test::complaint_of([&] { const Recorder recorder(file + "/run"); }),
+              HasSubstr("telemetry.directory " + file + "/run"));
 }
 
 }  // namespace

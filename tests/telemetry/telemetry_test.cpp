@@ -9,8 +9,8 @@
 #include <string>
 #include <thread>
 
+#include "support/collected_log.h"
 #include "support/temporary_folder.h"
-#include "telemetry/collected_log.h"
 #include "telemetry/event_text.h"
 
 namespace heel {
@@ -45,11 +45,11 @@ TEST_F(TelemetryTest, ChangesOfStopReasonAndLinkAreToldOnce) {
   tick.input.robot.phase = LinkPhase::Lost;
   queues_.ticks.push(tick);
   telemetry.drain(kNsPerS);
-  EXPECT_EQ(log_.told("at rest: no target seen yet"), 1);
-  EXPECT_EQ(log_.told("at rest: target lost"), 1);
-  EXPECT_EQ(log_.told("following"), 2);
-  EXPECT_EQ(log_.told("link to the robot: running"), 1);
-  EXPECT_EQ(log_.told("[warning] link to the robot: lost"), 1);
+  EXPECT_EQ(log_.count("at rest: no target seen yet"), 1);
+  EXPECT_EQ(log_.count("at rest: target lost"), 1);
+  EXPECT_EQ(log_.count("following"), 2);
+  EXPECT_EQ(log_.count("link to the robot: running"), 1);
+  EXPECT_EQ(log_.count("[warning] link to the robot: lost"), 1);
   EXPECT_EQ(telemetry.snapshot().ticks, 7u);
   EXPECT_EQ(telemetry.snapshot().tick.tick, 6u);
 }
@@ -63,10 +63,10 @@ TEST_F(TelemetryTest, EventsOfEveryThreadAreToldFloodsAtMostOnceASecond) {
     queues_.capture_events.push(event_of(EventKind::FrameCorrupt, kNsPerS + i * 50 * kNsPerMs, "bad"));
   }
   telemetry.drain(4 * kNsPerS);
-  EXPECT_EQ(log_.told("[warning] camera lost: sim:yard: gone"), 1);
-  EXPECT_EQ(log_.told("[info] a note from control"), 1);
-  EXPECT_EQ(log_.told("[warning] from control"), 1);
-  EXPECT_EQ(log_.told("frame corrupt"), 3) << "2.5 s of them";
+  EXPECT_EQ(log_.count("[warning] camera lost: sim:yard: gone"), 1);
+  EXPECT_EQ(log_.count("[info] a note from control"), 1);
+  EXPECT_EQ(log_.count("[warning] from control"), 1);
+  EXPECT_EQ(log_.count("frame corrupt"), 3) << "2.5 s of them";
   EXPECT_EQ(telemetry.snapshot().events, 53u);
 }
 
@@ -76,7 +76,7 @@ TEST_F(TelemetryTest, LostRecordsAreCountedAndTold) {
   for (std::size_t i = 0; i < capacity + 9; ++i) queues_.ticks.push(TickRecord{});
   telemetry.drain(10 * kNsPerS);
   telemetry.drain(20 * kNsPerS);
-  EXPECT_EQ(log_.told("9 records lost"), 1);
+  EXPECT_EQ(log_.count("9 records lost"), 1);
   EXPECT_EQ(telemetry.snapshot().records_lost, 9u);
   EXPECT_EQ(telemetry.snapshot().ticks, capacity);
 }

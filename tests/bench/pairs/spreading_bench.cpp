@@ -85,7 +85,7 @@ int run(const std::vector<int>& budgets) {
   std::printf("  (corner error, px, %d seeds)\n", kSeeds);
   bool any = false;
   for (const char* set : {"graf", "boat", "leuven"}) {
-    if (!test::has_oxford_set(set)) continue;
+    if (!test::has_data(test::oxford_folder(set))) continue;
     any = true;
     for (int to = 2; to <= 6; ++to) {
       const OxfordPair pair = test::load_oxford_pair(set, to);
@@ -102,7 +102,7 @@ int run(const std::vector<int>& budgets) {
       }
     }
   }
-  if (!any) std::printf("no test data at %s: nothing measured\n", test::data_folder().c_str());
+  if (!any) std::printf("no test data at %s: nothing measured\n", test::data_path().c_str());
   return 0;
 }
 

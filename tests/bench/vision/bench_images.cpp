@@ -1,16 +1,14 @@
 #include "bench/vision/bench_images.h"
 
-#include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <string>
+
+#include "support/test_data.h"
 
 namespace heel::evaluation {
 
 cv::Mat textured_image(cv::Size size) {
-  const char* data = std::getenv("HEEL_TEST_DATA");
-  cv::Mat grey;
-  if (data != nullptr) grey = cv::imread(std::string(data) + "/oxford/graf/img1.ppm", cv::IMREAD_GRAYSCALE);
+  cv::Mat grey = cv::imread(test::data_path("oxford/graf/img1.ppm"), cv::IMREAD_GRAYSCALE);
   if (grey.empty()) {
     grey = noise_image(size);
     cv::GaussianBlur(grey, grey, {}, 3.0);

@@ -7,7 +7,7 @@
 
 namespace heel::evaluation {
 
-/// A 640 × 480 real scene (graf, image 1, resized); blurred noise without HEEL_TEST_DATA.
+/// A 640 × 480 real scene (graf, image 1, resized); blurred noise where the test data are absent.
 cv::Mat textured_image(cv::Size size = {640, 480});
 cv::Mat noise_image(cv::Size size = {640, 480});
 /// Blobs of one size, side by side: as many maxima of equal strength as fit.

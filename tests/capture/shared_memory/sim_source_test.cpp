@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -18,6 +17,8 @@
 #include "capture/synthetic_frames.h"
 #include "heel/error.h"
 #include "realtime/clock.h"
+#include "support/complaint.h"
+#include "support/process.h"
 
 namespace heel {
 namespace {
@@ -145,38 +146,28 @@ TEST(SimSource, LostWhenTheSimulatorEndsAndFoundAgainWhenItReturns) {
 TEST(SimChannel, TwoLivingSimulatorsOfOneNameAreRefused) {
   const std::string name = own_name("two");
   const SimChannelWriter writer(name, kWidth, kHeight);
-  try {
-    const SimChannelWriter second(name, kWidth, kHeight);
-    FAIL() << "accepted";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("another simulator"));
-  }
+  EXPECT_THAT(test::complaint_of([&] { const SimChannelWriter second(name, kWidth, kHeight); }),
+              HasSubstr("another simulator"));
   SimSource source(name);
   EXPECT_EQ(source.open(), OpenResult::Opened) << "the first one is unharmed";
 }
 
 TEST(SimSource, AKilledSimulatorIsNoticedAndReplaced) {
   const std::string name = own_name("killed");
-  int ready[2];
-  ASSERT_EQ(pipe(ready), 0);
-  const pid_t child = fork();
-  if (child == 0) {
+  test::Process simulator([&] {
     SimChannelWriter writer(name, kWidth, kHeight);
     publish(writer, 1);
-    if (write(ready[1], "x", 1) != 1) _exit(1);
+    if (write(STDOUT_FILENO, "ready", 5) != 5) return;
     while (true) pause();
-  }
-  char byte = 0;
-  ASSERT_EQ(read(ready[0], &byte, 1), 1);
-  close(ready[0]);
-  close(ready[1]);
+  });
+  ASSERT_TRUE(simulator.says("ready"));
 
   SimSource source(name);
   ASSERT_EQ(source.open(), OpenResult::Opened);
   FrameView frame;
   EXPECT_EQ(source.wait_frame(kNsPerMs, frame), FrameResult::Timeout) << "silent, but alive";
-  kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
+  simulator.signal(SIGKILL);
+  ASSERT_EQ(simulator.wait(), -SIGKILL);
   EXPECT_EQ(source.wait_frame(kNsPerMs, frame), FrameResult::Lost);
   EXPECT_EQ(source.open(), OpenResult::Absent) << "what it left behind is not a simulator";
 

@@ -23,7 +23,7 @@ constexpr unsigned kPersonLine = 0xd55e00, kRobotLine = 0x0072b2, kQuadrilateral
 class Figures : public ::testing::Test {
  protected:
   Figures() { test::write_run(folder_); }
-  Outcome report() { return test::run_heel(folder_, {"report", folder_.path().string()}); }
+  Outcome report() { return test::run_heel({"report", folder_.path().string()}); }
 
   TemporaryFolder folder_;
 };

@@ -28,7 +28,7 @@ Outcome report(const TemporaryFolder& folder, const std::vector<std::string>& op
   const test::ScopedEnvironment plots("HEEL_PLOTS", "/bin/true");
   std::vector<std::string> arguments{"report", folder.path().string()};
   arguments.insert(arguments.end(), options.begin(), options.end());
-  return run_heel(folder, arguments);
+  return run_heel(arguments);
 }
 
 TEST(Report, MeasuresWhatWasWorkedOutByHand) {

@@ -18,12 +18,13 @@
 #include "heel/features.h"
 #include "support/each_simd_target.h"
 #include "support/temporary_folder.h"
+#include "support/test_data.h"
 #include "vision/features/test_image.h"
 
 namespace heel::test {
 namespace {
 
-constexpr const char* kGoldenFile = HEEL_SOURCE_DIR "/tests/golden/features/discs.golden";
+const std::string kGoldenFile = source_path("tests/golden/features/discs.golden");
 constexpr const char* kProvenance =
     "# Features of 400 grey discs, drawn and blurred in whole numbers by test_golden_features.\n"
     "# Made by it with HEEL_UPDATE_GOLDEN=1; compared on every instruction set, within: x, y and sigma 1e-4 "

@@ -7,7 +7,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -17,6 +16,7 @@
 #include "files/camera_info.h"
 #include "heel/camera_model.h"
 #include "support/temporary_folder.h"
+#include "support/test_data.h"
 #include "tools/heel/run_heel.h"
 
 namespace heel {
@@ -26,7 +26,8 @@ using nlohmann::json;
 using test::Outcome;
 using test::run_heel;
 
-constexpr const char* kGoldenFile = HEEL_SOURCE_DIR "/tests/golden/pose/knit_back.golden";
+const std::string kGoldenFile = test::source_path("tests/golden/pose/knit_back.golden");
+constexpr const char* kVideo = "person/one-by-one.mp4";
 constexpr const char* kProvenance =
     "# Poses of the knitted back in person/one-by-one.mp4 (768x432, intel-iot-devkit/sample-videos, CC BY "
     "4.0).\n"
@@ -47,10 +48,8 @@ constexpr int kTurned = 1185;
 class RealVideo : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    const char* data = std::getenv("HEEL_TEST_DATA");
-    const std::string video =
-        (data != nullptr ? std::string(data) : HEEL_SOURCE_DIR "/../shared/data") + "/person/one-by-one.mp4";
-    if (!std::filesystem::exists(video)) return;
+    if (!test::has_data(kVideo)) return;
+    const std::string video = test::data_path(kVideo);
     const test::TemporaryFolder folder;
     const std::string camera = folder.file("camera.yaml");
     const std::string shirt = folder.file("knit.heel");
@@ -61,18 +60,17 @@ class RealVideo : public ::testing::Test {
     guess.cx = 383.5;
     guess.cy = 215.5;
     write_camera_model(guess, camera);
-    const Outcome taught =
-        run_heel(folder, {"teach", "--image", video, "--frame", "1000", "--roi", "400,90,100,175",
-                          "--distance", "3", "--camera-info", camera, "-o", shirt});
+    const Outcome taught = run_heel({"teach", "--image", video, "--frame", "1000", "--roi", "400,90,100,175",
+                                     "--distance", "3", "--camera-info", camera, "-o", shirt});
     ASSERT_EQ(taught.status, 0) << taught.out << taught.err;
-    const Outcome posed =
-        run_heel(folder, {"pose", "--template", shirt, "--camera-info", camera, video, "--json"});
+    const Outcome posed = run_heel({"pose", "--template", shirt, "--camera-info", camera, video, "--json"});
     ASSERT_EQ(posed.status, 0) << posed.err;
     std::istringstream in(posed.out);
     for (std::string line; std::getline(in, line);) lines().push_back(json::parse(line));
   }
   void SetUp() override {
-    if (lines().empty()) GTEST_SKIP() << "no person/one-by-one.mp4 in HEEL_TEST_DATA";
+    HEEL_NEEDS_TEST_DATA(kVideo);
+    ASSERT_FALSE(lines().empty()) << "heel teach or heel pose failed on the video";
   }
   static std::vector<json>& lines() {
     static std::vector<json> all;

@@ -71,7 +71,7 @@ class VideoDrivesHeeld : public ::testing::Test {
     if (test::kSanitized) {
       GTEST_SKIP() << "sanitized vision cannot keep up with the video in real time; test_golden_video runs";
     }
-    if (video_path().empty()) GTEST_SKIP() << "no person/one-by-one.mp4 in HEEL_TEST_DATA";
+    HEEL_NEEDS_TEST_DATA(kVideo);
   }
 };
 
@@ -96,7 +96,7 @@ TEST_F(VideoDrivesHeeld, AndTheRobotReceivesTheGoldenCommands) {
   constexpr double kHeldUp_s = 0.3;
   constexpr int kRuns = 3;
   for (int run = 1;; ++run) {
-    const VideoScene scene(video_path());
+    const VideoScene scene;
     ASSERT_NO_FATAL_FAILURE(drive(scene, kGainYaw_1_s));
     const FrameClock clock(scene.file("run/poses.csv"), kFirst, 0);
     if (clock.oldest_view_s() > kHeldUp_s) {

@@ -69,10 +69,9 @@ std::vector<std::string> differences(const FrameCommands& golden, const FrameCom
 class VideoOnTheWire : public ::testing::Test {
  protected:
   void SetUp() override {
-    const std::string video = video_path();
-    if (video.empty()) GTEST_SKIP() << "no person/one-by-one.mp4 in HEEL_TEST_DATA";
-    ASSERT_EQ(crc32_of_file(video), kVideoCrc32) << video << ": not the video the golden was made from";
-    scene_.emplace(video);
+    HEEL_NEEDS_TEST_DATA(kVideo);
+    ASSERT_EQ(crc32_of_file(data_path(kVideo)), kVideoCrc32) << "not the video the golden was made from";
+    scene_.emplace();
   }
 
   /// Once for each gain, whichever tests ask.
@@ -86,8 +85,7 @@ class VideoOnTheWire : public ::testing::Test {
  private:
   FrameCommands run(double gain_yaw_1_s) const {
     const test::Outcome ran =
-        test::run_heel(scene_->folder(),
-                       {"simulate", scene_->write_scenario(), "--config", scene_->write_config(gain_yaw_1_s),
+        test::run_heel({"simulate", scene_->write_scenario(), "--config", scene_->write_config(gain_yaw_1_s),
                         "--template", scene_->file("knit.heel"), "--out", scene_->file("run")});
     if (ran.status != 0) throw std::runtime_error("heel simulate: " + ran.err);
     // Lock step counts frames from 1.

@@ -3,7 +3,6 @@
 #include <zlib.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -16,20 +15,13 @@
 
 namespace heel::test {
 
-std::string video_path() {
-  const char* data = std::getenv("HEEL_TEST_DATA");
-  const std::string path =
-      (data != nullptr ? std::string(data) : HEEL_SOURCE_DIR "/../shared/data") + "/person/one-by-one.mp4";
-  return std::filesystem::exists(path) ? path : "";
-}
-
 std::uint32_t crc32_of_file(const std::string& path) {
   const std::string bytes = test::read_text(path);
   return static_cast<std::uint32_t>(
       crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-VideoScene::VideoScene(const std::string& video) : video_(std::filesystem::absolute(video).string()) {
+VideoScene::VideoScene() : video_(std::filesystem::absolute(data_path(kVideo)).string()) {
   CameraModel guess;  // nobody has calibrated this camera
   guess.width_px = 768;
   guess.height_px = 432;
@@ -37,9 +29,9 @@ VideoScene::VideoScene(const std::string& video) : video_(std::filesystem::absol
   guess.cx = 383.5;
   guess.cy = 215.5;
   write_camera_model(guess, file("camera.yaml"));
-  const test::Outcome taught = test::run_heel(
-      folder_, {"teach", "--image", video_, "--frame", "1000", "--roi", "400,90,100,175", "--distance", "3",
-                "--camera-info", file("camera.yaml"), "-o", file("knit.heel")});
+  const test::Outcome taught =
+      test::run_heel({"teach", "--image", video_, "--frame", "1000", "--roi", "400,90,100,175", "--distance",
+                      "3", "--camera-info", file("camera.yaml"), "-o", file("knit.heel")});
   if (taught.status != 0) throw std::runtime_error("heel teach: " + taught.err);
 }
 

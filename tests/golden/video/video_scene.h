@@ -6,16 +6,16 @@
 #include <string>
 
 #include "support/temporary_folder.h"
+#include "support/test_data.h"
 
 namespace heel::test {
 
-inline constexpr const char* kGoldenFile = HEEL_SOURCE_DIR "/tests/golden/video/knit_back_commands.golden";
+inline const std::string kGoldenFile = source_path("tests/golden/video/knit_back_commands.golden");
+inline constexpr const char* kVideo = "person/one-by-one.mp4";  ///< of the test data
 inline constexpr double kVideoRate_Hz = 10.0;
 inline constexpr int kVideoFrames = 1394;
 inline constexpr std::uint32_t kVideoCrc32 = 0x689d095d;
 
-/// person/one-by-one.mp4; empty when the test data is absent.
-std::string video_path();
 /// CRC-32 (zlib) of a file.
 std::uint32_t crc32_of_file(const std::string& path);
 
@@ -23,8 +23,9 @@ inline constexpr double kGainYaw_1_s = 2.0;
 
 class VideoScene {
  public:
-  /// Writes camera.yaml and teaches knit.heel from frame 1000. Throws std::runtime_error when that fails.
-  explicit VideoScene(const std::string& video);
+  /// Writes camera.yaml and teaches knit.heel from the video's frame 1000. Throws std::runtime_error when
+  /// that fails.
+  VideoScene();
 
   const test::TemporaryFolder& folder() const { return folder_; }
   std::string file(const std::string& name) const { return folder_.file(name); }

@@ -1,90 +1,97 @@
-// heeld's command line without a robot: --check, --print-…, and what is said about bad input.
+// heeld's command line without a robot: --check, --print-…, and what it says about bad input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <algorithm>
+#include <filesystem>
 
 #include "loopback/daemon/scene.h"
 #include "support/process.h"
+#include "support/temporary_folder.h"
+#include "support/test_data.h"
 
 namespace heel::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-struct Outcome {
-  int status;
-  std::string output;
-};
-
-Outcome heeld(const Scene& scene, std::vector<std::string> arguments) {
+Outcome heeld(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), HEELD_PROGRAM);
-  Process process(arguments, scene.path("check.log"));
-  const int status = process.wait(20.0);
-  return {status, process.output()};
+  return run_program(arguments);
+}
+
+/// "FILE:LINE" of the line of `file` that begins with `begin`.
+std::string place_of(const std::string& file, const std::string& begin) {
+  const std::string text = read_text(file);
+  const std::size_t at = text.find("\n" + begin);
+  EXPECT_NE(at, std::string::npos) << begin;
+  const auto lines_before = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  return file + ":" + std::to_string(lines_before + 2);
 }
 
 constexpr int kExitConfiguration = 78;
 
 TEST(HeeldCheck, AGoodConfigurationIsListedWithOriginsAndVerdict) {
   const Scene scene(1);
-  const std::string config = scene.write_config("[gate]\nv_max_m_s = 0.5\n");
-  const Outcome outcome = heeld(scene, {"--config", config, "--check"});
-  EXPECT_EQ(outcome.status, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("gate.v_max_m_s"));
-  EXPECT_THAT(outcome.output, HasSubstr(config + ":17\n"));
-  EXPECT_THAT(outcome.output, HasSubstr("# default\n"));
-  EXPECT_THAT(outcome.output, HasSubstr("taken at 2.00 m"));
+  const std::string config = scene.write_config({.sections = "[gate]\nv_max_m_s = 0.5\n"});
+  const Outcome outcome = heeld({"--config", config, "--check"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("gate.v_max_m_s"), HasSubstr(place_of(config, "v_max_m_s") + "\n"),
+                                 HasSubstr("# default\n"), HasSubstr("taken at 2.00 m")));
 }
 
 TEST(HeeldCheck, AllThatIsWrongWithAFileIsSaid) {
   const Scene scene(1);
-  const std::string config = scene.write_config("[gate]\nv_max = 0.5\nseparation_m = -1\n");
-  const Outcome outcome = heeld(scene, {"--config", config, "--check"});
+  const std::string config = scene.write_config({.sections = "[gate]\nv_max = 0.5\nseparation_m = -1\n"});
+  const Outcome outcome = heeld({"--config", config, "--check"});
   EXPECT_EQ(outcome.status, kExitConfiguration);
-  EXPECT_EQ(outcome.output, config + ":17:1: gate.v_max: no such key; did you mean gate.v_max_m_s?\n" +
-                                config + ":18:16: gate.separation_m: -1 (expected a number 0…5 m)\n");
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err, place_of(config, "v_max") +
+                             ":1: gate.v_max: no such key; did you mean gate.v_max_m_s?\n" +
+                             place_of(config, "separation_m") +
+                             ":16: gate.separation_m: -1 (expected a number 0…5 m)\n");
 }
 
 TEST(HeeldCheck, FilesItRefersToAreLoaded) {
   const Scene scene(1);
   std::filesystem::remove(scene.path("shirt.heel"));
-  const Outcome outcome = heeld(scene, {"--config", scene.write_config(), "--check"});
+  const Outcome outcome = heeld({"--config", scene.write_config(), "--check"});
   EXPECT_EQ(outcome.status, kExitConfiguration);
-  EXPECT_THAT(outcome.output, HasSubstr(scene.path("shirt.heel")));
+  EXPECT_THAT(outcome.err, HasSubstr(scene.path("shirt.heel")));
 }
 
 TEST(HeeldCheck, BearingLimitMustFitTheCamera) {
   const Scene scene(1);
-  const Outcome outcome =
-      heeld(scene, {"--config", scene.write_config("[control]\nbearing_max_rad = 0.6\n"), "--check"});
+  const std::string config = scene.write_config({.sections = "[control]\nbearing_max_rad = 0.6\n"});
+  const Outcome outcome = heeld({"--config", config, "--check"});
   EXPECT_EQ(outcome.status, kExitConfiguration);
-  EXPECT_THAT(outcome.output, HasSubstr("control.bearing_max_rad: 0.6 (expected less than"));
+  EXPECT_THAT(outcome.err, HasSubstr("control.bearing_max_rad: 0.6 (expected less than"));
 }
 
 TEST(HeeldCheck, AFileReadAsFastAsPossibleIsNoCamera) {
   const Scene scene(1);
-  const std::string config = scene.write_config();
-  const std::string text = content_of(config);
-  std::ofstream(config) << text.substr(0, 9) << "file_speed = 0\n" << text.substr(9);  // after [camera]
-  const Outcome outcome = heeld(scene, {"--config", config, "--check"});
+  const Outcome outcome = heeld({"--config", scene.write_config({.camera = "file_speed = 0\n"}), "--check"});
   EXPECT_EQ(outcome.status, kExitConfiguration);
-  EXPECT_THAT(outcome.output, HasSubstr("camera.file_speed: 0 (expected more than 0"));
+  EXPECT_THAT(outcome.err, HasSubstr("camera.file_speed: 0 (expected more than 0"));
 }
 
-TEST(HeeldCheck, MissingConfigurationIsNamed) {
-  const Scene scene(1);
-  const Outcome outcome = heeld(scene, {"--config", "/nowhere.toml"});
+TEST(HeeldCheck, AMissingConfigurationIsNamed) {
+  const Outcome outcome = heeld({"--config", "/nowhere.toml"});
   EXPECT_EQ(outcome.status, kExitConfiguration);
-  EXPECT_THAT(outcome.output, HasSubstr("/nowhere.toml: cannot read"));
-  EXPECT_EQ(heeld(scene, {}).status, kExitConfiguration);
+  EXPECT_THAT(outcome.err, HasSubstr("/nowhere.toml: cannot read"));
+  EXPECT_EQ(heeld({}).status, kExitConfiguration);
 }
 
 TEST(HeeldCheck, PrintsTheCommittedExampleAndManual) {
-  const Scene scene(1);
-  EXPECT_EQ(heeld(scene, {"--print-default-config"}).output, content_of(HEEL_SOURCE_DIR "/config/heel.toml"));
-  EXPECT_EQ(heeld(scene, {"--print-config-manual"}).output,
-            content_of(HEEL_SOURCE_DIR "/docs/configuration.md"));
+  const Outcome example = heeld({"--print-default-config"}), manual = heeld({"--print-config-manual"});
+  EXPECT_EQ(example.out, read_text(source_path("config/heel.toml")));
+  EXPECT_EQ(manual.out, read_text(source_path("docs/configuration.md")));
+  for (const Outcome& outcome : {example, manual}) {
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_GT(outcome.out.size(), 1000u);
+  }
 }
 
 }  // namespace

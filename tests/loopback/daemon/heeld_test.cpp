@@ -1,23 +1,28 @@
 // The real daemon drives the real simulated robot over a pty towards a person shown 1 m too far away: it gets
 // ready, starts gently, and on every way out (SIGTERM, SIGKILL, the end of the film) the wheels stand.
+//
+// Times are judged by the simulator's own clock, in its truth and its wire file. Waiting only bounds a test
+// that fails, so a busy machine makes these tests longer, not red.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
+#include "core/config.h"
 #include "loopback/daemon/scene.h"
 #include "support/process.h"
+#include "support/temporary_folder.h"
+#include "support/text.h"
 
 namespace heel::test {
 namespace {
 
 using ::testing::HasSubstr;
 
-/// Told to systemd in this order, whatever STATUS comes between.
+/// Said to systemd in this order, with any STATUS between.
 bool reloaded_and_ready(const std::vector<std::string>& messages) {
   const auto starts = [](const char* text) {
     return [text](const std::string& message) { return message.starts_with(text); };
@@ -27,17 +32,30 @@ bool reloaded_and_ready(const std::vector<std::string>& messages) {
   return std::find_if(reloading, messages.end(), starts("READY=1")) != messages.end();
 }
 
+/// The film lasts longer than any test waits.
+constexpr int kFramesOfALongFilm = 4000;
+constexpr int kFramesOfAShortFilm = 400;
+constexpr double kWatchdog_s = 2.0;  // of the P3-AT's firmware
+
 class Heeld : public ::testing::Test {
  protected:
-  explicit Heeld(int frames = 2000) : scene_(frames) {}
+  explicit Heeld(int frames = kFramesOfALongFilm) : scene_(frames) {}
 
-  void start_robot(std::vector<std::string> more = {}) {
-    std::vector<std::string> argv = {HEEL_SIM_PROGRAM, "--robot", "pty:" + scene_.path("robot"),
-                                     "--exact",        "--truth", scene_.path("truth.csv"),
-                                     "--truth-rate",   "500"};
+  void start_robot(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> argv = {HEEL_SIM_PROGRAM,
+                                     "--robot",
+                                     "pty:" + scene_.path("robot"),
+                                     "--exact",
+                                     "--truth",
+                                     scene_.path("truth.csv"),
+                                     "--truth-rate",
+                                     "500",
+                                     "--wire",
+                                     scene_.path("wire.hex")};
     argv.insert(argv.end(), more.begin(), more.end());
+    robot_started_s_ = monotonic_s();
     robot_ = std::make_unique<Process>(argv, scene_.path("robot.log"));
-    ASSERT_TRUE(robot_->says("ready at", 10.0)) << robot_->output();
+    ASSERT_TRUE(robot_->says("ready at")) << robot_->output();
   }
   void start_heeld(const std::string& config) {
     daemon_ = std::make_unique<Process>(
@@ -45,188 +63,199 @@ class Heeld : public ::testing::Test {
         std::map<std::string, std::string>{{"NOTIFY_SOCKET", notify_.path()}});
   }
   double speed() const { return newest_truth(scene_.path("truth.csv")).v_m_s; }
-  bool drives(double timeout_s) {
-    return eventually([this] { return speed() > 0.2; }, timeout_s);
+  bool drives() {
+    return eventually([this] { return speed() > 0.2; });
   }
-  bool stands(double timeout_s) {
-    return eventually([this] { return speed() == 0.0; }, timeout_s);
+  bool stands() {
+    return eventually([this] { return speed() == 0.0; });
   }
-  std::string logs() { return daemon_->output() + "\n--- robot\n" + robot_->output(); }
+  std::string logs() {
+    return (daemon_ ? daemon_->output() : "") + "\n--- robot\n" + (robot_ ? robot_->output() : "");
+  }
 
   Scene scene_;
   NotifySocket notify_{scene_.path("notify")};
   std::unique_ptr<Process> robot_, daemon_;
+  double robot_started_s_ = 0.0;  ///< CLOCK_MONOTONIC at the zero of the simulator's time, or just before
+  const Config defaults_;
 };
 
 TEST_F(Heeld, GetsReadyFollowsAndStopsOnSigterm) {
   start_robot();
   start_heeld(scene_.write_config());
-  ASSERT_TRUE(notify_.receives("READY=1", 30.0)) << logs();
-  ASSERT_TRUE(drives(30.0)) << logs();
-  EXPECT_TRUE(notify_.receives("STATUS=following", 1.0));
+  ASSERT_TRUE(notify_.receives("READY=1")) << logs();
+  ASSERT_TRUE(drives()) << logs();
+  EXPECT_TRUE(notify_.receives("STATUS=following"));
 
   daemon_->signal(SIGTERM);
-  EXPECT_EQ(daemon_->wait(5.0), 0) << logs();
-  EXPECT_TRUE(notify_.receives("STOPPING=1", 0.1));
-  EXPECT_TRUE(daemon_->says("at rest: shutting down", 0.1)) << logs();
-  EXPECT_TRUE(robot_->says("closed", 2.0)) << logs();
-  EXPECT_TRUE(stands(2.0)) << logs();
+  EXPECT_EQ(daemon_->wait(), 0) << logs();
+  EXPECT_TRUE(notify_.receives("STOPPING=1"));
+  EXPECT_THAT(daemon_->output(), HasSubstr("at rest: shutting down"));
+  EXPECT_TRUE(robot_->says("closed")) << logs();
+  EXPECT_TRUE(stands()) << logs();
   // By STOP, not by the watchdog.
   EXPECT_THAT(robot_->output(), Not(HasSubstr("watchdog")));
 }
 
 TEST_F(Heeld, IsNotReadyWithoutARobotAndSaysWhy) {
   start_heeld(scene_.write_config());
-  EXPECT_TRUE(notify_.receives("STATUS=waiting for the robot", 10.0)) << daemon_->output();
+  EXPECT_TRUE(notify_.receives("STATUS=waiting for the robot")) << daemon_->output();
   EXPECT_FALSE(notify_.receives("READY=1", 1.0));
-  EXPECT_TRUE(daemon_->says("warn", 5.0)) << daemon_->output();  // the line does not open, and why
+  EXPECT_TRUE(daemon_->says("cannot open: No such file")) << daemon_->output();
   start_robot();
-  EXPECT_TRUE(notify_.receives("READY=1", 30.0)) << logs();
+  EXPECT_TRUE(notify_.receives("READY=1")) << logs();
   daemon_->signal(SIGINT);
-  EXPECT_EQ(daemon_->wait(5.0), 0);
+  EXPECT_EQ(daemon_->wait(), 0);
 }
 
 TEST_F(Heeld, IsReadyBeforeTheRobotIsThereWhereTheConfigurationSaysSo) {
-  const std::string config = scene_.write_config();
-  std::string text = content_of(config);
-  const std::string table = "[runtime]\n";
-  text.insert(text.find(table) + table.size(), "ready_after = \"start\"\n");
-  std::ofstream(config) << text;
-  start_heeld(config);
-  EXPECT_TRUE(notify_.receives("READY=1", 10.0)) << daemon_->output();
-  EXPECT_TRUE(notify_.receives("STATUS=waiting for the robot", 10.0)) << "ready, and still waiting";
+  start_heeld(scene_.write_config({.runtime = "ready_after = \"start\"\n"}));
+  EXPECT_TRUE(notify_.receives("READY=1")) << daemon_->output();
+  EXPECT_TRUE(notify_.receives("STATUS=waiting for the robot")) << "ready, and still waiting";
 }
 
 TEST_F(Heeld, SaysWhyTheLineDoesNotOpenOnceForEachReason) {
-  const auto lines = [this](const std::string& what) {
-    const std::string text = daemon_->output();
-    int n = 0;
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
-    return n;
-  };
   start_heeld(scene_.write_config());
-  ASSERT_TRUE(daemon_->says("cannot open: No such file", 30.0)) << daemon_->output();
-  std::ofstream(scene_.path("robot")) << "no terminal";
-  ASSERT_TRUE(daemon_->says("is not a terminal", 10.0)) << daemon_->output();
+  ASSERT_TRUE(daemon_->says("cannot open: No such file")) << daemon_->output();
+  write_text(scene_.path("robot"), "no terminal");
+  ASSERT_TRUE(daemon_->says("is not a terminal")) << daemon_->output();
   std::filesystem::remove(scene_.path("robot"));
   start_robot();
-  ASSERT_TRUE(notify_.receives("READY=1", 30.0)) << logs();
-  // Long enough for several rounds of whoever tells.
-  sleep_s(1.0);
-  EXPECT_LE(lines("No such file"), 2) << logs();  // before the other reason, and perhaps after it
-  EXPECT_EQ(lines("is not a terminal"), 1) << logs();
+  ASSERT_TRUE(notify_.receives("READY=1")) << logs();
+  sleep_s(1.0);  // several rounds of the code that logs the reason
+  EXPECT_LE(occurrences(daemon_->output(), "No such file"), 2)
+      << "before the other reason, and perhaps after it";
+  EXPECT_EQ(occurrences(daemon_->output(), "is not a terminal"), 1) << logs();
 }
 
 TEST_F(Heeld, KilledWhileTheWheelsTurnTheRobotStandsWithinItsWatchdogAndDoesNotJumpAfter) {
   start_robot();
   const std::string config = scene_.write_config();
   start_heeld(config);
-  ASSERT_TRUE(drives(30.0)) << logs();
+  ASSERT_TRUE(drives()) << logs();
   daemon_->signal(SIGKILL);
-  ASSERT_EQ(daemon_->wait(5.0), -SIGKILL);
-  // 2 s of watchdog, and braking from 0.7 m/s at 1.5 m/s².
-  EXPECT_TRUE(stands(2.0 + 0.7 / 1.5 + 0.5)) << logs();
-  EXPECT_THAT(robot_->output(), HasSubstr("watchdog stop"));
-
+  ASSERT_EQ(daemon_->wait(), -SIGKILL);
+  ASSERT_TRUE(robot_->says("watchdog stop")) << logs();
+  ASSERT_TRUE(stands()) << logs();
   const double t_restart_s = newest_truth(scene_.path("truth.csv")).t_s;
+  const double t_last_byte_s = last_received_s(scene_.path("wire.hex")) - robot_started_s_;
   start_heeld(config);
-  ASSERT_TRUE(drives(30.0)) << logs();
-  // From the restart on: never faster than the acceleration allows, from rest.
+  ASSERT_TRUE(drives()) << logs();
   daemon_->signal(SIGTERM);
-  daemon_->wait(5.0);
+  EXPECT_EQ(daemon_->wait(), 0);
   robot_->signal(SIGTERM);
-  robot_->wait(5.0);
-  double last_v = 0.0, last_t = 0.0;
-  for (const Truth& row : all_truth(scene_.path("truth.csv"))) {
+  EXPECT_EQ(robot_->wait(), 0);
+
+  const double t_watchdog_s = event_time_s(robot_->output(), "watchdog stop");
+  EXPECT_LE(t_watchdog_s - t_last_byte_s, kWatchdog_s + 0.1);
+  const std::vector<Truth> truth = all_truth(scene_.path("truth.csv"));
+  const auto stood = std::find_if(truth.begin(), truth.end(), [&](const Truth& row) {
+    return row.t_s > t_watchdog_s && row.v_m_s == 0.0;
+  });
+  ASSERT_NE(stood, truth.end());
+  const double braking_s = defaults_.gate.v_max_m_s / (1e-3 * defaults_.robot.deceleration_mm_s2);
+  EXPECT_LE(stood->t_s - t_watchdog_s, braking_s + 0.1);
+
+  // From the restart on: never faster than the acceleration allows, from rest.
+  double last_v = 0.0, last_t = 0.0, fastest = 0.0;
+  for (const Truth& row : truth) {
     // Over a tenth of a second, so that the simulator's steps do not count.
     if (row.t_s < t_restart_s || row.t_s - last_t < 0.1) continue;
     if (last_t != 0.0) {
-      EXPECT_LE(row.v_m_s - last_v, 0.6 * (row.t_s - last_t) + 0.05) << row.t_s;
+      EXPECT_LE(row.v_m_s - last_v, defaults_.gate.acceleration_m_s2 * (row.t_s - last_t) + 0.05) << row.t_s;
     }
     last_v = row.v_m_s;
     last_t = row.t_s;
+    fastest = std::max(fastest, row.v_m_s);
   }
+  EXPECT_GT(fastest, 0.1) << "the restart is in the truth";
   EXPECT_THAT(robot_->output(), Not(HasSubstr("old motion")));
 }
 
 TEST_F(Heeld, ReloadIsAllOrNothing) {
   start_robot();
   start_heeld(scene_.write_config());
-  ASSERT_TRUE(notify_.receives("READY=1", 30.0)) << logs();
-  ASSERT_TRUE(drives(30.0)) << logs();
+  ASSERT_TRUE(notify_.receives("READY=1")) << logs();
+  ASSERT_TRUE(drives()) << logs();
 
   // Good: taken over while driving.
-  scene_.write_config("[gate]\nv_max_m_s = 0.1\n");
+  scene_.write_config({.sections = "[gate]\nv_max_m_s = 0.1\n"});
   daemon_->signal(SIGHUP);
-  ASSERT_TRUE(daemon_->says("reloaded", 5.0)) << logs();
-  EXPECT_TRUE(eventually([this] { return reloaded_and_ready(notify_.messages()); }, 1.0)) << logs();
-  EXPECT_TRUE(eventually([this] { return speed() > 0.05 && speed() < 0.12; }, 5.0)) << speed();
+  ASSERT_TRUE(daemon_->says("reloaded")) << logs();
+  EXPECT_TRUE(eventually([this] { return reloaded_and_ready(notify_.messages()); })) << logs();
+  EXPECT_TRUE(eventually([this] { return speed() > 0.05 && speed() < 0.12; })) << speed();
 
   // An error, and beside it a good change: nothing of it is taken.
-  scene_.write_config("[gate]\nv_max_m_s = 0.6\n[control]\ngain_yaw = 1\n");
+  scene_.write_config({.sections = "[gate]\nv_max_m_s = 0.6\n[control]\ngain_yaw = 1\n"});
   daemon_->signal(SIGHUP);
-  ASSERT_TRUE(daemon_->says("did you mean control.gain_yaw_1_s?", 5.0));
-  ASSERT_TRUE(daemon_->says("the old configuration stays", 5.0));
+  ASSERT_TRUE(daemon_->says("did you mean control.gain_yaw_1_s?"));
+  ASSERT_TRUE(daemon_->says("the old configuration stays"));
 
   // A key that cannot change while running.
-  scene_.write_config("[gate]\nv_max_m_s = 0.6\n[vision]\noctaves = 3\n");
+  scene_.write_config({.sections = "[gate]\nv_max_m_s = 0.6\n[vision]\noctaves = 3\n"});
   daemon_->signal(SIGHUP);
-  ASSERT_TRUE(daemon_->says("vision.octaves cannot change while running", 5.0));
+  ASSERT_TRUE(daemon_->says("vision.octaves cannot change while running"));
   sleep_s(1.0);
   EXPECT_LT(speed(), 0.12);
   EXPECT_TRUE(daemon_->running());
 }
 
-class HeeldWithOnePicture : public Heeld {
+class HeeldWithOneFrame : public Heeld {
  protected:
-  HeeldWithOnePicture() : Heeld(1) {}
+  HeeldWithOneFrame() : Heeld(1) {}
 };
 
-TEST_F(HeeldWithOnePicture, FollowsAFilmThatBeginsAgain) {
+TEST_F(HeeldWithOneFrame, FollowsAFilmThatStartsAgain) {
   start_robot();
-  const std::string config = scene_.write_config();
-  const std::string text = content_of(config);
-  std::ofstream(config) << text.substr(0, 9) << "at_end = \"loop\"\n" << text.substr(9);  // after [camera]
-  start_heeld(config);
-  EXPECT_TRUE(drives(30.0)) << logs();
+  start_heeld(scene_.write_config({.camera = "at_end = \"loop\"\n"}));
+  EXPECT_TRUE(drives()) << logs();
 }
 
 class HeeldWithAShortFilm : public Heeld {
  protected:
-  HeeldWithAShortFilm() : Heeld(250) {}
+  HeeldWithAShortFilm() : Heeld(kFramesOfAShortFilm) {}
 };
 
 TEST_F(HeeldWithAShortFilm, ComesToRestAtItsEndAndLeavesARecording) {
+  const std::string frames = std::to_string(kFramesOfAShortFilm);
   start_robot();
-  start_heeld(scene_.write_config("[telemetry]\ndirectory = \"run\"\n"));
-  ASSERT_TRUE(drives(30.0)) << logs();
-  EXPECT_EQ(daemon_->wait(70.0), 0) << logs();
-  EXPECT_TRUE(daemon_->says("at rest: camera silent", 0.1)) << logs();
-  EXPECT_TRUE(robot_->says("closed", 2.0)) << logs();
-  EXPECT_TRUE(stands(2.0));
+  start_heeld(scene_.write_config({.sections = "[telemetry]\ndirectory = \"run\"\n"}));
+  ASSERT_TRUE(drives()) << logs();
+  EXPECT_EQ(daemon_->wait(), 0) << logs();
+  EXPECT_THAT(daemon_->output(), HasSubstr("at rest: camera silent"));
+  EXPECT_TRUE(robot_->says("closed")) << logs();
+  EXPECT_TRUE(stands());
   EXPECT_THAT(robot_->output(), Not(HasSubstr("watchdog")));
-  EXPECT_GT(content_of(scene_.path("run/ticks.csv")).size(), 10000u);
-  EXPECT_GT(content_of(scene_.path("run/poses.csv")).size(), 10000u);
-  EXPECT_TRUE(daemon_->says("camera: 250 frames, 0 dropped by the driver", 1.0)) << logs();
-  EXPECT_TRUE(daemon_->says(" packets, 0 with a wrong checksum", 1.0)) << logs();
-  EXPECT_THAT(content_of(scene_.path("run/capture.csv")), HasSubstr(",250,0,"));
+  EXPECT_GT(read_text(scene_.path("run/ticks.csv")).size(), 10000u);
+  EXPECT_GT(read_text(scene_.path("run/poses.csv")).size(), 10000u);
+  EXPECT_THAT(daemon_->output(), HasSubstr("camera: " + frames + " frames, 0 dropped by the driver"));
+  EXPECT_THAT(daemon_->output(), HasSubstr(" packets, 0 with a wrong checksum"));
+  EXPECT_THAT(read_text(scene_.path("run/capture.csv")), HasSubstr("," + frames + ",0,"));
 }
 
 TEST_F(Heeld, StopButtonHoldsTheRobotUntilHeeldIsRestarted) {
-  start_robot({"--fault", "stop_button@15+1"});
   const std::string config = scene_.write_config();
-  start_heeld(config);
-  ASSERT_TRUE(drives(14.0)) << logs();
-  EXPECT_TRUE(daemon_->says("at rest: stop button pressed", 20.0)) << logs();
-  EXPECT_TRUE(daemon_->says("motors stay off until heeld is restarted", 1.0)) << logs();
-  EXPECT_TRUE(stands(2.0));
+  // The button is pressed a fixed time after the simulator's start; a busy machine gets another, longer time.
+  for (const int pressed_at_s : {8, 30, 90}) {
+    start_robot({"--fault", "stop_button@" + std::to_string(pressed_at_s) + "+1"});
+    start_heeld(config);
+    ASSERT_TRUE(eventually([this] { return speed() > 0.2 || robot_->says("fault stop_button", 0.0); }))
+        << logs();
+    if (!robot_->says("fault stop_button", 0.0)) break;
+    daemon_.reset();
+    robot_.reset();
+  }
+  ASSERT_TRUE(daemon_) << "the robot was not driving after 90 s";
+  EXPECT_TRUE(daemon_->says("at rest: stop button pressed")) << logs();
+  EXPECT_TRUE(daemon_->says("motors stay off until heeld is restarted")) << logs();
+  EXPECT_TRUE(stands());
   sleep_s(2.0);
   EXPECT_EQ(speed(), 0.0) << "the button was released meanwhile";
 
   daemon_->signal(SIGTERM);
-  EXPECT_EQ(daemon_->wait(5.0), 0) << logs();
+  EXPECT_EQ(daemon_->wait(), 0) << logs();
   start_heeld(config);
-  EXPECT_TRUE(drives(30.0)) << logs();
+  EXPECT_TRUE(drives()) << logs();
 }
 
 }  // namespace

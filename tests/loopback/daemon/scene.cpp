@@ -5,12 +5,12 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <vector>
 
 #include "files/camera_info.h"
 #include "files/template_file.h"
 #include "heel/shirt_template.h"
-#include "support/process.h"
 #include "support/sanitized.h"
 
 namespace heel::test {
@@ -75,22 +75,21 @@ void Scene::write_pictures(int frames, double distance_m) const {
   for (int i = 0; i < frames; ++i) fs::create_symlink(first, path("frames/" + std::to_string(i) + ".png"));
 }
 
-// Sanitizers make vision ten times slower and leave the rest of the behaviour as it is: pictures come more
+// Sanitizers make vision ten times slower and leave the rest of the behaviour as it is: frames come more
 // slowly then, and count as fresh for longer.
-constexpr const char* kPace =
-    kSanitized ? "rate_hz = 5\n[supervisor]\nframe_timeout_s = 3\ntarget_timeout_s = 3\n"
-               : "rate_hz = 25\n[supervisor]\nframe_timeout_s = 0.3\ntarget_timeout_s = 0.4\n";
+constexpr const char* kRate = kSanitized ? "rate_hz = 5\n" : "rate_hz = 25\n";
+constexpr const char* kSupervisor =
+    kSanitized ? "[supervisor]\nframe_timeout_s = 3\ntarget_timeout_s = 3\n" : "";
 
-std::string Scene::write_config(const std::string& more) const {
-  const std::string file = path("heel.toml");
-  std::ofstream out(file);
-  out << "[camera]\nsource = \"file:frames\"\ninfo = \"camera.yaml\"\n"
-      << kPace
-      << "[target]\nshirt = \"shirt.heel\"\n"
-         "[robot]\naddress = \"pty:robot\"\nsync_retry_s = 0.2\nreconnect_s = 0.2\n"
-         "[runtime]\nrealtime = false\n"
-      << more;
-  return file;
+std::string Scene::write_config(const MoreConfig& more) const {
+  // Every key that is not named here stands at its default.
+  return write_text(path("heel.toml"),
+                    "[camera]\nsource = \"file:frames\"\ninfo = \"camera.yaml\"\n" + std::string(kRate) +
+                        more.camera + kSupervisor +
+                        "[target]\nshirt = \"shirt.heel\"\n"
+                        "[robot]\naddress = \"pty:robot\"\nsync_retry_s = 0.2\nreconnect_s = 0.2\n"
+                        "[runtime]\nrealtime = false\n" +
+                        more.runtime + more.sections);
 }
 
 namespace {
@@ -108,7 +107,7 @@ Truth row_of(const std::string& header, const std::string& row) {
 }  // namespace
 
 std::vector<Truth> all_truth(const std::string& csv_path) {
-  std::istringstream rows(content_of(csv_path));
+  std::istringstream rows(read_text(csv_path));
   std::string header, row;
   std::getline(rows, header);
   std::vector<Truth> truth;
@@ -132,6 +131,19 @@ Truth newest_truth(const std::string& csv_path) {
   }
   while (std::getline(file, row) && !file.eof()) last = row;
   return row_of(header, last);
+}
+
+double last_received_s(const std::string& wire_path) {
+  std::istringstream lines(read_text(wire_path));
+  double t_s = 0.0;
+  for (std::string line; std::getline(lines, line) && !lines.eof();) t_s = std::stod(line);
+  return t_s;
+}
+
+double event_time_s(const std::string& log, const std::string& event) {
+  const std::size_t at = log.find(event);
+  if (at == std::string::npos) throw std::runtime_error("no '" + event + "' in " + log);
+  return std::stod(log.substr(log.rfind('\n', at) + 1));  // npos + 1 is the first line's start
 }
 
 }  // namespace heel::test

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
-#include "heel/error.h"
 #include "sim/live/frame_sink.h"
+#include "support/complaint.h"
 #include "support/temporary_folder.h"
 
 namespace heel::sim {
@@ -36,13 +36,9 @@ TEST(PictureSink, TheFileIsTheNewestFrame) {
 }
 
 TEST(PictureSink, SaysWhatItCannotDo) {
-  const auto complaint = [](const std::string& address) -> std::string {
-    try {
-      open_frame_sink(address, 4, 2, 30.0)->put(of_four_by_two(), std::vector<std::uint8_t>(8));
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+  const auto complaint = [](const std::string& address) {
+    return heel::test::complaint_of(
+        [&] { open_frame_sink(address, 4, 2, 30.0)->put(of_four_by_two(), std::vector<std::uint8_t>(8)); });
   };
   EXPECT_EQ(complaint("file:now.png"), "--camera file:now.png (expected file:PICTURE.pgm)");
   EXPECT_NE(complaint("file:/nowhere/now.pgm").find("/nowhere/now.pgm"), std::string::npos);

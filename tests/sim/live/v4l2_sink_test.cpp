@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "heel/error.h"
+#include "support/complaint.h"
 #include "support/temporary_folder.h"
 
 namespace heel::sim {
@@ -69,12 +70,7 @@ V4l2Sink open_sink(Loopback& loopback) {
 }
 
 std::string complaint(Loopback loopback) {
-  try {
-    open_sink(loopback);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return heel::test::complaint_of([&] { open_sink(loopback); });
 }
 
 FrameHeader header() {

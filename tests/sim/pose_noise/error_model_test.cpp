@@ -11,6 +11,7 @@
 #include "heel/error.h"
 #include "sim/pose_noise/error_fit.h"
 #include "sim/pose_noise/sampled_poses.h"
+#include "support/complaint.h"
 #include "support/temporary_folder.h"
 
 namespace heel::sim {
@@ -104,12 +105,8 @@ TEST(ErrorFit, WhatDiffersBetweenWorldsIsKeptForARun) {
 }
 
 TEST(ErrorFit, TooFewSightingsAreNamed) {
-  try {
-    fit_error_model(made_up_rows(20, 3), {});
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("expected at least 200"));
-  }
+  EXPECT_THAT(heel::test::complaint_of([] { fit_error_model(made_up_rows(20, 3), {}); }),
+              HasSubstr("expected at least 200"));
 }
 
 TEST(ErrorConditions, WhatIsOutOfThePictureIsHidden) {
@@ -139,13 +136,9 @@ TEST(ErrorModelFile, RefusesByNameAndPlace) {
   const test::TemporaryFolder folder;
   write_error_model(fitted(), "a test", folder.file("model.toml"));
   const std::string whole = test::read_text(folder.file("model.toml"));
-  const auto complaint = [&](const std::string& text) -> std::string {
-    try {
-      read_error_model(test::write_text(folder.file("damaged.toml"), text));
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+  const auto complaint = [&](const std::string& text) {
+    return heel::test::complaint_of(
+        [&] { read_error_model(test::write_text(folder.file("damaged.toml"), text)); });
   };
   std::string without = whole;
   without.replace(without.find("print_share"), 11, "print_shape");

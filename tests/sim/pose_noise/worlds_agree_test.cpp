@@ -12,11 +12,12 @@
 #include "sim/lockstep/lockstep.h"
 #include "sim/scene/world.h"
 #include "support/sanitized.h"
+#include "support/test_data.h"
 
 namespace heel::sim {
 namespace {
 
-const std::string kModel = HEEL_SOURCE_DIR "/tools/heel-sim/pose_noise/pictured.toml";
+const std::string kModel = heel::test::source_path("tools/heel-sim/pose_noise/pictured.toml");
 
 LockstepSettings settings_for(const char* text, double duration_s) {
   LockstepSettings settings;

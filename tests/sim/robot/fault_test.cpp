@@ -1,8 +1,8 @@
 // Faults on demand: their spelling, their times and what they do to the line and the robot.
 #include <cmath>
 
-#include "heel/error.h"
 #include "sim/robot/virtual_client.h"
+#include "support/complaint.h"
 
 namespace heel::sim::test {
 namespace {
@@ -20,13 +20,8 @@ TEST(ParseFault, ReadsKindStartDurationAndAmount) {
 }
 
 TEST(ParseFault, NamesWhatIsWrong) {
-  const auto complaint = [](const std::string& text) -> std::string {
-    try {
-      parse_fault(text);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+  const auto complaint = [](const std::string& text) {
+    return heel::test::complaint_of([&] { parse_fault(text); });
   };
   EXPECT_NE(complaint("dorp@1").find("'dorp' is not a fault (expected one of drop, garble"),
             std::string::npos);

@@ -8,18 +8,16 @@
 #include <vector>
 
 #include "files/camera_info.h"
-#include "heel/error.h"
+#include "support/complaint.h"
+#include "support/test_data.h"
 
 namespace heel::sim {
 namespace {
 
+using heel::test::source_path;
+
 std::string complaint(const std::string& text) {
-  try {
-    parse_scenario(text, "s.toml");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return heel::test::complaint_of([&] { parse_scenario(text, "s.toml"); });
 }
 
 TEST(Scenario, ReadsWhatIsWritten) {
@@ -185,16 +183,13 @@ level = 0.2
 }
 
 TEST(Scenario, MissingFileIsNamed) {
-  try {
-    read_scenario("/nonexistent/x.toml");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("/nonexistent/x.toml"), std::string::npos);
-  }
+  EXPECT_NE(
+      heel::test::complaint_of([] { read_scenario("/nonexistent/x.toml"); }).find("/nonexistent/x.toml"),
+      std::string::npos);
 }
 
 TEST(Scenario, ShippedDemoHasAStraightAndBendsBothWays) {
-  const Scenario s = read_scenario(HEEL_SOURCE_DIR "/tools/heel-sim/scenarios/demo.toml");
+  const Scenario s = read_scenario(source_path("tools/heel-sim/scenarios/demo.toml"));
   bool left = false, right = false, straight = false;
   for (const WalkItem& item : s.path) {
     straight |= item.step == WalkStep::Straight && item.length_m > 3;
@@ -207,7 +202,7 @@ TEST(Scenario, ShippedDemoHasAStraightAndBendsBothWays) {
 
 TEST(Scenario, ShippedOnesSayWhatTheyShowAndNobodyWalksThroughThings) {
   int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(HEEL_SOURCE_DIR "/tools/heel-sim/scenarios")) {
+  for (const auto& entry : std::filesystem::directory_iterator(source_path("tools/heel-sim/scenarios"))) {
     if (entry.path().extension() != ".toml") continue;
     ++files;
     const std::string name = entry.path().stem().string();
@@ -236,10 +231,10 @@ TEST(Scenario, ShippedOnesSayWhatTheyShowAndNobodyWalksThroughThings) {
 }
 
 TEST(Scenario, ShippedCameraFileIsTheSimulatorsCamera) {
-  const CameraModel file = read_camera_model(HEEL_SOURCE_DIR "/config/camera/sim.yaml");
+  const CameraModel file = read_camera_model(source_path("config/camera/sim.yaml"));
   for (const CameraModel& sim :
        {default_camera_model(),
-        read_scenario(HEEL_SOURCE_DIR "/tools/heel-sim/scenarios/demo.toml").camera.model}) {
+        read_scenario(source_path("tools/heel-sim/scenarios/demo.toml")).camera.model}) {
     EXPECT_EQ(file.width_px, sim.width_px);
     EXPECT_EQ(file.height_px, sim.height_px);
     EXPECT_DOUBLE_EQ(file.fx, sim.fx);

@@ -1,5 +1,4 @@
-// Bad input: every row ends with exit status 2, nothing on standard output, and one line that names the
-// culprit.
+// Bad input to heel's commands is refused in one line that names what is wrong.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +24,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// Good files, and one bad one of each kind.
+/// Good files, and one bad file of each kind.
 class Files {
  public:
   Files() {
@@ -40,7 +39,7 @@ class Files {
     const std::string png = read_text(at("back.png"));
     write_text(at("cut.png"), std::string_view(png).substr(0, png.size() / 2));
     std::filesystem::create_directory(at("empty"));
-    const Outcome taught = run_heel(folder_, teach({}));
+    const Outcome taught = run_heel(teach({}));
     EXPECT_EQ(taught.status, 0) << taught.err;
     const std::string shirt = read_text(at("shirt.heel"));
     write_text(at("cut.heel"), std::string_view(shirt).substr(0, shirt.size() - 100));
@@ -50,22 +49,21 @@ class Files {
   }
 
   std::string at(const std::string& name) const { return folder_.file(name); }
-  const TemporaryFolder& folder() const { return folder_; }
 
-  /// A good command line with some of its options given otherwise.
-  std::vector<std::string> teach(const std::vector<std::string>& otherwise) const {
+  /// A good command line with some options replaced or added.
+  std::vector<std::string> teach(const std::vector<std::string>& changes) const {
     return changed({"teach", "--image", at("back.png"), "--roi", test::kRoi, "--distance", "1.5",
                     "--camera-info", at("camera.yaml"), "-o", at("shirt.heel")},
-                   otherwise);
+                   changes);
   }
-  std::vector<std::string> pose(const std::vector<std::string>& otherwise) const {
+  std::vector<std::string> pose(const std::vector<std::string>& changes) const {
     return changed({"pose", "--template", at("shirt.heel"), "--camera-info", at("camera.yaml"), "--json"},
-                   otherwise);
+                   changes);
   }
-  std::vector<std::string> bench(const std::vector<std::string>& otherwise) const {
-    return changed({"bench", "vision", "--json"}, otherwise);
+  std::vector<std::string> bench(const std::vector<std::string>& changes) const {
+    return changed({"bench", "vision", "--json"}, changes);
   }
-  /// With the options that pictures of one's own need.
+  /// With the options that given pictures need.
   std::vector<std::string> own(std::vector<std::string> more) const {
     more.insert(more.end(), {"--template", at("shirt.heel"), "--camera-info", at("camera.yaml")});
     return more;
@@ -73,13 +71,13 @@ class Files {
 
  private:
   static std::vector<std::string> changed(std::vector<std::string> good,
-                                          const std::vector<std::string>& otherwise) {
-    for (std::size_t i = 0; i < otherwise.size(); ++i) {
-      const auto option = std::find(good.begin(), good.end(), otherwise[i]);
-      if (option != good.end() && i + 1 < otherwise.size()) {
-        *(option + 1) = otherwise[++i];
+                                          const std::vector<std::string>& changes) {
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      const auto option = std::find(good.begin(), good.end(), changes[i]);
+      if (option != good.end() && i + 1 < changes.size()) {
+        *(option + 1) = changes[++i];
       } else {
-        good.push_back(otherwise[i]);
+        good.push_back(changes[i]);
       }
     }
     return good;
@@ -90,15 +88,28 @@ class Files {
 
 struct Row {
   std::vector<std::string> arguments;
-  std::string begins;  ///< the line's start: which command complains
-  std::string names;   ///< and what it names
+  std::string begins;  ///< the start of the line: which command refuses
+  std::string names;   ///< what the line names
 };
 
-TEST(BadInput, IsRefusedInOneLineThatNamesIt) {
+/// Each row ends with exit status 2, nothing on standard output, and one line on standard error.
+void expect_refused(const std::vector<Row>& rows) {
+  for (const Row& row : rows) {
+    std::string line;
+    for (const std::string& argument : row.arguments) line += " " + argument;
+    SCOPED_TRACE("heel" + line);
+    const Outcome outcome = run_heel(row.arguments);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_THAT(outcome.err, AllOf(StartsWith(row.begins), HasSubstr(row.names)));
+  }
+}
+
+TEST(BadInput, OfUnknownCommandsAndOptionsIsRefused) {
   const Files f;
   const std::string image = f.at("back.png");
-  const std::vector<Row> rows = {
-      // ── usage ──
+  expect_refused({
       {{}, "heel: ", "subcommand"},
       {{"taech"}, "heel: ", "no command 'taech' (expected one of calibrate, teach, pose"},
       {{"--frobnicate"}, "heel: ", "--help"},
@@ -106,7 +117,13 @@ TEST(BadInput, IsRefusedInOneLineThatNamesIt) {
       {f.teach({"--colour"}), "heel teach: ", "--colour"},
       {f.pose({image, "--frobnicate"}), "heel pose: ", "--frobnicate"},
       {f.pose({}), "heel pose: ", "inputs"},
-      // ── teach ──
+  });
+}
+
+TEST(BadInput, OfTeachIsRefused) {
+  const Files f;
+  const std::string image = f.at("back.png");
+  expect_refused({
       {f.teach({"--image", f.at("absent.png")}), "heel teach: ", "absent.png: cannot read: No such file"},
       {f.teach({"--image", f.at("words.txt")}), "heel teach: ", "words.txt: not an image or video"},
       {f.teach({"--image", f.at("empty")}), "heel teach: ", "empty: no image in this folder"},
@@ -132,7 +149,13 @@ TEST(BadInput, IsRefusedInOneLineThatNamesIt) {
       {f.teach({"-o", f.at("no/such/folder.heel")}), "heel teach: ", "no/such/folder.heel: cannot write"},
       {f.teach({"--picture", f.at("verdict.xyz")}), "heel teach: ", "verdict.xyz: unknown kind of picture"},
       {f.teach({"--max", "0"}), "heel teach: ", "--max"},
-      // ── pose ──
+  });
+}
+
+TEST(BadInput, OfPoseIsRefused) {
+  const Files f;
+  const std::string image = f.at("back.png");
+  expect_refused({
       {f.pose({f.at("absent.mp4")}), "heel pose: ", "absent.mp4: cannot read: No such file"},
       {f.pose({f.at("words.txt")}), "heel pose: ", "words.txt: not an image or video"},
       {f.pose({f.at("cut.png")}), "heel pose: ", "cut.png: not a whole image"},
@@ -149,7 +172,13 @@ TEST(BadInput, IsRefusedInOneLineThatNamesIt) {
       {f.pose({image, "--octaves", "9"}), "heel pose: ", "--octaves"},
       {f.pose({image, "--rate", "0"}), "heel pose: ", "--rate"},
       {f.pose({image, "--picture-dir", f.at("words.txt") + "/x"}), "heel pose: ", "--picture-dir"},
-      // ── calibrate ──
+  });
+}
+
+TEST(BadInput, OfCalibrateIsRefused) {
+  const Files f;
+  const std::string image = f.at("back.png");
+  expect_refused({
       {{"calibrate", image, "--board", "9x6", "--square", "0", "-o", f.at("c.yaml")},
        "heel calibrate: ",
        "--square"},
@@ -159,7 +188,13 @@ TEST(BadInput, IsRefusedInOneLineThatNamesIt) {
       {{"calibrate", "--board", "9x6", "--square", "0.03", "-o", f.at("c.yaml")},
        "heel calibrate: ",
        "images"},
-      // ── bench vision ──
+  });
+}
+
+TEST(BadInput, OfBenchVisionIsRefused) {
+  const Files f;
+  const std::string image = f.at("back.png");
+  expect_refused({
       {{"bench"}, "heel bench: ", "subcommand"},
       {f.bench({"--frobnicate"}), "heel bench vision: ", "--frobnicate"},
       {f.bench({"--frames", "0"}), "heel bench vision: ", "--frames"},
@@ -178,39 +213,25 @@ TEST(BadInput, IsRefusedInOneLineThatNamesIt) {
       {f.bench(f.own({f.at("small.png")})),
        "heel bench vision: ", "small.png: 320x240 pixels (expected 640x480"},
       {f.bench(f.own({image})), "heel bench vision: ", "back.png: frames: 1 (expected 2 or more"},
-  };
-  for (const Row& row : rows) {
-    std::string line;
-    for (const std::string& argument : row.arguments) line += " " + argument;
-    SCOPED_TRACE("heel" + line);
-    const Outcome outcome = run_heel(f.folder(), row.arguments);
-    EXPECT_EQ(outcome.status, 2);
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_THAT(outcome.err, AllOf(StartsWith(row.begins), HasSubstr(row.names)));
-  }
+  });
 }
 
 TEST(GoodUsage, HelpAndVersionGoToStandardOutput) {
-  const TemporaryFolder folder;
-  const Outcome version = run_heel(folder, {"--version"});
+  const Outcome version = run_heel({"--version"});
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.out, StartsWith("heel "));
   for (const char* command : {"teach", "pose", "calibrate"}) {
-    const Outcome help = run_heel(folder, {command, "--help"});
+    const Outcome help = run_heel({command, "--help"});
     EXPECT_EQ(help.status, 0) << command;
     EXPECT_EQ(help.err, "") << command;
     EXPECT_THAT(help.out, HasSubstr("REQUIRED")) << command;
   }
 }
 
-TEST(GoodUsage, AFullDiskBehindStandardOutputIsSaid) {
-  const TemporaryFolder folder;
-  const std::string command =
-      test::quoted(HEEL_PROGRAM) + " --help >/dev/full 2>" + test::quoted(folder.file("err"));
-  const int status = std::system(command.c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 2);
-  EXPECT_THAT(read_text(folder.file("err")), HasSubstr("standard output cannot be written"));
+TEST(GoodUsage, AFullDiskBehindStandardOutputIsNamed) {
+  const Outcome outcome = test::run_program({HEEL_PROGRAM, "--help"}, "/dev/full");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("standard output cannot be written"));
 }
 
 }  // namespace

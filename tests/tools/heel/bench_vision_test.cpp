@@ -59,7 +59,7 @@ void expect_stages(const ordered_json& figure, const std::vector<std::string>& n
 TEST(BenchVision, TheDefaultWalkGivesEveryAgreedFigureAndIsTracked) {
   const TemporaryFolder folder;
   const int frames = test::kSanitized ? 2 : 24;
-  const Outcome outcome = run_heel(folder, {"bench", "vision", "--json", "--frames", std::to_string(frames)});
+  const Outcome outcome = run_heel({"bench", "vision", "--json", "--frames", std::to_string(frames)});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   const auto json = ordered_json::parse(outcome.out);
@@ -100,8 +100,8 @@ TEST(BenchVision, TheDefaultWalkGivesEveryAgreedFigureAndIsTracked) {
 TEST(BenchVision, AnotherSizeHasNoGoalsAndCanBeDrawn) {
   const TemporaryFolder folder;
   const std::string picture = folder.file("bench.png");
-  const Outcome outcome = run_heel(
-      folder, {"bench", "vision", "--json", "--frames", "1", "--size", "400x300", "--picture", picture});
+  const Outcome outcome =
+      run_heel({"bench", "vision", "--json", "--frames", "1", "--size", "400x300", "--picture", picture});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto json = ordered_json::parse(outcome.out);
   EXPECT_EQ(json["settings"]["width_px"], 400);
@@ -119,8 +119,8 @@ TEST(BenchVision, MeasuresOnesOwnPictures) {
   write_camera_model(test::shirt_camera(), camera);
   const cv::Mat reference = test::printed_plane();
   cv::imwrite(back, reference);
-  ASSERT_EQ(run_heel(folder, {"teach", "--image", back, "--roi", test::kRoi, "--distance", "1.5",
-                              "--camera-info", camera, "-o", shirt})
+  ASSERT_EQ(run_heel({"teach", "--image", back, "--roi", test::kRoi, "--distance", "1.5", "--camera-info",
+                      camera, "-o", shirt})
                 .status,
             0);
   const std::filesystem::path frames = folder.path() / "frames";
@@ -129,7 +129,7 @@ TEST(BenchVision, MeasuresOnesOwnPictures) {
     cv::imwrite((frames / ("view" + std::to_string(i) + ".png")).string(),
                 TrueMotion{0.05 * i, {0.01 * i, 0, 0.2}}.picture(reference));
   const Outcome outcome =
-      run_heel(folder, {"bench", "vision", "--template", shirt, "--camera-info", camera, frames.string()});
+      run_heel({"bench", "vision", "--template", shirt, "--camera-info", camera, frames.string()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("2 frames of 640 x 480, " + frames.string()),
                                  HasSubstr("found in 100 %, tracked in 100 %"), HasSubstr("cv::SIFT"),

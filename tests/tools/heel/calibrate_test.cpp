@@ -104,7 +104,7 @@ class Calibrate : public ::testing::Test {
   Outcome calibrate(std::vector<std::string> images, const std::string& board = "9x6") {
     std::vector<std::string> arguments = {"calibrate", "--board", board, "--square", "0.03", "-o", output};
     arguments.insert(arguments.end(), images.begin(), images.end());
-    return run_heel(folder, arguments);
+    return run_heel(arguments);
   }
 
   TemporaryFolder folder;

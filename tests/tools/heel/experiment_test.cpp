@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/figure.h"
+#include "support/test_data.h"
 #include "tools/heel/run_heel.h"
 
 namespace heel {
@@ -20,16 +21,16 @@ using ::testing::HasSubstr;
 class Experiments : public ::testing::Test {
  protected:
   void expect_done(const std::vector<std::string>& arguments) {
-    const Outcome outcome = run_heel(folder_, arguments);
+    const Outcome outcome = run_heel(arguments);
     ASSERT_EQ(outcome.status, 0) << arguments[0] << ": " << outcome.err;
   }
   /// A run without pictures, which takes a moment.
   void simulate(const std::string& experiment, const std::string& name, std::vector<std::string> more = {}) {
-    const std::string scenarios = HEEL_SOURCE_DIR "/tools/heel-sim/experiments/";
+    const std::string scenarios = test::source_path("tools/heel-sim/experiments/");
     std::vector<std::string> arguments{"simulate", scenarios + experiment + ".toml", "--duration", "12",
                                        "--out",    folder_.file("runs/" + name)};
     arguments.insert(arguments.end(),
-                     {"--error-model", HEEL_SOURCE_DIR "/tools/heel-sim/pose_noise/pictured.toml"});
+                     {"--error-model", test::source_path("tools/heel-sim/pose_noise/pictured.toml")});
     arguments.insert(arguments.end(), more.begin(), more.end());
     expect_done(arguments);
   }
@@ -52,11 +53,11 @@ TEST_F(Experiments, GiveTheFiguresOfThePaperAndMore) {
   simulate("response", "response");
   simulate("walk", "walk");
   simulate("walk", "walk-position-only",
-           {"--config", HEEL_SOURCE_DIR "/tools/heel-sim/experiments/position-only.toml"});
+           {"--config", test::source_path("tools/heel-sim/experiments/position-only.toml")});
   gather_errors();
   test::write_text(folder_.file("real_video.csv"),
                    "frame,in_view,found,certainty\n0,0,0,0.0\n3,1,1,0.5\n6,1,1,0.6\n9,0,0,0.0\n");
-  const Outcome outcome = run_heel(folder_, {"report", out});
+  const Outcome outcome = run_heel({"report", out});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   EXPECT_EQ(outcome.out, test::read_text(folder_.file("summary.md")));
@@ -78,7 +79,7 @@ TEST_F(Experiments, GiveTheFiguresOfThePaperAndMore) {
 TEST_F(Experiments, AMissingPictureOfAHardCaseIsNamed) {
   expect_done({"experiment", "hard", "-o", folder_.path().string()});
   std::filesystem::remove(folder_.file("hard/003.png"));
-  const Outcome outcome = run_heel(folder_, {"report", folder_.path().string()});
+  const Outcome outcome = run_heel({"report", folder_.path().string()});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(outcome.err, "heel report: " + folder_.file("hard/003.png") +
                              ": cannot read (expected the picture of " + folder_.file("hard.csv") + ":9)\n");

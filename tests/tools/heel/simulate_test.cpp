@@ -12,6 +12,7 @@
 #include "support/environment.h"
 #include "support/figure.h"
 #include "support/sanitized.h"
+#include "support/test_data.h"
 #include "tools/heel/run_heel.h"
 
 namespace heel {
@@ -40,7 +41,7 @@ class Simulate : public ::testing::Test {
   }
   Outcome simulate(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "simulate");
-    return run_heel(folder_, arguments);
+    return run_heel(arguments);
   }
   TemporaryFolder folder_;
 };
@@ -96,7 +97,7 @@ TEST_F(Simulate, SeveralGiveAListAndALimitThatIsNotMetNamesItsScenario) {
 // One run a core at a time: each is what it is alone, whichever ends first.
 TEST_F(Simulate, ManyRunsWithoutPicturesAreThoseOfTheirSeeds) {
   const std::string walk = scenario("walk"),
-                    model = HEEL_SOURCE_DIR "/tools/heel-sim/pose_noise/pictured.toml";
+                    model = test::source_path("tools/heel-sim/pose_noise/pictured.toml");
   const Outcome many =
       simulate({walk, "--json", "--error-model", model, "--seed", "7", "--duration", "9", "--runs", "4"});
   ASSERT_EQ(many.status, 0) << many.err;

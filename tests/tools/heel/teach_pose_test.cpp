@@ -52,12 +52,12 @@ class TeachAndPose : public ::testing::Test {
     std::vector<std::string> arguments = {"teach", "--image",       image,  "--roi", test::kRoi, "--distance",
                                           "1.5",   "--camera-info", camera, "-o",    shirt};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_heel(folder, arguments);
+    return run_heel(arguments);
   }
   Outcome pose(const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {"pose", "--template", shirt, "--camera-info", camera};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_heel(folder, arguments);
+    return run_heel(arguments);
   }
   static std::vector<json> lines_of(const std::string& text) {
     std::vector<json> lines;
@@ -97,8 +97,8 @@ TEST_F(TeachAndPose, TeachSaysHowGoodItIsAndKeepsWhatItWasTold) {
 TEST_F(TeachAndPose, TeachTakesTheSameViewThroughACameraAddress) {
   ASSERT_EQ(teach().status, 0);
   const std::string by_camera = folder.file("camera.heel");
-  const Outcome outcome = run_heel(folder, {"teach", "--camera", "file:" + image, "--roi", test::kRoi,
-                                            "--distance", "1.5", "--camera-info", camera, "-o", by_camera});
+  const Outcome outcome = run_heel({"teach", "--camera", "file:" + image, "--roi", test::kRoi, "--distance",
+                                    "1.5", "--camera-info", camera, "-o", by_camera});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(test::read_text(by_camera), test::read_text(shirt));
 }

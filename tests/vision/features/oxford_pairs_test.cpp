@@ -9,6 +9,7 @@
 #include <string>
 
 #include "heel/matching.h"
+#include "support/test_data.h"
 #include "vision/features/test_image.h"
 
 namespace heel::test {
@@ -108,7 +109,7 @@ struct RealPair {
 };
 
 TEST(FeaturesRealPairs, MatchTheOxfordImages) {
-  if (!has_oxford_set("graf")) GTEST_SKIP() << "no test data at " << data_folder();
+  for (const char* set : {"graf", "boat", "leuven"}) HEEL_NEEDS_TEST_DATA(oxford_folder(set));
   const FeatureSettings settings{.octaves = 3, .max_features = 500, .oriented = true, .spread = false};
   // Floors a little below what was measured when this was written.
   for (const RealPair& pair : {RealPair{"graf", 2, 170, 0.85},

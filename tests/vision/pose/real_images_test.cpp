@@ -1,8 +1,6 @@
 // Real pictures with known truth: the Oxford sets' homographies, and a person filmed from behind.
-// Skipped where the data are absent (HEEL_TEST_DATA, else ../shared/data beside the source).
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <string>
@@ -10,10 +8,10 @@
 #include "heel/pose_estimator.h"
 #include "support/oxford_pairs.h"
 #include "support/sanitized.h"
+#include "support/test_data.h"
 
 namespace {
 
-namespace fs = std::filesystem;
 using heel::PoseEstimate;
 using heel::ShirtTemplate;
 using heel::test::view_of;
@@ -50,7 +48,7 @@ class OxfordPairTest : public testing::TestWithParam<Pair> {};
 
 TEST_P(OxfordPairTest, CornerErrorBelowThreePixels) {
   const auto [set, to, oriented] = GetParam();
-  if (!heel::test::has_oxford_set(set)) GTEST_SKIP() << "no test data at " << heel::test::data_folder();
+  HEEL_NEEDS_TEST_DATA(heel::test::oxford_folder(set));
   const heel::test::OxfordPair pair = heel::test::load_oxford_pair(set, to);
   ASSERT_EQ(pair.reference.size(), pair.current.size());
 
@@ -76,10 +74,9 @@ INSTANTIATE_TEST_SUITE_P(Real, OxfordPairTest,
 // The knit back of frame 1000. Looking at the frames: it comes into view whole at about 925, walks away and
 // stands until 1175, and turns away until about 1185; nobody else in the film wears it.
 TEST(PersonFromBehind, FoundWhereSheIsAndNowhereElse) {
-  const fs::path path = heel::test::data_folder() / "person" / "one-by-one.mp4";
-  if (!fs::exists(path)) GTEST_SKIP() << "no test data at " << path;
+  HEEL_NEEDS_TEST_DATA("person/one-by-one.mp4");
   std::vector<cv::Mat> frames;
-  cv::VideoCapture video(path.string());
+  cv::VideoCapture video(heel::test::data_path("person/one-by-one.mp4"));
   for (cv::Mat frame; video.read(frame);) {
     cv::Mat grey;
     cv::cvtColor(frame, grey, cv::COLOR_BGR2GRAY);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "heel/shirt_template.h"
+#include "support/test_data.h"
 
 namespace heel {
 namespace {
@@ -182,11 +183,9 @@ TEST(TemplateFeatures, LieInTheRegionOverAWideRangeOfScalesStrongestFirst) {
   EXPECT_GT(largest_px, 8.f);
 }
 
-/// A frame of the real video as a template; empty grey where the test data is absent.
+/// A frame of the real video as a template.
 ShirtTemplate real_shirt(int frame, const Region& roi) {
-  const char* folder = std::getenv("HEEL_TEST_DATA");
-  const std::string data = folder != nullptr ? folder : HEEL_SOURCE_DIR "/../shared/data";
-  cv::VideoCapture video(data + "/person/one-by-one.mp4", cv::CAP_FFMPEG);
+  cv::VideoCapture video(test::data_path("person/one-by-one.mp4"), cv::CAP_FFMPEG);
   ShirtTemplate shirt;
   for (int i = 0; i < frame; ++i) video.grab();
   cv::Mat image, grey;
@@ -203,8 +202,9 @@ ShirtTemplate real_shirt(int frame, const Region& roi) {
 }
 
 TEST(TemplateQuality, TakesTheRealKnitBack) {
+  HEEL_NEEDS_TEST_DATA("person/one-by-one.mp4");
   const ShirtTemplate shirt = real_shirt(1000, {400, 90, 100, 175});
-  if (shirt.grey.empty()) GTEST_SKIP() << "no person/one-by-one.mp4 in HEEL_TEST_DATA";
+  ASSERT_FALSE(shirt.grey.empty()) << "the video cannot be read";
   const TemplateVerdict verdict = judge_template(shirt);
   EXPECT_TRUE(verdict.usable) << verdict.reason;
   EXPECT_EQ(verdict.spread, 1.0);

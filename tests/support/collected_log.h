@@ -8,13 +8,9 @@
 #include <sstream>
 #include <string>
 
-namespace heel::test {
+#include "support/text.h"
 
-inline int occurrences(const std::string& text, const std::string& what) {
-  int n = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
-  return n;
-}
+namespace heel::test {
 
 class CollectedLog {
  public:
@@ -29,7 +25,7 @@ class CollectedLog {
   ~CollectedLog() { spdlog::set_default_logger(before_); }
 
   std::string text() const { return out_.str(); }
-  int told(const std::string& what) const { return occurrences(text(), what); }
+  int count(const std::string& what) const { return occurrences(text(), what); }
 
  private:
   std::ostringstream out_;

@@ -1,0 +1,21 @@
+// What a call that must be refused says about it.
+#pragma once
+
+#include <string>
+
+#include "heel/error.h"
+
+namespace heel::test {
+
+/// The text of the heel::Error that `call` throws; "accepted" when it throws none.
+template <typename Call>
+std::string complaint_of(Call&& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+}  // namespace heel::test
