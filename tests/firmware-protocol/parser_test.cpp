@@ -124,30 +124,28 @@ TEST(ParserWaiting, ResetForgetsABegunPacketButNotTheCounters) {
   EXPECT_EQ(collector.counters().packets, 2u);
 }
 
-TEST(ParserProperties, EveryByteIsAccountedFor) {
-  rc::check("packets + discarded + pending == fed", [] {
-    // Bytes drawn so that headers and small counts are common.
-    const auto byte = rc::gen::oneOf(rc::gen::arbitrary<std::uint8_t>(),
-                                     rc::gen::element<std::uint8_t>(0xFA, 0xFB, 3, 4, 0));
-    const auto stream = *rc::gen::container<Bytes>(byte);
-    Collector collector;
-    collector.feed(stream);
-    std::size_t in_packets = 0;
-    for (const Bytes& body : collector.bodies()) in_packets += kHeaderSize + body.size() + kChecksumSize;
-    RC_ASSERT(in_packets + collector.counters().bytes_discarded + collector.parser().pending_bytes() ==
-              stream.size());
-  });
+// Packets, discarded and pending bytes together are the bytes fed.
+RC_GTEST_PROP(ParserProperties, EveryByteIsAccountedFor, ()) {
+  // Bytes drawn so that headers and small counts are common.
+  const auto byte =
+      rc::gen::oneOf(rc::gen::arbitrary<std::uint8_t>(), rc::gen::element<std::uint8_t>(0xFA, 0xFB, 3, 4, 0));
+  const auto stream = *rc::gen::container<Bytes>(byte);
+  Collector collector;
+  collector.feed(stream);
+  std::size_t in_packets = 0;
+  for (const Bytes& body : collector.bodies()) in_packets += kHeaderSize + body.size() + kChecksumSize;
+  RC_ASSERT(in_packets + collector.counters().bytes_discarded + collector.parser().pending_bytes() ==
+            stream.size());
 }
 
-TEST(ParserProperties, CutsNeverMatter) {
-  rc::check("byte by byte sees what one read sees", [](const Bytes& junk, const Bytes& tail) {
-    const Bytes stream = junk + framed(kOddBody) + tail + framed(kEvenBody) + junk;
-    Collector whole, bytewise;
-    whole.feed(stream);
-    for (const std::uint8_t byte : stream) bytewise.feed(std::span(&byte, 1));
-    RC_ASSERT(whole.seen() == bytewise.seen());
-    RC_ASSERT(whole.counters().bytes_discarded == bytewise.counters().bytes_discarded);
-  });
+// Byte by byte the parser sees what it sees in one read.
+RC_GTEST_PROP(ParserProperties, CutsNeverMatter, (const Bytes& junk, const Bytes& tail)) {
+  const Bytes stream = junk + framed(kOddBody) + tail + framed(kEvenBody) + junk;
+  Collector whole, bytewise;
+  whole.feed(stream);
+  for (const std::uint8_t byte : stream) bytewise.feed(std::span(&byte, 1));
+  RC_ASSERT(whole.seen() == bytewise.seen());
+  RC_ASSERT(whole.counters().bytes_discarded == bytewise.counters().bytes_discarded);
 }
 
 }  // namespace

@@ -10,19 +10,17 @@
 namespace heel {
 namespace {
 
-TEST(VelocityRounding, SumNeverStraysMoreThanHalfAUnit) {
-  rc::check("sum of commands follows sum asked", [] {
-    VelocityRounding rounding(1000);
-    double asked = 0.0;
-    long sent = 0;
-    const auto steps = *rc::gen::container<std::vector<int>>(rc::gen::inRange(-900'000, 900'000));
-    for (const int milli : steps) {
-      if (milli == 0) continue;
-      asked += milli * 1e-3;
-      sent += rounding.next(milli * 1e-3);
-      RC_ASSERT(std::abs(asked - static_cast<double>(sent)) <= 0.5 + 1e-6);
-    }
-  });
+RC_GTEST_PROP(VelocityRounding, SumNeverStraysMoreThanHalfAUnit, ()) {
+  VelocityRounding rounding(1000);
+  double asked = 0.0;
+  long sent = 0;
+  const auto steps = *rc::gen::container<std::vector<int>>(rc::gen::inRange(-900'000, 900'000));
+  for (const int milli : steps) {
+    if (milli == 0) continue;
+    asked += milli * 1e-3;
+    sent += rounding.next(milli * 1e-3);
+    RC_ASSERT(std::abs(asked - static_cast<double>(sent)) <= 0.5 + 1e-6);
+  }
 }
 
 TEST(VelocityRounding, ZeroIsZeroAtOnceAndForgetsTheRest) {
