@@ -1,6 +1,7 @@
 // Both worlds on shared scenarios: the one that draws pictures and the one that draws poses from the error
 // model that is shipped give the same following figures, and truth alone is the pictured world's truth to the
 // bit.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "evaluation/metrics/metrics.h"
 #include "heel/error.h"
 #include "sim/lockstep/lockstep.h"
+#include "sim/lockstep/transcript.h"
 #include "sim/scene/world.h"
 #include "support/sanitized.h"
 #include "support/test_data.h"
@@ -140,10 +142,14 @@ TEST(TruthWithoutPictures, IsThePicturedWorldsToTheBit) {
 TEST(PosesWithoutPictures, RepeatToTheBitAndDifferBySeed) {
   LockstepSettings settings = settings_for(kBends, 6.0);
   settings.errors = sim::read_error_model(kModel);
-  const double first = run(settings).yaw_error_rad.mean;
-  EXPECT_EQ(run(settings).yaw_error_rad.mean, first);
+  int poses_found = 0;
+  const heel::test::Transcript first = heel::test::transcript_of(settings, &poses_found);
+  EXPECT_GT(poses_found, 100);
+  EXPECT_THAT(heel::test::differences(first, heel::test::transcript_of(settings)), testing::IsEmpty());
   settings.scenario.seed = 7;
-  EXPECT_NE(run(settings).yaw_error_rad.mean, first);
+  EXPECT_THAT(heel::test::differences(first, heel::test::transcript_of(settings)),
+              testing::IsSupersetOf({"poses", "ticks", "truth", "bytes to the robot", "poses.csv",
+                                     "ticks.csv", "truth.csv", "wire.hex"}));
 }
 
 TEST(PosesWithoutPictures, NeedTheSimulatedWorld) {
