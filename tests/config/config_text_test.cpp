@@ -26,6 +26,7 @@ TEST(ConfigText, ManualIsUpToDate) {
 TEST(ConfigText, ExampleFileSetsEveryKeyToItsDefault) {
   const LoadedConfig loaded = parse_config(default_config_text(), "heel.toml");
   const LoadedConfig empty = parse_config("", "heel.toml");
+  ASSERT_FALSE(config_keys().empty());
   for (std::size_t i = 0; i < config_keys().size(); ++i) {
     const ConfigKey& key = config_keys()[i];
     EXPECT_NE(loaded.line_of[i], 0) << key.full_name();

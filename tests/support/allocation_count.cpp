@@ -2,6 +2,8 @@
 
 #include <cerrno>
 #include <cstddef>
+#include <cstdlib>
+#include <stdexcept>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define HEEL_SANITIZED_ALLOCATOR 1
@@ -48,7 +50,14 @@ int posix_memalign(void** out, std::size_t alignment, std::size_t bytes) {
 namespace heel::test {
 
 bool counts_allocations() {
-  return HEEL_SANITIZED_ALLOCATOR == 0;
+  if (HEEL_SANITIZED_ALLOCATOR != 0) return false;
+  void* (*volatile allocate)(std::size_t) =
+      &std::malloc;  // volatile: the compiler may not leave the call out
+  const std::uint64_t before = allocations;
+  std::free(allocate(1));
+  if (allocations != before + 1) throw std::logic_error("this program's allocations are not counted");
+  allocations = before;
+  return true;
 }
 
 std::uint64_t allocations_of_this_thread() {

@@ -6,7 +6,8 @@
 
 namespace heel::test {
 
-/// False under the sanitizers, whose allocator takes that place.
+/// False under the sanitizers, whose allocator takes that place. Throws std::logic_error where counting
+/// should work and does not.
 bool counts_allocations();
 
 /// Calls of malloc, calloc, realloc and the aligned ones (and so of operator new) by this thread so far.

@@ -10,6 +10,7 @@ namespace heel::test {
 /// Runs `body` once for each instruction set heel is compiled for and this processor has, alone.
 template <typename Body>
 void for_each_simd_target(Body body) {
+  ASSERT_FALSE(available_simd_targets().empty());
   for (const std::string_view target : available_simd_targets()) {
     SCOPED_TRACE(target);
     ASSERT_TRUE(use_simd_target(target));

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "support/collected_log.h"
+#include "support/process.h"
 #include "support/temporary_folder.h"
 #include "telemetry/event_text.h"
 
@@ -104,7 +105,8 @@ TEST_F(TelemetryTest, EverythingPushedIsInTheRecordingAfterStop) {
       while (!queues_.captures.push(counts)) std::this_thread::yield();
     }
   });
-  for (TelemetrySnapshot seen; seen.ticks == 0;) seen = telemetry.snapshot();  // asked from a third thread
+  EXPECT_TRUE(test::eventually([&] { return telemetry.snapshot().ticks > 0; }))
+      << "asked from a third thread";
   control.join();
   vision.join();
   capture.join();

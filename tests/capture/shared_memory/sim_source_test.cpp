@@ -107,8 +107,8 @@ TEST(SimSource, AWaitEndsWhenAFrameComes) {
     publish(writer, 1);
   });
   FrameView frame;
-  EXPECT_EQ(source.wait_frame(60 * kNsPerS, frame), FrameResult::Frame);
-  EXPECT_LT(monotonic_now_ns() - before_ns, 30 * kNsPerS);
+  EXPECT_EQ(source.wait_frame(600 * kNsPerS, frame), FrameResult::Frame);
+  EXPECT_LT(monotonic_now_ns() - before_ns, 300 * kNsPerS);
 }
 
 TEST(SimSource, AbsentWhenTheWriterHasSaidFarewellAndStillHoldsTheName) {
@@ -137,7 +137,9 @@ TEST(SimSource, LostWhenTheSimulatorEndsAndFoundAgainWhenItReturns) {
     ASSERT_EQ(source.wait_frame(0, frame), FrameResult::Frame);
     EXPECT_EQ(frame.header.sequence, life);
     writer.reset();
-    EXPECT_EQ(source.wait_frame(60 * kNsPerS, frame), FrameResult::Lost) << "at once, not after the timeout";
+    const TimeNs before_ns = monotonic_now_ns();
+    EXPECT_EQ(source.wait_frame(600 * kNsPerS, frame), FrameResult::Lost);
+    EXPECT_LT(monotonic_now_ns() - before_ns, 300 * kNsPerS) << "not after the timeout";
     source.close();
     EXPECT_EQ(source.open(), OpenResult::Absent);
   }
@@ -248,18 +250,16 @@ TEST(SimSource, StressNothingTornNeverBackwards) {
     for (std::uint64_t sequence = 1; sequence <= kFrames; ++sequence) publish(writer, sequence);
   });
   FrameView frame;
-  std::uint64_t last = 0;
-  std::uint64_t given = 0;
+  std::uint64_t first = 0, last = 0, given = 0;
   while (last < kFrames) {
-    ASSERT_EQ(source.wait_frame(10 * kNsPerS, frame), FrameResult::Frame);
+    ASSERT_EQ(source.wait_frame(60 * kNsPerS, frame), FrameResult::Frame);
     ASSERT_TRUE(is_whole(frame)) << "frame " << frame.header.sequence;
     ASSERT_GT(frame.header.sequence, last);
-    if (given == 0) last = frame.header.sequence - 1;  // what came before the first is nobody's drop
-    EXPECT_LE(last, kFrames);
     ++given;
     last = frame.header.sequence;
+    if (first == 0) first = last;  // a frame before the first one given is not a drop
   }
-  EXPECT_LE(given + source.counters().dropped_by_driver, kFrames);
+  EXPECT_EQ(given + source.counters().dropped_by_driver, kFrames - first + 1);
 }
 
 }  // namespace
