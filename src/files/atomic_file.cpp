@@ -1,7 +1,7 @@
-// Whole files in, whole files out (see atomic_file.h).
 #include "files/atomic_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -20,12 +20,12 @@ Error file_error(const std::string& path, const std::string& what) {
   return Error(path + ": " + what + ": " + std::strerror(errno));
 }
 
-/// Closes and removes the temporary file unless it has been renamed into place.
+/// A new file beside the final one; removed at the end unless it was renamed to it.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& final_path)
       : path_(final_path + ".XXXXXX"), fd_(mkstemp(path_.data())) {
-    if (fd_ < 0) throw file_error(final_path, "cannot write beside it");
+    if (fd_ < 0) throw file_error(final_path, "cannot make a temporary file beside it");
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -43,8 +43,8 @@ class TemporaryFile {
     }
     return true;
   }
-  /// As a new file would have it (mkstemp makes 0600).
-  bool give_usual_mode() const {
+  /// The permissions of an ordinary new file; mkstemp gives 0600.
+  bool set_usual_mode() const {
     const mode_t mask = umask(0);
     umask(mask);
     return fchmod(fd_, 0666 & ~mask) == 0;
@@ -61,7 +61,8 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
-/// The rename itself is durable once the folder is synced. Some file systems refuse that; the data is safe.
+/// Makes the rename itself survive a power cut. A failure is ignored: some file systems do not support it,
+/// and the data is safe anyway.
 void sync_folder_of(const std::string& path) {
   std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (folder.empty()) folder = ".";
@@ -75,7 +76,7 @@ void sync_folder_of(const std::string& path) {
 
 void write_file_atomically(const std::string& path, std::string_view bytes) {
   TemporaryFile temporary(path);
-  if (!temporary.write_all(bytes) || !temporary.give_usual_mode() || !temporary.sync() ||
+  if (!temporary.write_all(bytes) || !temporary.set_usual_mode() || !temporary.sync() ||
       !temporary.rename_to(path)) {
     throw file_error(path, "cannot write");
   }
@@ -87,8 +88,7 @@ std::string read_whole_file(const std::string& path, std::size_t max_bytes) {
   if (stat(path.c_str(), &status) != 0) throw file_error(path, "cannot read");
   if (!S_ISREG(status.st_mode)) throw Error(path + ": cannot read: expected a regular file");
   if (static_cast<std::size_t>(status.st_size) > max_bytes) {
-    throw Error(path + ": " + std::to_string(status.st_size) + " bytes, expected at most " +
-                std::to_string(max_bytes));
+    throw Error(fmt::format("{}: {} bytes (expected at most {})", path, status.st_size, max_bytes));
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) throw file_error(path, "cannot read");

@@ -1,4 +1,4 @@
-// Writing a file so that a reader, or a power cut, finds either the old one whole or the new one whole.
+// Writing a file so that readers find either the whole old file or the whole new one, also after a power cut.
 #pragma once
 
 #include <string>

@@ -1,15 +1,15 @@
-// Camera files: ROS camera_info YAML in and out; OpenCV FileStorage YAML or JSON in.
+// The three kinds of camera file, of which ROS camera_info YAML is also written:
 //
 // ROS:     camera_matrix: {rows, cols, data}, distortion_model: plumb_bob, distortion_coefficients: {…}
 // OpenCV:  %YAML:1.0, camera_matrix: !!opencv-matrix {rows, cols, dt, data}, no model name
 // Both:    image_width, image_height; coefficients in the order k1 k2 p1 p2 [k3].
 #include "files/camera_info.h"
 
+#include <fmt/ranges.h>
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
 #include <cstddef>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,13 +24,13 @@ namespace {
 constexpr std::size_t kMaxCameraInfoBytes = 1 << 20;
 constexpr int kMaxSensorSide_px = 32768;
 
-Error expected(const std::string& path, const std::string& key, const std::string& found,
-               const std::string& what) {
-  return Error(path + ": " + key + ": " + found + " (expected " + what + ")");
+Error key_error(const std::string& path, const std::string& key, const std::string& found,
+                const std::string& expected) {
+  return Error(fmt::format("{}: {}: {} (expected {})", path, key, found, expected));
 }
 
-/// OpenCV opens its files with "%YAML:1.0", which is no YAML directive. The line is blanked, not removed, so
-/// that line numbers in messages stay true.
+/// OpenCV begins its files with "%YAML:1.0", which is not a YAML directive. The line is emptied, not removed,
+/// so that line numbers in messages stay right.
 std::string without_opencv_directive(std::string text) {
   if (text.starts_with("%YAML:")) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -39,7 +39,7 @@ std::string without_opencv_directive(std::string text) {
   return text;
 }
 
-YAML::Node parse(const std::string& path) {
+YAML::Node parse_file(const std::string& path) {
   const std::string text = read_whole_file(path, kMaxCameraInfoBytes);
   if (text.starts_with("<?xml")) {
     throw Error(path + ": this is XML (expected camera_info YAML, or OpenCV FileStorage in YAML or JSON)");
@@ -48,9 +48,8 @@ YAML::Node parse(const std::string& path) {
   try {
     root = YAML::Load(without_opencv_directive(text));
   } catch (const YAML::Exception& error) {
-    throw Error(path + ":" + std::to_string(error.mark.line + 1) + ":" +
-                std::to_string(error.mark.column + 1) + ": not YAML: " + error.msg +
-                " (expected a camera_info file)");
+    throw Error(fmt::format("{}:{}:{}: not YAML: {} (expected a camera_info file)", path, error.mark.line + 1,
+                            error.mark.column + 1, error.msg));
   }
   if (!root.IsMap()) {
     throw Error(path +
@@ -60,37 +59,37 @@ YAML::Node parse(const std::string& path) {
   return root;
 }
 
-YAML::Node need(const YAML::Node& parent, const std::string& path, const std::string& key,
-                const std::string& what) {
+YAML::Node required(const YAML::Node& parent, const std::string& path, const std::string& key,
+                    const std::string& expected) {
   const YAML::Node node = parent[key];
-  if (!node || node.IsNull()) throw expected(path, key, "missing", what);
+  if (!node || node.IsNull()) throw key_error(path, key, "missing", expected);
   return node;
 }
 
 int read_image_side(const YAML::Node& root, const std::string& path, const std::string& key) {
-  const std::string what = "whole number of pixels, 1…" + std::to_string(kMaxSensorSide_px);
-  const YAML::Node node = need(root, path, key, what);
+  const std::string expected = fmt::format("whole number of pixels, 1…{}", kMaxSensorSide_px);
+  const YAML::Node node = required(root, path, key, expected);
   int side_px = 0;
   if (!node.IsScalar() || !YAML::convert<int>::decode(node, side_px) || side_px < 1 ||
       side_px > kMaxSensorSide_px) {
-    throw expected(path, key, node.IsScalar() ? "'" + node.Scalar() + "'" : "not a number", what);
+    throw key_error(path, key, node.IsScalar() ? "'" + node.Scalar() + "'" : "not a number", expected);
   }
   return side_px;
 }
 
-/// The numbers of a matrix node, checked against its own rows and cols where it states them.
+/// The numbers of a matrix; their count must be rows × cols where the file states those.
 std::vector<double> read_matrix(const YAML::Node& root, const std::string& path, const std::string& key,
-                                const std::string& what) {
-  const YAML::Node matrix = need(root, path, key, what);
+                                const std::string& expected) {
+  const YAML::Node matrix = required(root, path, key, expected);
   const YAML::Node data = matrix.IsMap() ? matrix["data"] : matrix;
-  if (!data || !data.IsSequence()) throw expected(path, key + ".data", "missing or not a list", what);
+  if (!data || !data.IsSequence()) throw key_error(path, key + ".data", "missing or not a list", expected);
 
   std::vector<double> values;
   for (std::size_t i = 0; i < data.size(); ++i) {
     double value = 0.0;
     if (!data[i].IsScalar() || !YAML::convert<double>::decode(data[i], value) || !std::isfinite(value)) {
-      throw expected(path, key + ".data[" + std::to_string(i) + "]",
-                     data[i].IsScalar() ? "'" + data[i].Scalar() + "'" : "not a number", "a finite number");
+      throw key_error(path, key + ".data[" + std::to_string(i) + "]",
+                      data[i].IsScalar() ? "'" + data[i].Scalar() + "'" : "not a number", "a finite number");
     }
     values.push_back(value);
   }
@@ -100,7 +99,7 @@ std::vector<double> read_matrix(const YAML::Node& root, const std::string& path,
     if (!YAML::convert<long>::decode(matrix["rows"], rows) ||
         !YAML::convert<long>::decode(matrix["cols"], cols) ||
         rows * cols != static_cast<long>(values.size())) {
-      throw expected(path, key, std::to_string(values.size()) + " numbers", "rows × cols of them");
+      throw key_error(path, key, std::to_string(values.size()) + " numbers", "rows × cols of them");
     }
   }
   return values;
@@ -110,16 +109,16 @@ void read_intrinsics(const YAML::Node& root, const std::string& path, CameraMode
   const std::string key = "camera_matrix";
   const std::vector<double> k = read_matrix(root, path, key, "3 × 3: fx 0 cx, 0 fy cy, 0 0 1");
   if (k.size() != 9) {
-    throw expected(path, key + ".data", std::to_string(k.size()) + " numbers", "9: fx 0 cx, 0 fy cy, 0 0 1");
+    throw key_error(path, key + ".data", std::to_string(k.size()) + " numbers", "9: fx 0 cx, 0 fy cy, 0 0 1");
   }
-  if (k[1] != 0.0) throw expected(path, key + ".data[1]", "skew " + std::to_string(k[1]), "0: no skew");
+  if (k[1] != 0.0) throw key_error(path, key + ".data[1]", "skew " + std::to_string(k[1]), "0: no skew");
   if (k[3] != 0.0 || k[6] != 0.0 || k[7] != 0.0 || k[8] != 1.0) {
-    throw expected(path, key + ".data", "not a pinhole camera's matrix",
-                   "fx 0 cx, 0 fy cy, 0 0 1, row by row");
+    throw key_error(path, key + ".data", "not a pinhole camera's matrix",
+                    "fx 0 cx, 0 fy cy, 0 0 1, row by row");
   }
   if (k[0] <= 0.0 || k[4] <= 0.0) {
-    throw expected(path, key + ".data", "fx " + std::to_string(k[0]) + ", fy " + std::to_string(k[4]),
-                   "focal lengths above 0, px");
+    throw key_error(path, key + ".data", "fx " + std::to_string(k[0]) + ", fy " + std::to_string(k[4]),
+                    "focal lengths above 0, px");
   }
   camera.fx = k[0];
   camera.cx = k[2];
@@ -127,8 +126,8 @@ void read_intrinsics(const YAML::Node& root, const std::string& path, CameraMode
   camera.cy = k[5];
 }
 
-/// What a coefficient count means in OpenCV, for a refusal that names the model.
-std::string model_of_count(std::size_t count) {
+/// The lens model of OpenCV that has this number of coefficients.
+std::string model_with_coefficients(std::size_t count) {
   switch (count) {
     case 8:
       return "the rational model";
@@ -137,20 +136,21 @@ std::string model_of_count(std::size_t count) {
     case 14:
       return "the tilted model";
     default:
-      return "no model known here";
+      return "no known model";
   }
 }
 
 void read_distortion(const YAML::Node& root, const std::string& path, CameraModel& camera) {
   if (const YAML::Node model = root["distortion_model"]) {
     const std::string name = model.IsScalar() ? model.Scalar() : "";
-    if (name != "plumb_bob") throw expected(path, "distortion_model", "'" + name + "'", "plumb_bob");
+    if (name != "plumb_bob") throw key_error(path, "distortion_model", "'" + name + "'", "plumb_bob");
   }
   const std::string key = "distortion_coefficients";
   const std::vector<double> d = read_matrix(root, path, key, "k1 k2 p1 p2 [k3]");
   if (d.size() != 4 && d.size() != 5) {
-    throw expected(path, key + ".data", std::to_string(d.size()) + " numbers: " + model_of_count(d.size()),
-                   "4 or 5, plumb_bob: k1 k2 p1 p2 [k3]");
+    throw key_error(path, key + ".data",
+                    std::to_string(d.size()) + " numbers: " + model_with_coefficients(d.size()),
+                    "4 or 5, plumb_bob: k1 k2 p1 p2 [k3]");
   }
   camera.k1 = d[0];
   camera.k2 = d[1];
@@ -160,18 +160,15 @@ void read_distortion(const YAML::Node& root, const std::string& path, CameraMode
 }
 
 std::string matrix_yaml(const std::string& key, int rows, int cols, const std::vector<double>& values) {
-  std::ostringstream out;
-  out.precision(17);  // every double comes back the same
-  out << key << ":\n  rows: " << rows << "\n  cols: " << cols << "\n  data: [";
-  for (std::size_t i = 0; i < values.size(); ++i) out << (i == 0 ? "" : ", ") << values[i];
-  out << "]\n";
-  return out.str();
+  // 17 digits: reading gives every number back exactly.
+  return fmt::format("{}:\n  rows: {}\n  cols: {}\n  data: [{:.17g}]\n", key, rows, cols,
+                     fmt::join(values, ", "));
 }
 
 }  // namespace
 
 CameraModel read_camera_model(const std::string& path) {
-  const YAML::Node root = parse(path);
+  const YAML::Node root = parse_file(path);
   CameraModel camera;
   camera.width_px = read_image_side(root, path, "image_width");
   camera.height_px = read_image_side(root, path, "image_height");
@@ -181,16 +178,16 @@ CameraModel read_camera_model(const std::string& path) {
 }
 
 void write_camera_model(const CameraModel& camera, const std::string& path) {
-  std::ostringstream out;
-  out << "image_width: " << camera.width_px << "\nimage_height: " << camera.height_px
-      << "\ncamera_name: camera\n"
-      << matrix_yaml("camera_matrix", 3, 3, {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1})
-      << "distortion_model: plumb_bob\n"
-      << matrix_yaml("distortion_coefficients", 1, 5, {camera.k1, camera.k2, camera.p1, camera.p2, camera.k3})
-      << matrix_yaml("rectification_matrix", 3, 3, {1, 0, 0, 0, 1, 0, 0, 0, 1})
-      << matrix_yaml("projection_matrix", 3, 4,
-                     {camera.fx, 0, camera.cx, 0, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0});
-  write_file_atomically(path, out.str());
+  std::string text = fmt::format("image_width: {}\nimage_height: {}\ncamera_name: camera\n", camera.width_px,
+                                 camera.height_px);
+  text += matrix_yaml("camera_matrix", 3, 3, {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1});
+  text += "distortion_model: plumb_bob\n";
+  text +=
+      matrix_yaml("distortion_coefficients", 1, 5, {camera.k1, camera.k2, camera.p1, camera.p2, camera.k3});
+  text += matrix_yaml("rectification_matrix", 3, 3, {1, 0, 0, 0, 1, 0, 0, 0, 1});
+  text += matrix_yaml("projection_matrix", 3, 4,
+                      {camera.fx, 0, camera.cx, 0, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0});
+  write_file_atomically(path, text);
 }
 
 }  // namespace heel

@@ -1,104 +1,78 @@
-// Frames from images, folders and videos (see frame_input.h).
 #include "files/frame_input.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "files/image_file.h"
-#include "files/natural_order.h"
+#include "files/video_reader.h"
 #include "heel/error.h"
 
 namespace heel {
 namespace {
 
-namespace fs = std::filesystem;
-
-struct Source {
+/// One image or one video.
+struct InputFile {
   std::string path;
-  bool video = false;
-  std::uint64_t promised_frames = 1;
+  bool is_video = false;
+  std::uint64_t stated_frame_count = 1;
 };
 
-bool is_image(const std::string& path) {
-  try {
-    return cv::haveImageReader(path);
-  } catch (const cv::Exception&) {
-    return false;
-  }
-}
-
-/// Only FFmpeg: other backends would take a path for a pattern, a pipeline or a device.
-bool open_video(const std::string& path, cv::VideoCapture& video) {
-  try {
-    return video.open(path, cv::CAP_FFMPEG);
-  } catch (const cv::Exception&) {
-    return false;
-  }
-}
-
-Source probe_file(const std::string& path) {
+InputFile checked_file(const std::string& path) {
   if (!std::ifstream(path)) throw Error(path + ": cannot read: " + std::strerror(errno));
-  if (is_image(path)) return {path, false, 1};
-  cv::VideoCapture video;
-  if (!open_video(path, video))
-    throw Error(path + ": not an image or video (expected one, or a folder of images)");
-  const double count = video.get(cv::CAP_PROP_FRAME_COUNT);
-  return {path, true, count > 0 ? static_cast<std::uint64_t>(count) : 0};
+  if (is_image_file(path)) return {path};
+  VideoReader video;
+  if (!video.open(path)) throw Error(path + ": not an image or video (expected one, or a folder of images)");
+  return {path, true, video.frame_count()};
 }
 
-void add_folder(const fs::path& folder, std::vector<Source>& sources) {
-  std::vector<std::string> images;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file() && is_image(entry.path().string())) images.push_back(entry.path().string());
-  }
-  if (images.empty()) throw Error(folder.string() + ": no image in this folder (expected at least one)");
-  std::sort(images.begin(), images.end(), natural_less);
-  for (const std::string& image : images) sources.push_back({image, false, 1});
+void add_folder(const std::string& folder, std::vector<InputFile>& files) {
+  std::error_code error;
+  const std::vector<std::string> images = images_in_folder(folder, error);
+  if (error) throw Error(folder + ": cannot read the folder: " + error.message());
+  if (images.empty()) throw Error(folder + ": no image in this folder (expected at least one)");
+  for (const std::string& image : images) files.push_back({image});
 }
 
 }  // namespace
 
 struct FrameInput::Impl {
-  std::vector<Source> sources;
+  std::vector<InputFile> files;
   double image_period_s = 0.0;
-  std::size_t current = 0;
-  cv::VideoCapture video;
-  cv::Mat colour;
+  std::size_t current = 0;   // index of the file that the next frame comes from
+  VideoReader video;         // the current file, when it is a video
   std::uint64_t number = 0;  // of the next frame
-  double start_s = 0.0;      // where the current source begins
-  double last_s = 0.0;       // time of the last frame given
+  double t_begin_s = 0.0;    // of the current file's first frame
+  double t_last_s = 0.0;     // of the last frame
 
-  bool grab_video(const Source& source);
-  void next_source();
-  double video_time_s() const { return start_s + video.get(cv::CAP_PROP_POS_MSEC) * 1e-3; }
+  /// The current file's reader, opened at its first frame.
+  VideoReader& current_video();
+  void go_to_next_file();
+  double video_time_s() const { return t_begin_s + video.time_s(); }
 };
 
-bool FrameInput::Impl::grab_video(const Source& source) {
-  if (!video.isOpened() && !open_video(source.path, video))
-    throw Error(source.path + ": cannot be opened again");
-  return video.grab();
+VideoReader& FrameInput::Impl::current_video() {
+  if (!video.is_open() && !video.open(files[current].path))
+    throw Error(files[current].path + ": cannot be opened a second time");
+  return video;
 }
 
-void FrameInput::Impl::next_source() {
-  video.release();
+void FrameInput::Impl::go_to_next_file() {
+  video.close();
   ++current;
-  start_s = last_s + image_period_s;
+  t_begin_s = t_last_s + image_period_s;
 }
 
 FrameInput::FrameInput(const std::vector<std::string>& inputs, double image_rate_hz)
     : impl_(std::make_unique<Impl>()) {
   for (const std::string& input : inputs) {
-    if (fs::is_directory(input)) {
-      add_folder(input, impl_->sources);
+    if (std::filesystem::is_directory(input)) {
+      add_folder(input, impl_->files);
     } else {
-      impl_->sources.push_back(probe_file(input));
+      impl_->files.push_back(checked_file(input));
     }
   }
   impl_->image_period_s = 1.0 / image_rate_hz;
@@ -108,64 +82,55 @@ FrameInput::~FrameInput() = default;
 
 bool FrameInput::next(InputFrame& frame) {
   Impl& in = *impl_;
-  while (in.current < in.sources.size()) {
-    const Source& source = in.sources[in.current];
-    frame.file = source.path;
-    if (!source.video) {
-      frame.grey = read_grey_image(source.path);
-      frame.t_s = in.last_s = in.start_s;
+  while (in.current < in.files.size()) {
+    const InputFile& file = in.files[in.current];
+    frame.file = file.path;
+    if (!file.is_video) {
+      frame.grey = read_grey_image(file.path);
+      frame.t_s = in.t_last_s = in.t_begin_s;
       frame.number = in.number++;
-      in.next_source();
+      in.go_to_next_file();
       return true;
     }
-    if (in.grab_video(source) && in.video.retrieve(in.colour)) {
-      if (in.colour.channels() == 3) {
-        cv::cvtColor(in.colour, frame.grey, cv::COLOR_BGR2GRAY);
-      } else {
-        in.colour.copyTo(frame.grey);
-      }
-      frame.t_s = in.last_s = in.video_time_s();
+    if (in.current_video().read(frame.grey)) {
+      frame.t_s = in.t_last_s = in.video_time_s();
       frame.number = in.number++;
       return true;
     }
-    in.next_source();
+    in.go_to_next_file();
   }
   return false;
 }
 
 bool FrameInput::skip(std::uint64_t count) {
   Impl& in = *impl_;
-  while (count > 0 && in.current < in.sources.size()) {
-    const Source& source = in.sources[in.current];
-    if (!source.video) {
-      in.last_s = in.start_s;
-    } else if (in.grab_video(source)) {
-      in.last_s = in.video_time_s();
-    } else {
-      in.next_source();
+  while (count > 0 && in.current < in.files.size()) {
+    const bool is_video = in.files[in.current].is_video;
+    if (is_video && !in.current_video().skip()) {
+      in.go_to_next_file();
       continue;
     }
+    in.t_last_s = is_video ? in.video_time_s() : in.t_begin_s;
     ++in.number;
     --count;
-    if (!source.video) in.next_source();
+    if (!is_video) in.go_to_next_file();
   }
   return count == 0;
 }
 
-std::uint64_t FrameInput::promised_frames() const {
+std::uint64_t FrameInput::stated_frame_count() const {
   std::uint64_t frames = 0;
-  for (const Source& source : impl_->sources) {
-    if (source.promised_frames == 0) return 0;
-    frames += source.promised_frames;
+  for (const InputFile& file : impl_->files) {
+    if (file.stated_frame_count == 0) return 0;
+    frames += file.stated_frame_count;
   }
   return frames;
 }
 
 void require_size(const InputFrame& frame, const CameraModel& camera, const std::string& camera_file) {
   if (frame.grey.cols == camera.width_px && frame.grey.rows == camera.height_px) return;
-  throw Error(frame.file + ": " + std::to_string(frame.grey.cols) + "x" + std::to_string(frame.grey.rows) +
-              " pixels (expected " + std::to_string(camera.width_px) + "x" +
-              std::to_string(camera.height_px) + " as in " + camera_file + ")");
+  throw Error(fmt::format("{}: {}x{} pixels (expected {}x{} as in {})", frame.file, frame.grey.cols,
+                          frame.grey.rows, camera.width_px, camera.height_px, camera_file));
 }
 
 }  // namespace heel

@@ -1,5 +1,5 @@
-// A sequence of frames from files: images, folders of images (in natural order: 2 before 10) and videos.
-// Frames are numbered from 0 across all inputs, so that a single video's numbers are its own.
+// Frames from files for commands that work through recorded pictures: images, folders of images (in natural
+// order: 2 before 10) and videos, one after the other. Frames are numbered from 0 across all inputs.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ namespace heel {
 
 struct InputFrame {
   std::uint64_t number = 0;
-  double t_s = 0.0;  ///< in a video its own time stamp; images follow each other at the rate given
+  double t_s = 0.0;  ///< of a video's frame: its own time stamp; of images: by the rate given
   std::string file;  ///< the image or video it came from
-  cv::Mat grey;      ///< 8-bit, continuous
+  cv::Mat grey;      ///< 8-bit, one block of memory
 };
 
 /// Throws heel::Error naming the frame's file unless it has the camera's size.
@@ -24,7 +24,7 @@ void require_size(const InputFrame& frame, const CameraModel& camera, const std:
 
 class FrameInput {
  public:
-  /// Looks at every input: throws heel::Error naming the first that is no image, folder or video.
+  /// Checks every input. Throws heel::Error naming the first that is no image, folder of images or video.
   FrameInput(const std::vector<std::string>& inputs, double image_rate_hz);
   ~FrameInput();
   FrameInput(const FrameInput&) = delete;
@@ -32,10 +32,10 @@ class FrameInput {
 
   /// The next frame; false after the last. Throws heel::Error naming a file that does not decode.
   bool next(InputFrame& frame);
-  /// Goes over `count` frames without handing them out; false when the inputs end before.
+  /// Passes over `count` frames; false when the inputs have fewer.
   bool skip(std::uint64_t count);
-  /// Frames in all inputs as their headers promise; 0 when one does not tell.
-  std::uint64_t promised_frames() const;
+  /// Frames in all inputs as the files' headers state them; 0 when one does not.
+  std::uint64_t stated_frame_count() const;
 
  private:
   struct Impl;

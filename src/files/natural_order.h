@@ -1,4 +1,4 @@
-// File names in the order people count: frame9 before frame10.
+// An order of file names in which numbers count by value: frame9 before frame10.
 #pragma once
 
 #include <string_view>

@@ -1,15 +1,16 @@
 // The .heel template file, format version 1:
 //
-//   "heel-template 1 <header bytes> <image bytes>\n"   so that `head -n 20 shirt.heel` tells what it is
+//   "heel-template 1 <header bytes> <image bytes>\n"   text, so that `head -n 20 shirt.heel` shows what it is
 //   header                                             JSON: region, distance, camera, settings
 //   image                                              PNG, 8-bit grey, the whole reference view
 //   checksum                                           CRC-32 (zlib) of everything before it, 4 bytes, little
 //   endian
 //
-// The checksum is tried right after the version, so that whatever is wrong later is a file wrongly made, not
-// one wrongly kept.
+// The checksum is tested right after the version: an error found later is an error of the program that made
+// the file, not damage in storage.
 #include "files/template_file.h"
 
+#include <fmt/format.h>
 #include <zlib.h>
 
 #include <array>
@@ -47,8 +48,7 @@ std::array<char, kChecksumBytes> little_endian(std::uint32_t value) {
           static_cast<char>(value >> 24)};
 }
 
-// ── what a template must satisfy, read or about to be written ───────────────────────────────────
-
+/// Throws an error about `key` unless `holds`.
 void require(bool holds, const std::string& path, const std::string& key, const std::string& what) {
   if (!holds) throw Error(path + ": " + key + ": expected " + what);
 }
@@ -60,29 +60,27 @@ bool all_finite(const CameraModel& c) {
   return true;
 }
 
+/// What a template must satisfy, after reading and before writing.
 void validate(const ShirtTemplate& shirt, const std::string& path) {
   const CameraModel& camera = shirt.camera;
   const auto side_ok = [](int side_px) { return side_px >= 1 && side_px <= kMaxImageSide_px; };
   require(side_ok(camera.width_px) && side_ok(camera.height_px), path, "camera.width_px, height_px",
-          "1…" + std::to_string(kMaxImageSide_px));
+          fmt::format("1…{}", kMaxImageSide_px));
   require(all_finite(camera), path, "camera", "finite numbers");
   require(camera.fx > 0 && camera.fy > 0, path, "camera.fx, fy", "above 0 px");
   const Region& roi = shirt.roi;
   require(roi.x_px >= 0 && roi.y_px >= 0 && roi.width_px >= 1 && roi.height_px >= 1 &&
               roi.width_px <= camera.width_px - roi.x_px && roi.height_px <= camera.height_px - roi.y_px,
           path, "region",
-          "a rectangle inside the " + std::to_string(camera.width_px) + "x" +
-              std::to_string(camera.height_px) + " image");
+          fmt::format("a rectangle inside the {}x{} image", camera.width_px, camera.height_px));
   require(std::isfinite(shirt.distance_m) && shirt.distance_m >= 0, path, "distance_m",
           "metres above 0, or 0 when not known");
   require(shirt.max_features >= 1 && shirt.max_features <= kMaxTemplateFeatures, path, "max_features",
-          "1…" + std::to_string(kMaxTemplateFeatures));
+          fmt::format("1…{}", kMaxTemplateFeatures));
   require(shirt.grey.size() ==
               static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px),
           path, "image", "one byte a pixel of the camera");
 }
-
-// ── JSON header ─────────────────────────────────────────────────────────────────────────────────
 
 Json header_json(const ShirtTemplate& shirt) {
   const CameraModel& c = shirt.camera;
@@ -129,12 +127,10 @@ void parse_header(std::string_view text, const std::string& path, ShirtTemplate&
     header.at("settings").at("oriented").get_to(shirt.oriented);
     header.at("settings").at("max_features").get_to(shirt.max_features);
   } catch (const nlohmann::json::exception& error) {
-    throw Error(path + ": header: " + error.what() + " (expected the header of format version " +
-                std::to_string(kTemplateFormatVersion) + ")");
+    throw Error(fmt::format("{}: header: {} (expected the header of format version {})", path, error.what(),
+                            kTemplateFormatVersion));
   }
 }
-
-// ── image ───────────────────────────────────────────────────────────────────────────────────────
 
 std::string png_of(const ShirtTemplate& shirt) {
   const cv::Mat grey(shirt.camera.height_px, shirt.camera.width_px, CV_8UC1,
@@ -153,14 +149,11 @@ void decode_png(std::string_view png, const std::string& path, ShirtTemplate& sh
     grey.release();
   }
   require(grey.cols == shirt.camera.width_px && grey.rows == shirt.camera.height_px, path, "image",
-          "a PNG of the camera's " + std::to_string(shirt.camera.width_px) + "x" +
-              std::to_string(shirt.camera.height_px) + " pixels");
+          fmt::format("a PNG of the camera's {}x{} pixels", shirt.camera.width_px, shirt.camera.height_px));
   shirt.grey.assign(grey.datastart, grey.dataend);
 }
 
-// ── the first line ──────────────────────────────────────────────────────────────────────────────
-
-/// Takes a number and the character after it off the front of `line`; false when there is none.
+/// Takes a number and the character after it from the front of `line`; false when they are not there.
 bool take_number(std::string_view& line, char terminator, std::size_t& value) {
   const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
   const auto used = static_cast<std::size_t>(end - line.data());
@@ -169,50 +162,61 @@ bool take_number(std::string_view& line, char terminator, std::size_t& value) {
   return true;
 }
 
+constexpr const char* kRemedy = "copy it again, or make it again with heel teach";
+
+Error truncated(std::string_view file, const std::string& path) {
+  return Error(fmt::format("{}: truncated at {} bytes ({})", path, file.size(), kRemedy));
+}
+
+Error damaged_first_line(const std::string& path) {
+  return Error(path + ": damaged first line (expected \"heel-template VERSION BYTES BYTES\")");
+}
+
+/// What the first line states.
+struct FirstLine {
+  std::size_t bytes = 0;  ///< of the line itself
+  std::size_t header_bytes = 0;
+  std::size_t image_bytes = 0;
+};
+
+FirstLine parse_first_line(std::string_view file, const std::string& path) {
+  if (file.empty() ||
+      !file.starts_with(kTemplateMagic.substr(0, std::min(file.size(), kTemplateMagic.size()))))
+    throw Error(path + ": not a template (expected a file made by heel teach)");
+  const std::size_t line_end = file.substr(0, kMaxFirstLineBytes).find('\n');
+  if (line_end == std::string_view::npos)
+    throw file.size() < kMaxFirstLineBytes ? truncated(file, path) : damaged_first_line(path);
+  FirstLine first;
+  first.bytes = line_end + 1;
+  std::string_view line = file.substr(kTemplateMagic.size(), first.bytes - kTemplateMagic.size());
+  std::size_t version = 0;
+  if (!take_number(line, ' ', version)) throw damaged_first_line(path);
+  if (version != static_cast<std::size_t>(kTemplateFormatVersion))
+    throw Error(fmt::format("{}: format version {} (expected {}; a newer heel may have made it)", path,
+                            version, kTemplateFormatVersion));
+  if (!take_number(line, ' ', first.header_bytes) || !take_number(line, '\n', first.image_bytes) ||
+      !line.empty() || first.header_bytes > kMaxTemplateBytes || first.image_bytes > kMaxTemplateBytes)
+    throw damaged_first_line(path);
+  return first;
+}
+
 struct Parts {
   std::string_view header;
   std::string_view image;
 };
 
+/// The parts of a file whose size and checksum are right.
 Parts split(std::string_view file, const std::string& path) {
-  if (!file.starts_with(kTemplateMagic.substr(0, std::min(file.size(), kTemplateMagic.size()))) ||
-      file.empty()) {
-    throw Error(path + ": not a template (expected a file made by heel teach)");
-  }
-  const Error truncated(path + ": truncated at " + std::to_string(file.size()) +
-                        " bytes (copy it again, or make it anew with heel teach)");
-  const std::size_t line_end = file.substr(0, kMaxFirstLineBytes).find('\n');
-  if (line_end == std::string_view::npos) {
-    if (file.size() < kMaxFirstLineBytes) throw truncated;
-    throw Error(path + ": damaged first line (expected \"heel-template VERSION BYTES BYTES\")");
-  }
-  std::string_view line = file.substr(kTemplateMagic.size(), line_end + 1 - kTemplateMagic.size());
-  std::size_t version = 0;
-  std::size_t header_bytes = 0;
-  std::size_t image_bytes = 0;
-  if (!take_number(line, ' ', version)) {
-    throw Error(path + ": damaged first line (expected \"heel-template VERSION BYTES BYTES\")");
-  }
-  if (version != static_cast<std::size_t>(kTemplateFormatVersion)) {
-    throw Error(path + ": format version " + std::to_string(version) + " (expected " +
-                std::to_string(kTemplateFormatVersion) + "; a newer heel may have made it)");
-  }
-  if (!take_number(line, ' ', header_bytes) || !take_number(line, '\n', image_bytes) || !line.empty() ||
-      header_bytes > kMaxTemplateBytes || image_bytes > kMaxTemplateBytes) {
-    throw Error(path + ": damaged first line (expected \"heel-template VERSION BYTES BYTES\")");
-  }
-  const std::size_t expected_bytes = line_end + 1 + header_bytes + image_bytes + kChecksumBytes;
-  if (file.size() < expected_bytes) throw truncated;
-  if (file.size() > expected_bytes) {
-    throw Error(path + ": " + std::to_string(file.size()) + " bytes (expected " +
-                std::to_string(expected_bytes) + ")");
-  }
+  const FirstLine first = parse_first_line(file, path);
+  const std::size_t expected_bytes = first.bytes + first.header_bytes + first.image_bytes + kChecksumBytes;
+  if (file.size() < expected_bytes) throw truncated(file, path);
+  if (file.size() > expected_bytes)
+    throw Error(fmt::format("{}: {} bytes (expected {})", path, file.size(), expected_bytes));
   const std::string_view body = file.substr(0, file.size() - kChecksumBytes);
   const auto checksum = little_endian(crc32_of(body));
-  if (file.substr(body.size()) != std::string_view(checksum.data(), checksum.size())) {
-    throw Error(path + ": checksum does not fit: damaged (copy it again, or make it anew with heel teach)");
-  }
-  return {body.substr(line_end + 1, header_bytes), body.substr(line_end + 1 + header_bytes)};
+  if (file.substr(body.size()) != std::string_view(checksum.data(), checksum.size()))
+    throw Error(fmt::format("{}: checksum does not fit: damaged ({})", path, kRemedy));
+  return {body.substr(first.bytes, first.header_bytes), body.substr(first.bytes + first.header_bytes)};
 }
 
 }  // namespace
@@ -231,9 +235,8 @@ void write_template(const ShirtTemplate& shirt, const std::string& path) {
   validate(shirt, path);
   const std::string header = header_json(shirt).dump(2) + "\n";
   const std::string image = png_of(shirt);
-  std::string file = std::string(kTemplateMagic) + std::to_string(kTemplateFormatVersion) + " " +
-                     std::to_string(header.size()) + " " + std::to_string(image.size()) + "\n" + header +
-                     image;
+  std::string file = fmt::format("{}{} {} {}\n{}{}", kTemplateMagic, kTemplateFormatVersion, header.size(),
+                                 image.size(), header, image);
   const auto checksum = little_endian(crc32_of(file));
   file.append(checksum.data(), checksum.size());
   write_file_atomically(path, file);

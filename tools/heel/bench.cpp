@@ -1,11 +1,11 @@
-// heel bench: what is measured, each kind a subcommand of its own.
+// heel bench: measurements, each kind with a subcommand of its own.
 #include "commands.h"
 
 namespace heel::cli {
 
 void add_bench_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("bench", "Measures heel beside its yardsticks; never fails for being slow");
+      app.add_subcommand("bench", "Measures heel and what it is compared with; slow results are no error");
   command->require_subcommand(1);
   add_bench_vision_command(*command);
 }

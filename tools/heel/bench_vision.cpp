@@ -104,7 +104,7 @@ void draw(const nlohmann::ordered_json& json, const std::string& picture) {
 }
 
 void run_bench_vision(const BenchVisionOptions& options) {
-  if (!options.picture.empty()) require_writable_picture_name(options.picture);
+  if (!options.picture.empty()) require_writable_image_name(options.picture);
   choose_simd(options.simd);
   const evaluation::BenchInput input = input_of(options);
   evaluation::VisionReport report;

@@ -1,11 +1,12 @@
-// The subcommands of `heel`, one source file each. A command registers its options and, as callback, its
-// work.
+// The subcommands of `heel`, one source file each. A command registers its options, and its work as a
+// callback.
 //
 // How a command ends:
 //   returns                     exit status 0
 //   throws heel::Error          bad usage or input: one line "heel NAME: …" on stderr, exit status 2
-//   throws CLI::RuntimeError(1) it worked, and the answer is no (nothing found, template refused); what there
-//                               is to say has been said already
+//   throws CLI::RuntimeError(1) it worked, and the answer is no (template refused, limit not met); the
+//   command has
+//                               already printed why
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,7 +16,7 @@ namespace heel::cli {
 inline constexpr int kExitNo = 1;
 inline constexpr int kExitBadInput = 2;
 
-/// Accepts finite numbers from `least` to `most`. (CLI::Range lets "nan" through.)
+/// Accepts finite numbers from `least` to `most`. (CLI::Range accepts "nan".)
 CLI::Validator number_from(double least, double most);
 
 void add_calibrate_command(CLI::App& app);

@@ -1,9 +1,9 @@
 // heel features: the features of one image, as a KPD file that other tools can score and compare.
 #include "heel/features.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
-#include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -23,21 +23,15 @@ struct FeaturesOptions {
 
 void write_features(const FeaturesOptions& options) {
   const cv::Mat grey = read_grey_image(options.image);
-  FrameView frame;
-  frame.header.width_px = static_cast<std::uint32_t>(grey.cols);
-  frame.header.height_px = static_cast<std::uint32_t>(grey.rows);
-  frame.grey = grey.data;
-  frame.stride_bytes = static_cast<std::uint32_t>(grey.step[0]);
-
   FeatureExtractor extractor(grey.cols, grey.rows, options.settings);
   FeatureSet features;
   extractor.reserve(features);
   const auto start = std::chrono::steady_clock::now();
-  extractor.extract(frame, features);
+  extractor.extract(frame_view_of(grey), features);
   const std::chrono::duration<double, std::milli> elapsed_ms = std::chrono::steady_clock::now() - start;
 
   write_kpd_file(features, grey.cols, grey.rows, options.output);
-  std::fprintf(stderr, "%zu features in %.2f ms\n", features.features.size(), elapsed_ms.count());
+  fmt::print(stderr, "{} features in {:.2f} ms\n", features.features.size(), elapsed_ms.count());
 }
 
 }  // namespace
@@ -45,22 +39,24 @@ void write_features(const FeaturesOptions& options) {
 void add_features_command(CLI::App& app) {
   auto options = std::make_shared<FeaturesOptions>();
   options->settings = {.octaves = 3, .max_features = 5000, .threshold = 2e-5f, .spread = false};
-  CLI::App* command = app.add_subcommand(
-      "features",
-      "The SURF features of an image, strongest first, as a KPD file: binary, or text for a name in .txt.");
+  CLI::App* command = app.add_subcommand("features",
+                                         "The SURF features of an image, strongest first, as a KPD file: "
+                                         "text when its name ends in .txt, else binary.");
   command->add_option("image", options->image, "image to read")->required()->type_name("IMAGE");
   command->add_option("-o,--output", options->output, "file to write")->required()->type_name("OUT.kpd");
-  command->add_option("--max", options->settings.max_features, "most features written")
+  command->add_option("--max", options->settings.max_features, "largest number of features written")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
   command->add_option("--octaves", options->settings.octaves, "octaves of scale")
       ->capture_default_str()
       ->check(CLI::Range(1, 4));
-  command->add_option("--threshold", options->settings.threshold, "smallest Hessian determinant kept")
+  command->add_option("--threshold", options->settings.threshold, "smallest Hessian determinant of a feature")
       ->capture_default_str()
       ->check(CLI::Range(0.f, 1.f));
-  command->add_flag("--oriented", options->settings.oriented, "turn descriptors to the dominant orientation");
-  command->add_flag("--spread", options->settings.spread, "share the features among the cells of a grid");
+  command->add_flag("--oriented", options->settings.oriented,
+                    "descriptors relative to the dominant orientation");
+  command->add_flag("--spread", options->settings.spread,
+                    "spread the features evenly over the cells of a grid");
   command->callback([options] { write_features(*options); });
 }
 

@@ -1,4 +1,4 @@
-// heel, the operator's command: the subcommands' common frame (help, version, errors, exit status).
+// heel, the operator's command: what all subcommands share (help, version, errors, exit status).
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -26,9 +26,9 @@ void add_commands(CLI::App& app) {
   add_bench_command(app);
 }
 
-/// One thread, so that results repeat to the bit on any number of cores. Errors are one line each; OpenCV's
-/// and FFmpeg's own messages would come before them.
-void quieten_libraries() {
+/// One thread, so that results are the same to the bit on any number of cores. No messages of OpenCV and
+/// FFmpeg: an error is one line of ours.
+void set_up_libraries() {
   cv::setNumThreads(1);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
@@ -49,14 +49,14 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// False when standard output is full or gone.
+/// False when standard output cannot be written: a full disk, or a pipe without a reader.
 bool flush_output() {
   std::cout.flush();
   return std::cout.good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
 }
 
-int complain(const CLI::App& app, const std::string& text) {
-  flush_output();  // what was answered before the error stays before it
+int print_error(const CLI::App& app, const std::string& text) {
+  flush_output();  // output from before the error stays before it
   std::cerr << command_name(app) << ": " << one_line(text) << '\n';
   return kExitBadInput;
 }
@@ -79,21 +79,21 @@ int run(CLI::App& app, int argc, char** argv) {
     return answer.get_exit_code();
   } catch (const CLI::ParseError& error) {
     if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-') {
-      return complain(
+      return print_error(
           app, std::string("no command '") + argv[1] + "' (expected one of " + command_list(app) + ")");
     }
-    return complain(app, one_line(error.what()) + " (see " + command_name(app) + " --help)");
+    return print_error(app, one_line(error.what()) + " (see " + command_name(app) + " --help)");
   } catch (const std::exception& error) {
-    return complain(app, error.what());
+    return print_error(app, error.what());
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  quieten_libraries();
+  set_up_libraries();
   CLI::App app{
-      "heel: a Pioneer P3-AT walks to heel, guided by the back of one person's shirt.\n"
+      "heel: a Pioneer P3-AT follows one person by the back of the person's shirt.\n"
       "Exit status: 0 done; 1 the answer is no (not found, template refused); 2 bad usage or input."};
   app.name("heel");
   app.set_version_flag("--version", "heel " HEEL_VERSION);
@@ -103,6 +103,6 @@ int main(int argc, char** argv) {
 
   const int status = run(app, argc, argv);
   if (!flush_output())
-    return complain(app, "standard output cannot be written (expected a reader, and room)");
+    return print_error(app, "standard output cannot be written (expected a disk with space, or a reader)");
   return status;
 }

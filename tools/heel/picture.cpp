@@ -1,11 +1,12 @@
-// Pictures for people (see picture.h). Colours are BGR.
+// Colours are BGR.
 #include "picture.h"
+
+#include <fmt/format.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -16,12 +17,12 @@ namespace {
 
 const cv::Scalar kFound(80, 220, 60);
 const cv::Scalar kMissed(60, 60, 230);
-const cv::Scalar kWay(40, 190, 255);
+const cv::Scalar kDirection(40, 190, 255);
 const cv::Scalar kText(255, 255, 255);
 const cv::Scalar kDarkBlob(255, 160, 60);
 const cv::Scalar kLightBlob(60, 200, 255);
 
-constexpr int kShift = 4;  // OpenCV draws to a sixteenth of a pixel
+constexpr int kShift = 4;  // fractional bits of OpenCV's coordinates: a sixteenth of a pixel
 cv::Point sub_pixel(const Eigen::Vector2d& px) {
   constexpr double kFar = 1e5;  // beyond any picture, within int
   return {static_cast<int>(std::lround(std::clamp(px.x(), -kFar, kFar) * (1 << kShift))),
@@ -34,7 +35,8 @@ void put_text(cv::Mat& picture, const std::string& text, cv::Point at, const cv:
   cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, scale, colour, 1, cv::LINE_AA);
 }
 
-/// The region's outline carried into the current frame, through both lenses: its edges need not be straight.
+/// The outline of the template's region in the current frame. Both lenses distort, so that its edges need not
+/// be straight.
 std::vector<cv::Point> outline(const PoseEstimate& pose, const ShirtTemplate& shirt,
                                const CameraModel& camera) {
   constexpr int kPointsASide = 12;
@@ -57,8 +59,8 @@ std::vector<cv::Point> outline(const PoseEstimate& pose, const ShirtTemplate& sh
   return points;
 }
 
-/// A view from above: the camera at the bottom, the back as a bar where it stands, its walking direction as
-/// an arrow. One reference distance is a third of the square.
+/// A view from above: the camera at the bottom, the back as a bar, the walking direction as an arrow. The
+/// square is three times as wide as the reference distance.
 void draw_from_above(cv::Mat& picture, const PoseEstimate& pose) {
   const int side = std::clamp(picture.rows / 4, 60, 200);
   const cv::Rect frame(picture.cols - side - 8, 8, side, side);
@@ -69,28 +71,23 @@ void draw_from_above(cv::Mat& picture, const PoseEstimate& pose) {
   const cv::Point2d camera(side / 2.0, side * 0.93);
   const double scale = side / 3.0;
   const cv::Point2d back(camera.x + scale * pose.t_over_d[0], camera.y - scale * (1.0 + pose.t_over_d[2]));
-  const cv::Point2d way(std::sin(pose.yaw_rad), -std::cos(pose.yaw_rad));
-  const cv::Point2d across(-way.y, way.x);
+  const cv::Point2d direction(std::sin(pose.yaw_rad), -std::cos(pose.yaw_rad));
+  const cv::Point2d across(-direction.y, direction.x);
   const double half = side * 0.10;
   cv::line(square, back - half * across, back + half * across, kFound, 3, cv::LINE_AA);
-  cv::arrowedLine(square, back, back + 2.2 * half * way, kWay, 2, cv::LINE_AA, 0, 0.35);
+  cv::arrowedLine(square, back, back + 2.2 * half * direction, kDirection, 2, cv::LINE_AA, 0, 0.35);
   const std::vector<cv::Point> cone = {
       camera, {side / 2 - side / 12, side - side / 6}, {side / 2 + side / 12, side - side / 6}};
   cv::fillConvexPoly(square, cone, cv::Scalar(200, 200, 200), cv::LINE_AA);
 }
 
 std::string pose_text(const PoseEstimate& pose) {
-  char text[160];
-  const double yaw_deg = pose.yaw_rad * 180.0 / std::numbers::pi;
-  const double sigma_deg = pose.yaw_sigma_rad * 180.0 / std::numbers::pi;
-  if (pose.has_distance) {
-    std::snprintf(text, sizeof text, "certainty %.2f  yaw %+.0f +- %.0f deg  x %+.2f  z %.2f m",
-                  pose.certainty, yaw_deg, sigma_deg, pose.position_m[0], pose.position_m[2]);
-  } else {
-    std::snprintf(text, sizeof text, "certainty %.2f  yaw %+.0f +- %.0f deg  x/d %+.2f  z/d %.2f",
-                  pose.certainty, yaw_deg, sigma_deg, pose.t_over_d[0], 1.0 + pose.t_over_d[2]);
-  }
-  return text;
+  const std::string text =
+      fmt::format("certainty {:.2f}  yaw {:+.0f} +- {:.0f} deg", pose.certainty,
+                  pose.yaw_rad * 180.0 / std::numbers::pi, pose.yaw_sigma_rad * 180.0 / std::numbers::pi);
+  if (pose.has_distance)
+    return text + fmt::format("  x {:+.2f}  z {:.2f} m", pose.position_m[0], pose.position_m[2]);
+  return text + fmt::format("  x/d {:+.2f}  z/d {:.2f}", pose.t_over_d[0], 1.0 + pose.t_over_d[2]);
 }
 
 }  // namespace

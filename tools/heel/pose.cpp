@@ -1,4 +1,5 @@
-// heel pose: the vision stage over images, folders and videos; one answer a frame.
+// heel pose: the vision stage on the frames of images, folders and videos; one result for each frame.
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -38,13 +39,9 @@ struct PoseOptions {
 };
 
 FrameView view_of(const InputFrame& frame) {
-  FrameView view;
+  FrameView view = frame_view_of(frame.grey);
   view.header.sequence = frame.number;
   view.header.t_capture_ns = ns_from_seconds(frame.t_s);
-  view.header.width_px = static_cast<std::uint32_t>(frame.grey.cols);
-  view.header.height_px = static_cast<std::uint32_t>(frame.grey.rows);
-  view.grey = frame.grey.data;
-  view.stride_bytes = static_cast<std::uint32_t>(frame.grey.step);
   return view;
 }
 
@@ -57,12 +54,12 @@ PoseRow estimate(PoseEstimator& estimator, const InputFrame& frame) {
 
 void write_pose_picture(const std::string& folder, const InputFrame& frame, const PoseEstimate& pose,
                         const ShirtTemplate& shirt, const CameraModel& camera) {
-  char name[40];
-  std::snprintf(name, sizeof name, "frame_%06llu.png", static_cast<unsigned long long>(frame.number));
-  write_picture((std::filesystem::path(folder) / name).string(), draw_pose(frame.grey, pose, shirt, camera));
+  const std::filesystem::path path =
+      std::filesystem::path(folder) / fmt::format("frame_{:06}.png", frame.number);
+  write_image(path.string(), draw_pose(frame.grey, pose, shirt, camera));
 }
 
-/// A counter on a terminal; silent in a file or a pipe.
+/// A counter on stderr while the results go to a file or a pipe; silent when stderr is not a terminal.
 class Progress {
  public:
   explicit Progress(std::uint64_t frames)
@@ -76,10 +73,9 @@ class Progress {
   void show(std::uint64_t frame) const {
     if (!shown_ || frame % 10 != 0) return;
     if (frames_ > 0) {
-      std::fprintf(stderr, "\rframe %llu of %llu", static_cast<unsigned long long>(frame),
-                   static_cast<unsigned long long>(frames_));
+      fmt::print(stderr, "\rframe {} of {}", frame, frames_);
     } else {
-      std::fprintf(stderr, "\rframe %llu", static_cast<unsigned long long>(frame));
+      fmt::print(stderr, "\rframe {}", frame);
     }
   }
 
@@ -94,38 +90,39 @@ void make_folder(const std::string& folder) {
   if (error) throw Error("--picture-dir: " + folder + ": " + error.message());
 }
 
-void run_pose(const PoseOptions& options) {
-  if (options.last < options.first) {
-    throw Error("--last " + std::to_string(options.last) + ": before --first " +
-                std::to_string(options.first) + " (expected the same frame or a later one)");
-  }
-  ShirtTemplate shirt = read_template(options.template_file);
-  if (options.oriented) shirt.oriented = true;
-  const CameraModel camera = read_camera_model(options.camera_file);
+/// Estimates and prints every frame from the first to the last that the options name.
+void process_frames(const PoseOptions& options, const ShirtTemplate& shirt, const CameraModel& camera) {
   PoseEstimator estimator(shirt, camera, options.vision);
-  if (!options.picture_dir.empty()) make_folder(options.picture_dir);
-
   FrameInput input(options.inputs, options.rate_hz);
-  const Progress progress(input.promised_frames());
+  const Progress progress(input.stated_frame_count());
   PoseSummary summary;
   InputFrame frame;
   if (!options.json) std::puts(pose_table_head().c_str());
-  if (!input.skip(options.first)) {
-    throw Error("--first " + std::to_string(options.first) + ": the input ends before that frame");
-  }
-  while (input.next(frame)) {
-    if (frame.number > options.last) break;
+  if (!input.skip(options.first))
+    throw Error(fmt::format("--first {}: the input ends before that frame", options.first));
+  while (input.next(frame) && frame.number <= options.last) {
     require_size(frame, camera, options.camera_file);
     const PoseRow row = estimate(estimator, frame);
     std::puts((options.json ? pose_json(row) : pose_table_row(row)).c_str());
     summary.add(row);
-    if (!options.picture_dir.empty()) {
-      write_pose_picture(options.picture_dir, frame, row.pose, shirt, camera);
-    }
+    if (!options.picture_dir.empty()) write_pose_picture(options.picture_dir, frame, row.pose, shirt, camera);
     progress.show(frame.number);
   }
   std::fflush(stdout);
-  std::fprintf(stderr, "heel pose: %s\n", summary.line().c_str());
+  fmt::print(stderr, "heel pose: {}\n", summary.line());
+}
+
+void run_pose(PoseOptions options) {
+  if (options.last < options.first)
+    throw Error(fmt::format("--last {}: before --first {} (expected the same frame or a later one)",
+                            options.last, options.first));
+  ShirtTemplate shirt = read_template(options.template_file);
+  if (options.oriented) shirt.oriented = true;
+  const CameraModel camera = read_camera_model(options.camera_file);
+  // Without a deadline the same input gives the same output, however loaded the machine is.
+  options.vision.ransac_budget_ms = 0.0;
+  if (!options.picture_dir.empty()) make_folder(options.picture_dir);
+  process_frames(options, shirt, camera);
 }
 
 }  // namespace
@@ -135,13 +132,11 @@ void add_pose_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "pose",
       "Where the shirt is, and which way it faces, in images, folders of images or videos.\n"
-      "With --json one object a line: frame (from 0), t_s, found, reason, certainty (inliers / template "
-      "features),\n"
-      "inliers, yaw_rad (positive: walking to the image's right), yaw_sigma_rad, t_over_d [3], position_m "
-      "[3] (null\n"
-      "when the template's distance is not known), H_cur_from_ref [9] (row-major, undistorted pixels), ms. "
-      "In frames\n"
-      "where the shirt is not found the five of the pose are null.");
+      "With --json one object a line: frame (from 0), t_s, found, reason, certainty (inliers / template\n"
+      "features), inliers, yaw_rad (positive: walking to the image's right), yaw_sigma_rad, t_over_d [3],\n"
+      "position_m [3] (null when the template's distance is not known), H_cur_from_ref [9] (row-major,\n"
+      "undistorted pixels), ms. In frames in which the shirt is not found the five values of the pose are "
+      "null.");
   command->add_option("inputs", options->inputs, "images, folders of images, videos")
       ->required()
       ->type_name("INPUT");
@@ -156,12 +151,13 @@ void add_pose_command(CLI::App& app) {
       ->add_option("--picture-dir", options->picture_dir,
                    "draw the shirt's outline on every frame, into this folder")
       ->type_name("DIR");
-  command->add_option("--first", options->first, "first frame looked at")->type_name("N");
-  command->add_option("--last", options->last, "last frame looked at")->type_name("N");
-  command->add_option("--rate", options->rate_hz, "images follow each other at this rate (default 30)")
+  command->add_option("--first", options->first, "first frame processed")->type_name("N");
+  command->add_option("--last", options->last, "last frame processed")->type_name("N");
+  command->add_option("--rate", options->rate_hz, "frame rate of images (default 30)")
       ->type_name("HZ")
       ->check(number_from(0.001, 10000.0));
-  command->add_flag("--oriented", options->oriented, "oriented descriptors, whatever the template says");
+  command->add_flag("--oriented", options->oriented,
+                    "oriented descriptors, also when the template says upright");
   command->add_option("--max", options->vision.max_features, "at most this many features a frame")
       ->type_name("N")
       ->check(CLI::Range(50, 5000))

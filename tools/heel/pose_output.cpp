@@ -1,36 +1,13 @@
-// Poses as text (see pose_output.h).
 #include "pose_output.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdarg>
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
-#include <numbers>
+
+#include "core/angles.h"
+#include "evaluation/metrics/metrics.h"
 
 namespace heel::cli {
-namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char text[256];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof text, pattern, arguments);
-  va_end(arguments);
-  return text;
-}
-
-/// Nearest-rank quantile; 0 of nothing.
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)));
-  return values[rank];
-}
-
-}  // namespace
 
 std::string pose_json(const PoseRow& row) {
   const PoseEstimate& pose = row.pose;
@@ -58,17 +35,18 @@ std::string pose_table_head() {
 
 std::string pose_table_row(const PoseRow& row) {
   const PoseEstimate& pose = row.pose;
-  std::string text = format("%7llu %8.3f  %9.3f  %7u", static_cast<unsigned long long>(row.frame), row.t_s,
-                            pose.certainty, pose.inliers);
-  if (!pose.found()) return text + format("  -- %-69s%6.1f", to_string(pose.reason), row.ms);
-  text += format("  %6.1f ± %4.1f        %6.3f %5.3f %5.3f", pose.yaw_rad * kDegPerRad,
-                 pose.yaw_sigma_rad * kDegPerRad, pose.t_over_d[0], pose.t_over_d[1], pose.t_over_d[2]);
+  std::string text =
+      fmt::format("{:7} {:8.3f}  {:9.3f}  {:7}", row.frame, row.t_s, pose.certainty, pose.inliers);
+  if (!pose.found()) return text + fmt::format("  -- {:<69}{:6.1f}", to_string(pose.reason), row.ms);
+  text += fmt::format("  {:6.1f} ± {:4.1f}        {:6.3f} {:5.3f} {:5.3f}", pose.yaw_rad * kDegPerRad,
+                      pose.yaw_sigma_rad * kDegPerRad, pose.t_over_d[0], pose.t_over_d[1], pose.t_over_d[2]);
   if (pose.has_distance) {
-    text += format("         %5.2f %5.2f %5.2f", pose.position_m[0], pose.position_m[1], pose.position_m[2]);
+    text += fmt::format("         {:5.2f} {:5.2f} {:5.2f}", pose.position_m[0], pose.position_m[1],
+                        pose.position_m[2]);
   } else {
-    text += format("%26s", "");
+    text += fmt::format("{:26}", "");
   }
-  return text + format("  %6.1f", row.ms);
+  return text + fmt::format("  {:6.1f}", row.ms);
 }
 
 void PoseSummary::add(const PoseRow& row) {
@@ -79,14 +57,15 @@ void PoseSummary::add(const PoseRow& row) {
 
 std::string PoseSummary::line() const {
   if (frames_ == 0) return "no frames";
-  std::string text = format("found in %zu of %llu frames (%.1f %%)", certainties_.size(),
-                            static_cast<unsigned long long>(frames_),
-                            100.0 * static_cast<double>(certainties_.size()) / static_cast<double>(frames_));
+  std::string text =
+      fmt::format("found in {} of {} frames ({:.1f} %)", certainties_.size(), frames_,
+                  100.0 * static_cast<double>(certainties_.size()) / static_cast<double>(frames_));
   if (!certainties_.empty()) {
-    text += format("; certainty where found: 10 %% %.2f, median %.2f, 90 %% %.2f",
-                   quantile(certainties_, 0.1), quantile(certainties_, 0.5), quantile(certainties_, 0.9));
+    text += fmt::format("; certainty where found: 10 % {:.2f}, median {:.2f}, 90 % {:.2f}",
+                        evaluation::quantile(certainties_, 0.1), evaluation::quantile(certainties_, 0.5),
+                        evaluation::quantile(certainties_, 0.9));
   }
-  return text + format("; median %.1f ms a frame", quantile(ms_, 0.5));
+  return text + fmt::format("; median {:.1f} ms a frame", evaluation::quantile(ms_, 0.5));
 }
 
 }  // namespace heel::cli

@@ -1,4 +1,4 @@
-// What `heel pose` says of each frame, as JSON or as a table row, and of all of them in one line.
+// The output of `heel pose`: for each frame a JSON object or a row of a table, and one line about all frames.
 #pragma once
 
 #include <cstdint>
@@ -16,24 +16,25 @@ struct PoseRow {
   double ms = 0.0;  ///< from frame to pose
 };
 
-/// One JSON object on one line, always the same keys: frame, t_s, found, reason, certainty, inliers, yaw_rad,
-/// yaw_sigma_rad, t_over_d, position_m, H_cur_from_ref, ms. When not found, the five of the pose are null:
-/// numbers from a fit that was rejected would be taken for a pose by someone.
+/// One JSON object on one line, always with the same keys: frame, t_s, found, reason, certainty, inliers,
+/// yaw_rad, yaw_sigma_rad, t_over_d, position_m, H_cur_from_ref, ms. When the shirt is not found, the five of
+/// the pose are null, so that numbers of a rejected fit are not taken for a pose.
 std::string pose_json(const PoseRow& row);
 
 std::string pose_table_head();
 std::string pose_table_row(const PoseRow& row);
 
-/// Gathers what the closing line says.
+/// Collects the figures of the closing line.
 class PoseSummary {
  public:
   void add(const PoseRow& row);
-  /// "found 218 of 221 frames (98.6 %), certainty 10/50/90 %: 0.31 0.45 0.58, 12.3 ms a frame (median)"
+  /// "found in 218 of 221 frames (98.6 %); certainty where found: 10 % 0.31, median 0.45, 90 % 0.58;
+  /// median 12.3 ms a frame"
   std::string line() const;
 
  private:
   std::uint64_t frames_ = 0;
-  std::vector<double> certainties_;  // of the found
+  std::vector<double> certainties_;  ///< of the frames in which the shirt was found
   std::vector<double> ms_;
 };
 

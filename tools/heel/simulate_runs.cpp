@@ -1,131 +1,159 @@
 #include "simulate_runs.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdarg>
-#include <cstdio>
-#include <filesystem>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <future>
+#include <iostream>
+#include <string>
+#include <thread>
+
+#include "commands.h"
+#include "evaluation/experiments/many_runs.h"
+#include "evaluation/experiments/run_record.h"
+#include "evaluation/reports/plots.h"
+#include "evaluation/reports/run_report.h"
+#include "files/atomic_file.h"
 #include "heel/error.h"
+#include "simulate_output.h"
 
 namespace heel::cli {
 namespace {
 
-constexpr double kDeg = 57.29577951308232;
+using Clock = std::chrono::steady_clock;
 
-[[gnu::format(printf, 2, 3)]] void add_line(std::string& text, const char* format, ...) {
-  char line[400];
-  va_list values;
-  va_start(values, format);
-  std::vsnprintf(line, sizeof line, format, values);
-  va_end(values);
-  text += line;
-  text += '\n';
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-unsigned long long count(std::uint64_t value) {
-  return value;
+SimulatedRun description_of(const sim::Scenario& scenario) {
+  SimulatedRun run;
+  run.scenario = scenario.name;
+  run.shows = scenario.shows;
+  run.seed = scenario.seed;
+  return run;
 }
 
-double at_rest_s(const evaluation::FollowMetrics& m) {
-  double sum = 0.0;
-  for (const auto& [reason, rest_s] : m.rest_s_by_reason) sum += rest_s;
-  return sum;
+SimulatedRun simulate(const SimulateOptions& options, const sim::LockstepSettings& settings,
+                      evaluation::RunRecord& record) {
+  SimulatedRun run = description_of(settings.scenario);
+  const Clock::time_point begin = Clock::now();
+  run.counts = sim::run_lockstep(settings, record);
+  run.speed = settings.scenario.duration_s / seconds_since(begin);
+  run.metrics = record.metrics().evaluate();
+  run.failed = evaluation::failed_criteria(run.metrics, options.criteria);
+  return run;
+}
+
+/// Prints the criteria that are not met; throws when there are any.
+void require_criteria(const std::vector<SimulatedRun>& runs) {
+  bool all_met = true;
+  for (const SimulatedRun& run : runs)
+    for (const std::string& reason : run.failed) {
+      std::cerr << "heel simulate: " << (runs.size() > 1 ? run.scenario + ": " : "") << reason << '\n';
+      all_met = false;
+    }
+  if (!all_met) throw CLI::RuntimeError(kExitNo);
+}
+
+/// overview.json: the results of the runs and what each scenario shows; overview.png is drawn from it.
+void write_overview(const std::vector<SimulatedRun>& runs, const std::string& out) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const SimulatedRun& run : runs) {
+    all.push_back(to_json(run));
+    all.back()["shows"] = run.shows;
+  }
+  write_file_atomically(out + "/overview.json", all.dump(2) + "\n");
+}
+
+SimulatedRun simulate_into_folder(const SimulateOptions& options, const sim::Scenario& scenario,
+                                  const std::string& folder) {
+  std::filesystem::remove_all(folder + "/frames");  // of an earlier run
+  sim::LockstepSettings settings;
+  try {
+    settings = settings_of(options, scenario);
+  } catch (const Error& error) {
+    SimulatedRun run = description_of(scenario);
+    run.refused = error.what();
+    return run;
+  }
+  evaluation::RunRecord record(folder, settings);
+  const SimulatedRun run = simulate(options, settings, record);
+  record.flush();
+  evaluation::write_run_report(folder, record.metrics(), run.metrics, run.failed);
+  return run;
+}
+
+evaluation::FollowMetrics simulate_seed(const SimulateOptions& options, sim::Scenario scenario,
+                                        std::uint64_t seed) {
+  scenario.seed = seed;
+  const sim::LockstepSettings settings = settings_of(options, scenario);
+  evaluation::RunRecord record("", settings);
+  sim::run_lockstep(settings, record);
+  return record.metrics().evaluate();
 }
 
 }  // namespace
 
-std::vector<std::string> scenario_files(const std::vector<std::string>& arguments) {
-  namespace fs = std::filesystem;
-  std::vector<std::string> files;
-  for (const std::string& argument : arguments) {
-    if (!fs::is_directory(argument)) {
-      files.push_back(argument);
-      continue;
-    }
-    std::vector<std::string> found;
-    for (const auto& entry : fs::directory_iterator(argument))
-      if (entry.path().extension() == ".toml") found.push_back(entry.path().string());
-    if (found.empty()) throw Error(argument + ": no scenario in this folder (expected *.toml)");
-    std::sort(found.begin(), found.end());
-    files.insert(files.end(), found.begin(), found.end());
-  }
-  return files;
+void simulate_one(const SimulateOptions& options, const sim::Scenario& scenario) {
+  const sim::LockstepSettings settings = settings_of(options, scenario);
+  evaluation::RunRecord record(options.out, settings);
+  const SimulatedRun run = simulate(options, settings, record);
+  record.flush();
+  std::cout << (options.json ? to_json(run).dump(2) + "\n" : detailed_text(run));
+  require_criteria({run});
 }
 
-nlohmann::ordered_json to_json(const SimulatedRun& run) {
-  nlohmann::ordered_json json{{"scenario", run.scenario}, {"seed", run.seed}};
-  if (!run.refused.empty()) {
-    json["refused"] = run.refused;
-    return json;
+void simulate_several(const SimulateOptions& options, const std::vector<sim::Scenario>& scenarios) {
+  const std::string out = options.out.empty() ? kSimulateDefaultOut : options.out;
+  std::vector<SimulatedRun> runs;
+  for (const sim::Scenario& scenario : scenarios) {
+    if (!options.json) std::cerr << scenario.name << ": " << scenario.shows << '\n';
+    runs.push_back(simulate_into_folder(options, scenario, out + "/" + scenario.name));
   }
-  json["ticks"] = run.counts.ticks;
-  json["frames_overtaken"] = run.counts.frames_overtaken;
-  json["frames_dropped"] = run.counts.frames_dropped;
-  json.update(evaluation::to_json(run.metrics));
-  json["failed"] = run.failed;
-  return json;
+  const std::string table = table_text(runs);
+  std::filesystem::create_directories(out);
+  write_file_atomically(out + "/table.txt", table);
+  write_overview(runs, out);
+  if (options.json) {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const SimulatedRun& run : runs) all.push_back(to_json(run));
+    std::cout << all.dump(2) << '\n';
+  } else {
+    std::cout << table << "pictures and recordings: " << out << '\n';
+  }
+  std::cout << std::flush;
+  if (const std::string why_not = evaluation::draw_figures({out}); !why_not.empty())
+    std::cerr << "heel simulate: " << why_not << '\n';
+  require_criteria(runs);
 }
 
-std::string detailed_text(const SimulatedRun& run) {
-  const evaluation::FollowMetrics& m = run.metrics;
-  std::string text;
-  add_line(text, "person walked %.2f m, robot %.2f m", m.person_path_m, m.robot_path_m);
-  add_line(text, "beside the person's path: %.3f m RMS, %.3f to %.3f m", m.lateral_m.rms, m.lateral_m.lowest,
-           m.lateral_m.highest);
-  add_line(text, "separation: %.2f m mean, %.2f to %.2f m", m.separation_m.mean, m.separation_m.lowest,
-           m.separation_m.highest);
-  add_line(text, "found in %llu of %llu frames, longest out of view %.2f s, in all %.2f s",
-           count(m.frames_found), count(m.frames), m.out_of_view_longest_s, m.out_of_view_total_s);
-  if (m.frames_wrong > 0)
-    add_line(text, "found something else in %llu frames, over %.1f m from the target", count(m.frames_wrong),
-             evaluation::kWrong_m);
-  add_line(text, "certainty 5/50/95 %%: %.2f %.2f %.2f", m.certainty.p05, m.certainty.p50, m.certainty.p95);
-  add_line(text, "yaw error: mean %+.2f, deviation %.2f, 5/95 %% %+.1f %+.1f degrees; (error/sigma)^2 %.2f",
-           kDeg * m.yaw_error_rad.mean, kDeg * m.yaw_error_rad.deviation, kDeg * m.yaw_error_rad.p05,
-           kDeg * m.yaw_error_rad.p95, m.yaw_nees);
-  add_line(text, "position error RMS: x %.3f, y %.3f, z %.3f m (z mean %+.3f m)", m.x_error_m.rms,
-           m.y_error_m.rms, m.z_error_m.rms, m.z_error_m.mean);
-  for (const auto& [reason, rest_s] : m.rest_s_by_reason) {
-    const auto times = m.stops_by_reason.find(reason);
-    add_line(text, "stopped %d times: %s (%.2f s)", times == m.stops_by_reason.end() ? 0 : times->second,
-             reason.c_str(), rest_s);
+void simulate_many(const SimulateOptions& options, const sim::Scenario& scenario) {
+  evaluation::ManyRuns many;
+  const Clock::time_point begin = Clock::now();
+  many.runs.resize(static_cast<std::size_t>(options.runs));
+  many.simulated_s = options.runs * settings_of(options, scenario).scenario.duration_s;
+  std::atomic<int> next{0};
+  const auto work = [&] {
+    for (int i = next++; i < options.runs; i = next++)
+      many.runs[static_cast<std::size_t>(i)] =
+          simulate_seed(options, scenario, scenario.seed + static_cast<std::uint64_t>(i));
+  };
+  const unsigned threads =
+      options.error_model_file.empty() ? 1 : std::max(1U, std::thread::hardware_concurrency());
+  std::vector<std::future<void>> workers;
+  for (unsigned i = 0; i < threads; ++i) workers.push_back(std::async(std::launch::async, work));
+  for (std::future<void>& worker : workers) worker.get();
+  if (options.json) {
+    std::cout << evaluation::to_json(many).dump(2) << '\n';
+    return;
   }
-  if (m.touching_s > 0.0) add_line(text, "touched something for %.2f s", m.touching_s);
-  add_line(text, "%llu ticks, %llu frames (%llu overtaken, %llu dropped), %.1f x real time",
-           count(run.counts.ticks), count(run.counts.frames), count(run.counts.frames_overtaken),
-           count(run.counts.frames_dropped), run.times_real);
-  return text;
-}
-
-std::string table_text(const std::vector<SimulatedRun>& runs) {
-  std::string text;
-  add_line(text, "%-20s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s", "", "walked", "drove", "beside",
-           "worst", "gap", "end", "found", "wrong", "lost", "hidden", "yaw", "rest");
-  add_line(text, "%-20s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s %6s", "scenario", "m", "m", "m RMS", "m",
-           "m", "gap m", "%", "frames", "s", "s", "deg", "s");
-  for (const SimulatedRun& run : runs) {
-    if (!run.refused.empty()) {
-      add_line(text, "%-20s refused: %s", run.scenario.c_str(), run.refused.c_str());
-      continue;
-    }
-    const evaluation::FollowMetrics& m = run.metrics;
-    const double found =
-        m.frames > 0 ? 100.0 * static_cast<double>(m.frames_found) / static_cast<double>(m.frames) : 0.0;
-    add_line(text, "%-20s %6.1f %6.1f %6.3f %6.2f %6.2f %6.2f %6.1f %6llu %6.2f %6.2f %6.2f %6.2f%s",
-             run.scenario.c_str(), m.person_path_m, m.robot_path_m, m.lateral_m.rms,
-             std::max(std::abs(m.lateral_m.lowest), std::abs(m.lateral_m.highest)), m.separation_m.mean,
-             m.separation_end_m, found, count(m.frames_wrong), m.out_of_view_longest_s,
-             m.truly_out_of_view_longest_s, kDeg * m.yaw_error_rad.rms, at_rest_s(m),
-             m.touching_s > 0.0 ? "  TOUCHED" : "");
-  }
-  text += '\n';
-  for (const SimulatedRun& run : runs) add_line(text, "%-20s %s", run.scenario.c_str(), run.shows.c_str());
-  text +=
-      "\nbeside, worst: robot's path from the person's. gap: robot to person. wrong: found, but elsewhere.\n"
-      "lost: longest between two sightings; hidden: longest that nobody could have seen the back. yaw: RMS "
-      "error.\nrest: not following while the person walked.\n";
-  return text;
+  std::cout << evaluation::many_runs_table(many)
+            << fmt::format("{} runs, {:.0f} s simulated, {:.0f} x real time\n", many.runs.size(),
+                           many.simulated_s, many.simulated_s / seconds_since(begin));
 }
 
 }  // namespace heel::cli

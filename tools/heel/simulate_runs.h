@@ -1,35 +1,22 @@
-// The runs of `heel simulate` and what is said of them: one in detail, several as a table.
+// The three kinds of work of `heel simulate`. Each prints its results; all throw heel::Error, and
+// CLI::RuntimeError when a criterion is not met.
 #pragma once
 
-#include <nlohmann/json.hpp>
-#include <string>
 #include <vector>
 
-#include "evaluation/metrics/metrics.h"
-#include "sim/lockstep/lockstep.h"
+#include "simulate_options.h"
 
 namespace heel::cli {
 
-struct SimulatedRun {
-  std::string scenario;
-  std::string shows;
-  std::uint64_t seed = 0;
-  std::string refused;  ///< why the run was never begun; empty: it was
-  sim::LockstepCounts counts;
-  evaluation::FollowMetrics metrics;
-  std::vector<std::string> failed;
-  double times_real = 0.0;  ///< simulated seconds a second
-};
+/// One run, in detail.
+void simulate_one(const SimulateOptions& options, const sim::Scenario& scenario);
 
-/// The scenario files that arguments name: a folder stands for its *.toml, by name. Throws heel::Error on a
-/// name that is neither, and on a folder without any.
-std::vector<std::string> scenario_files(const std::vector<std::string>& arguments);
+/// A run of each scenario, with a folder for each in the output folder, a table and figures. A shirt that
+/// cannot be followed is a result, not an error.
+void simulate_several(const SimulateOptions& options, const std::vector<sim::Scenario>& scenarios);
 
-/// No wall-clock figure: the same run prints the same bytes.
-nlohmann::ordered_json to_json(const SimulatedRun& run);
-/// For people, about one run.
-std::string detailed_text(const SimulatedRun& run);
-/// For people, a line a run and what its scenario is hard by.
-std::string table_text(const std::vector<SimulatedRun>& runs);
+/// `options.runs` runs of one scenario with consecutive seeds, and statistics over them. With an error model
+/// the runs are shared among the processor's cores; without, drawing one run already uses them all.
+void simulate_many(const SimulateOptions& options, const sim::Scenario& scenario);
 
 }  // namespace heel::cli

@@ -1,5 +1,6 @@
-// heel teach: one view of a shirt's back → a template file, with a verdict on how well it can be followed.
-#include <cstdio>
+// heel teach: one view of a shirt's back → a template file, and how well the shirt can be followed.
+#include <fmt/ranges.h>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,7 +21,7 @@ namespace heel::cli {
 namespace {
 
 constexpr TimeNs kFrameTimeout_ns = 2 * kNsPerS;
-constexpr std::uint64_t kSettlingFrames = 30;  // a camera's automatic exposure has come to rest by then
+constexpr std::uint64_t kSettlingFrames = 30;  // the camera's automatic exposure has settled by then
 
 struct TeachOptions {
   std::string image;
@@ -35,7 +36,8 @@ struct TeachOptions {
   std::optional<std::uint64_t> frame;
 };
 
-std::uint64_t frame_wanted(const TeachOptions& options) {
+/// Number of the frame to take.
+std::uint64_t wanted_frame(const TeachOptions& options) {
   const bool device = !options.camera_address.empty() && !options.camera_address.starts_with("file:");
   return options.frame.value_or(device ? kSettlingFrames : 0);
 }
@@ -43,9 +45,8 @@ std::uint64_t frame_wanted(const TeachOptions& options) {
 std::vector<std::uint8_t> grey_from_file(const TeachOptions& options, int& width_px, int& height_px) {
   FrameInput input({options.image}, 30.0);
   InputFrame frame;
-  if (!input.skip(frame_wanted(options)) || !input.next(frame)) {
-    throw Error("--frame " + std::to_string(frame_wanted(options)) + ": " + options.image +
-                " ends before that frame");
+  if (!input.skip(wanted_frame(options)) || !input.next(frame)) {
+    throw Error(fmt::format("--frame {}: {} ends before that frame", wanted_frame(options), options.image));
   }
   width_px = frame.grey.cols;
   height_px = frame.grey.rows;
@@ -59,17 +60,17 @@ std::vector<std::uint8_t> grey_from_camera(const TeachOptions& options, int& wid
   config.height_px = height_px;
   config.file_speed = 0.0;
   const std::unique_ptr<FrameSource> source = open_frame_source(config);
-  const std::uint64_t wanted = frame_wanted(options);
+  const std::uint64_t wanted = wanted_frame(options);
   FrameView view;
-  for (std::uint64_t seen = 0; seen <= wanted;) {
+  for (std::uint64_t received = 0; received <= wanted;) {
     const FrameResult result = source->wait_frame(kFrameTimeout_ns, view);
     if (result == FrameResult::Frame) {
-      ++seen;
+      ++received;
       continue;
     }
-    throw Error(options.camera_address + ": " +
-                (source->problem().empty() ? to_string(result) : source->problem()) + " (expected frame " +
-                std::to_string(wanted) + ", saw " + std::to_string(seen) + ")");
+    throw Error(fmt::format("{}: {} (expected frame {}, got {} frames)", options.camera_address,
+                            source->problem().empty() ? to_string(result) : source->problem(), wanted,
+                            received));
   }
   width_px = static_cast<int>(view.header.width_px);
   height_px = static_cast<int>(view.header.height_px);
@@ -85,14 +86,13 @@ Region parse_roi(const std::vector<int>& roi, const CameraModel& camera) {
   const Region region{roi[0], roi[1], roi[2], roi[3]};
   if (region.x_px < 0 || region.y_px < 0 || region.width_px < 1 || region.height_px < 1 ||
       region.width_px > camera.width_px - region.x_px || region.height_px > camera.height_px - region.y_px) {
-    throw Error("--roi: " + std::to_string(roi[0]) + "," + std::to_string(roi[1]) + "," +
-                std::to_string(roi[2]) + "," + std::to_string(roi[3]) + " (expected X,Y,W,H inside the " +
-                std::to_string(camera.width_px) + "x" + std::to_string(camera.height_px) + " image)");
+    throw Error(fmt::format("--roi: {} (expected X,Y,W,H inside the {}x{} image)", fmt::join(roi, ","),
+                            camera.width_px, camera.height_px));
   }
   return region;
 }
 
-ShirtTemplate take_template(const TeachOptions& options) {
+ShirtTemplate make_template(const TeachOptions& options) {
   ShirtTemplate shirt;
   shirt.camera = read_camera_model(options.camera_file);
   int width_px = shirt.camera.width_px;
@@ -100,10 +100,9 @@ ShirtTemplate take_template(const TeachOptions& options) {
   shirt.grey = options.image.empty() ? grey_from_camera(options, width_px, height_px)
                                      : grey_from_file(options, width_px, height_px);
   if (width_px != shirt.camera.width_px || height_px != shirt.camera.height_px) {
-    throw Error((options.image.empty() ? options.camera_address : options.image) + ": " +
-                std::to_string(width_px) + "x" + std::to_string(height_px) + " pixels (expected " +
-                std::to_string(shirt.camera.width_px) + "x" + std::to_string(shirt.camera.height_px) +
-                " as in " + options.camera_file + ")");
+    throw Error(fmt::format("{}: {}x{} pixels (expected {}x{} as in {})",
+                            options.image.empty() ? options.camera_address : options.image, width_px,
+                            height_px, shirt.camera.width_px, shirt.camera.height_px, options.camera_file));
   }
   shirt.roi = parse_roi(options.roi, shirt.camera);
   shirt.distance_m = options.distance_m;
@@ -113,30 +112,29 @@ ShirtTemplate take_template(const TeachOptions& options) {
 }
 
 void print_verdict(const ShirtTemplate& shirt, const TemplateVerdict& verdict) {
-  std::printf("%4d features in the %d x %d px region\n", verdict.features, shirt.roi.width_px,
-              shirt.roi.height_px);
-  std::printf("%4.0f %% of the region holds features\n", 100.0 * verdict.spread);
-  std::printf("%4.0f %% of the features look too much like another one\n", 100.0 * verdict.self_similarity);
-  std::printf("%4.0f %% of the features are still seen from twice the distance\n",
-              100.0 * verdict.coarse_share);
+  fmt::print("{:4} features in the {} x {} px region\n", verdict.features, shirt.roi.width_px,
+             shirt.roi.height_px);
+  fmt::print("{:4.0f} % of the region holds features\n", 100.0 * verdict.spread);
+  fmt::print("{:4.0f} % of the features are too similar to another one\n", 100.0 * verdict.self_similarity);
+  fmt::print("{:4.0f} % of the features are still found from twice the distance\n",
+             100.0 * verdict.coarse_share);
 }
 
 void run_teach(const TeachOptions& options) {
   if (options.image.empty() == options.camera_address.empty()) {
     throw Error("expected either --image or --camera (see heel teach --help)");
   }
-  if (!options.picture.empty()) require_writable_picture_name(options.picture);
-  const ShirtTemplate shirt = take_template(options);
+  if (!options.picture.empty()) require_writable_image_name(options.picture);
+  const ShirtTemplate shirt = make_template(options);
   const TemplateVerdict verdict = judge_template(shirt);
-  if (!options.picture.empty())
-    write_picture(options.picture, draw_template(shirt, template_features(shirt)));
+  if (!options.picture.empty()) write_image(options.picture, draw_template(shirt, template_features(shirt)));
   if (verdict.usable) write_template(shirt, options.output);
   print_verdict(shirt, verdict);
   if (!verdict.usable) {
-    std::printf("refused: %s\n", verdict.reason.c_str());
+    fmt::print("refused: {}\n", verdict.reason);
     throw CLI::RuntimeError(kExitNo);
   }
-  std::printf("wrote %s\n", options.output.c_str());
+  fmt::print("wrote {}\n", options.output);
 }
 
 }  // namespace
@@ -145,18 +143,18 @@ void add_teach_command(CLI::App& app) {
   auto options = std::make_shared<TeachOptions>();
   CLI::App* command = app.add_subcommand(
       "teach",
-      "Makes a template from one view of the back of a shirt, taken square on, and says how well it can be\n"
-      "followed. A shirt that cannot be followed is refused with the reason (exit status 1, nothing "
-      "written).");
+      "Makes a template from one view of the back of a shirt, with the camera square to the back, and says\n"
+      "how well it can be followed. A shirt that cannot be followed is refused with the reason (exit status\n"
+      "1, nothing written).");
   command->add_option("--image", options->image, "photograph or video of the back")->type_name("I");
   command
       ->add_option("--camera", options->camera_address,
-                   "take it now: v4l2:PATH, libcamera:ID, file:PATH, sim:NAME")
+                   "take the view now: v4l2:PATH, libcamera:ID, file:PATH, sim:NAME")
       ->type_name("SPEC");
   command
-      ->add_option(
-          "--frame", options->frame,
-          "which frame of the video or camera, from 0 (default 0; a device's 30, its exposure settled)")
+      ->add_option("--frame", options->frame,
+                   "number of the frame of a video or camera, from 0 (default 0; for a device 30, when its "
+                   "exposure has\nsettled)")
       ->type_name("N");
   command
       ->add_option("--roi", options->roi,
@@ -178,8 +176,9 @@ void add_teach_command(CLI::App& app) {
       ->type_name("T.heel");
   command->add_option("--picture", options->picture, "also draw the region and its features")
       ->type_name("P.png");
-  command->add_flag("--oriented", options->oriented, "descriptors that follow rotation in the image");
-  command->add_option("--max", options->max_features, "features kept, the strongest (default 300)")
+  command->add_flag("--oriented", options->oriented, "descriptors that tolerate rotation in the image");
+  command
+      ->add_option("--max", options->max_features, "largest number of features, the strongest (default 300)")
       ->type_name("N")
       ->check(CLI::Range(20, 5000));
   command->callback([options] { run_teach(*options); });

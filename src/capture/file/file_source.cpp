@@ -1,17 +1,12 @@
 #include "capture/file/file_source.h"
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 #include <system_error>
 
-#include "files/natural_order.h"
+#include "files/image_file.h"
+#include "files/video_reader.h"
 #include "realtime/clock.h"
 
 namespace heel {
@@ -19,29 +14,9 @@ namespace heel {
 namespace fs = std::filesystem;
 
 struct FileSource::Decoder {
-  cv::VideoCapture video;
-  cv::Mat colour;
+  VideoReader video;
   cv::Mat grey;
 };
-
-namespace {
-
-bool is_image_name(const fs::path& path) {
-  static constexpr std::array<const char*, 9> kExtensions{".png", ".jpg", ".jpeg", ".bmp", ".pgm",
-                                                          ".ppm", ".pnm", ".tif",  ".tiff"};
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-}
-
-std::string hertz(double rate_hz) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g Hz", rate_hz);
-  return text.data();
-}
-
-}  // namespace
 
 FileSource::FileSource(const std::string& path, double rate_hz, double file_speed)
     : FrameSource("file:" + path),
@@ -59,7 +34,7 @@ OpenResult FileSource::open() {
     return fail(OpenResult::Refused, "no such file; expected a video, an image or a folder of images");
   }
   decoder_ = std::make_unique<Decoder>();
-  const OpenResult result = fs::is_directory(status) || is_image_name(path_) ? open_images() : open_video();
+  const OpenResult result = fs::is_directory(status) || is_image_file(path_) ? open_images() : open_video();
   if (result != OpenResult::Opened) close();
   return result;
 }
@@ -67,32 +42,28 @@ OpenResult FileSource::open() {
 OpenResult FileSource::open_images() {
   if (fs::is_directory(path_)) {
     std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(path_, error)) {
-      if (is_image_name(entry.path())) images_.push_back(entry.path().string());
-    }
+    images_ = images_in_folder(path_, error);
     if (error) return fail(OpenResult::Refused, "cannot list the folder: " + error.message());
     if (images_.empty()) {
       return fail(OpenResult::Refused, "the folder holds no images; expected .png, .jpg, .bmp, .pgm or .tif");
     }
-    std::sort(images_.begin(), images_.end(), natural_less);
   } else {
     images_.push_back(path_);
   }
   own_rate_hz_ = image_rate_hz_;
-  description_ = address_ + ": " + std::to_string(images_.size()) + " image(s) at " + hertz(own_rate_hz_);
+  description_ = fmt::format("{}: {} image(s) at {:.4g} Hz", address_, images_.size(), own_rate_hz_);
   return OpenResult::Opened;
 }
 
 OpenResult FileSource::open_video() {
-  cv::VideoCapture& video = decoder_->video;
-  if (!video.open(path_, cv::CAP_FFMPEG)) {
+  VideoReader& video = decoder_->video;
+  if (!video.open(path_)) {
     return fail(OpenResult::Refused, "cannot be decoded; expected a video, an image or a folder of images");
   }
-  const double rate_hz = video.get(cv::CAP_PROP_FPS);
-  own_rate_hz_ = std::isfinite(rate_hz) && rate_hz > 0.0 ? rate_hz : image_rate_hz_;
-  description_ = address_ + ": video, " + std::to_string(std::lround(video.get(cv::CAP_PROP_FRAME_WIDTH))) +
-                 "x" + std::to_string(std::lround(video.get(cv::CAP_PROP_FRAME_HEIGHT))) + " at " +
-                 hertz(own_rate_hz_);
+  own_rate_hz_ = video.rate_hz() > 0.0 ? video.rate_hz() : image_rate_hz_;
+  const cv::Size size_px = video.size_px();
+  description_ =
+      fmt::format("{}: video, {}x{} at {:.4g} Hz", address_, size_px.width, size_px.height, own_rate_hz_);
   return OpenResult::Opened;
 }
 
@@ -122,15 +93,14 @@ FrameResult FileSource::wait_frame(TimeNs timeout_ns, FrameView& frame) {
 FrameResult FileSource::decode_next() {
   Decoder& decoder = *decoder_;
   if (images_.empty()) {
-    if (!decoder.video.read(decoder.colour)) {
+    if (!decoder.video.read(decoder.grey)) {
       return fail(FrameResult::EndOfStream, "ended after " + std::to_string(next_) + " frames");
     }
-    cv::cvtColor(decoder.colour, decoder.grey, cv::COLOR_BGR2GRAY);
   } else {
     if (next_ == images_.size()) {
       return fail(FrameResult::EndOfStream, "ended after " + std::to_string(next_) + " images");
     }
-    decoder.grey = cv::imread(images_[next_], cv::IMREAD_GRAYSCALE);
+    decoder.grey = decode_grey_image(images_[next_]);
   }
   ++next_;
   if (decoder.grey.empty()) {

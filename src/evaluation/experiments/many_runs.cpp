@@ -1,7 +1,8 @@
 #include "evaluation/experiments/many_runs.h"
 
+#include <fmt/format.h>
+
 #include <array>
-#include <cstdio>
 
 namespace heel::evaluation {
 namespace {
@@ -51,15 +52,12 @@ nlohmann::ordered_json to_json(const ManyRuns& many) {
 }
 
 std::string many_runs_table(const ManyRuns& many) {
-  char line[160];
-  std::snprintf(line, sizeof line, "%-24s %9s %9s %9s %9s %9s\n", "over runs", "mean", "deviation", "least",
-                "median", "most");
-  std::string text = line;
+  std::string text = fmt::format("{:<24} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "over runs", "mean", "deviation",
+                                 "least", "median", "most");
   for (const RunFigure& figure : kFigures) {
     const Quantiles q = over_runs(many, figure);
-    std::snprintf(line, sizeof line, "%-24s %9.3f %9.3f %9.3f %9.3f %9.3f\n", figure.name, q.mean,
-                  q.deviation, q.lowest, q.p50, q.highest);
-    text += line;
+    text += fmt::format("{:<24} {:9.3f} {:9.3f} {:9.3f} {:9.3f} {:9.3f}\n", figure.name, q.mean, q.deviation,
+                        q.lowest, q.p50, q.highest);
   }
   return text;
 }

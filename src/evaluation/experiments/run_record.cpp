@@ -1,20 +1,20 @@
 #include "evaluation/experiments/run_record.h"
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <opencv2/core/mat.hpp>
-#include <opencv2/imgcodecs.hpp>
+#include <fmt/format.h>
 
+#include <filesystem>
+
+#include "files/image_file.h"
 #include "files/template_file.h"
-#include "heel/error.h"
+#include "sim/robot/truth_columns.h"
 #include "sim/scene/truth_columns.h"
 
 namespace heel::evaluation {
 namespace {
 
 constexpr int kSavedFrames = 12;
-constexpr std::uint64_t kTicksAFlush = 50;
+constexpr std::uint64_t kFlushTicks = 50;
+constexpr int kWireDecimals = 3;
 
 }  // namespace
 
@@ -58,26 +58,12 @@ TickSample tick_sample(const TickRecord& tick) {
   return sample;
 }
 
-RunRecord::File RunRecord::create(const std::string& path) {
-  File file(std::fopen(path.c_str(), "w"));
-  if (!file) throw Error(path + ": cannot write: " + std::strerror(errno) + " (expected a writable folder)");
-  return file;
-}
-
 RunRecord::RunRecord(const std::string& directory, const sim::LockstepSettings& settings)
     : directory_(directory) {
   if (directory.empty()) return;
   recorder_ = std::make_unique<Recorder>(directory);
-  truth_ = create(directory + "/truth.csv");
-  std::fputs(
-      "t_s,robot_x_m,robot_y_m,robot_heading_rad,robot_v_m_s,robot_yaw_rate_rad_s,odom_x_m,odom_y_m,"
-      "odom_heading_rad,motors_enabled",
-      truth_.get());
-  if (settings.scenario.camera.source == "sim")
-    for (const sim::TruthColumn& column : sim::world_truth_columns())
-      std::fprintf(truth_.get(), ",%s", column.name);
-  std::fputc('\n', truth_.get());
-  wire_ = create(directory + "/wire.hex");
+  open_truth(settings.scenario.camera.source == "sim");
+  wire_ = std::make_unique<sim::WireFile>(directory + "/wire.hex", kWireDecimals);
   if (!settings.errors) {
     write_template(settings.shirt, directory + "/shirt.heel");
     std::filesystem::create_directories(directory + "/frames");
@@ -86,13 +72,27 @@ RunRecord::RunRecord(const std::string& directory, const sim::LockstepSettings& 
   t_next_frame_ns_ = frame_interval_ns_ / 2;
 }
 
+void RunRecord::open_truth(bool has_world) {
+  truth_file_ = std::make_unique<SampledCsv>(directory_ + "/truth.csv");
+  truth_file_->add_column("t_s", 4, [this] { return seconds_from_ns(truth_.t_ns); });
+  for (const sim::RobotTruthColumn& column : sim::robot_motion_columns())
+    truth_file_->add_column(column.name, column.decimals,
+                            [this, &column] { return column.value(truth_.robot); });
+  truth_file_->add_column("motors_enabled", 0, [this] { return truth_.robot.motors_enabled ? 1.0 : 0.0; });
+  if (!has_world) return;
+  for (const sim::TruthColumn& column : sim::world_truth_columns())
+    truth_file_->add_column(column.name, column.decimals,
+                            [this, &column] { return column.value(truth_.world); });
+}
+
 void RunRecord::on_tick(const TickRecord& tick, const sim::TruthMoment& truth) {
   metrics_.add(motion_sample(truth));
   metrics_.add(tick_sample(tick));
   if (!recorder_) return;
   recorder_->record(tick);
-  write_truth(truth);
-  if (tick.tick % kTicksAFlush == 0) recorder_->flush();
+  truth_ = truth;
+  truth_file_->write_row();
+  if (tick.tick % kFlushTicks == 0) recorder_->flush();
 }
 
 void RunRecord::on_pose(const FrameView& frame, const PoseEstimate& pose, const sim::TruthMoment& truth) {
@@ -101,43 +101,20 @@ void RunRecord::on_pose(const FrameView& frame, const PoseEstimate& pose, const 
   recorder_->record(pose);
   if (frame.grey == nullptr || pose.t_capture_ns < t_next_frame_ns_) return;
   t_next_frame_ns_ += frame_interval_ns_;
-  save_frame(frame);
+  write_grey_image(fmt::format("{}/frames/{:06}.png", directory_, frame.header.sequence), frame.grey,
+                   static_cast<int>(frame.header.width_px), static_cast<int>(frame.header.height_px),
+                   frame.stride_bytes);
 }
 
-/// "seconds hex": one line a tick, as it went out.
 void RunRecord::on_bytes_to_robot(std::span<const std::uint8_t> bytes, TimeNs t_ns) {
-  if (!wire_) return;
-  std::fprintf(wire_.get(), "%.3f ", seconds_from_ns(t_ns));
-  for (const std::uint8_t byte : bytes) std::fprintf(wire_.get(), "%02x", byte);
-  std::fputc('\n', wire_.get());
+  if (wire_) wire_->write(t_ns, bytes);
 }
 
 void RunRecord::flush() {
   if (!recorder_) return;
   recorder_->flush();
-  std::fflush(truth_.get());
-  std::fflush(wire_.get());
-}
-
-void RunRecord::write_truth(const sim::TruthMoment& truth) {
-  const sim::RobotTruth& robot = truth.robot;
-  std::fprintf(truth_.get(), "%.4f,%.5f,%.5f,%.6f,%.5f,%.6f,%.5f,%.5f,%.6f,%d", seconds_from_ns(truth.t_ns),
-               robot.pose.x_m, robot.pose.y_m, robot.pose.heading_rad, robot.v_m_s, robot.yaw_rate_rad_s,
-               robot.odometry.x_m, robot.odometry.y_m, robot.odometry.heading_rad, robot.motors_enabled);
-  if (truth.has_world)
-    for (const sim::TruthColumn& column : sim::world_truth_columns())
-      std::fprintf(truth_.get(), ",%.*f", column.decimals, column.value(truth.world));
-  std::fputc('\n', truth_.get());
-}
-
-void RunRecord::save_frame(const FrameView& frame) const {
-  char name[32];
-  std::snprintf(name, sizeof name, "/frames/%06llu.png",
-                static_cast<unsigned long long>(frame.header.sequence));
-  // OpenCV wants a mutable pointer; it only reads.
-  const cv::Mat picture(static_cast<int>(frame.header.height_px), static_cast<int>(frame.header.width_px),
-                        CV_8U, const_cast<std::uint8_t*>(frame.grey), frame.stride_bytes);
-  cv::imwrite(directory_ + name, picture);
+  truth_file_->flush();
+  wire_->flush();
 }
 
 }  // namespace heel::evaluation

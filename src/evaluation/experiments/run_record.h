@@ -1,25 +1,27 @@
-// A lock-step run's records: metrics always; CSV files, sample frames and the template where asked.
+// What is recorded of a lock-step run: samples for the metrics and, in a folder, CSV files, some frames and
+// the template.
 #pragma once
 
-#include <cstdio>
 #include <memory>
 #include <string>
 
 #include "evaluation/metrics/metrics.h"
+#include "files/sampled_csv.h"
 #include "sim/lockstep/lockstep.h"
+#include "sim/transport/wire_file.h"
 #include "telemetry/recorder.h"
 
 namespace heel::evaluation {
 
-/// Samples for the metrics from a run's records.
+// Samples for the metrics, made of a run's records.
 MotionSample motion_sample(const sim::TruthMoment& truth);
 PoseSample pose_sample(const PoseEstimate& pose, const sim::TruthMoment& truth);
 TickSample tick_sample(const TickRecord& tick);
 
 class RunRecord : public sim::LockstepObserver {
  public:
-  /// `directory` empty: metrics only. Writes ticks.csv, poses.csv, truth.csv, wire.hex, shirt.heel and about
-  /// twelve frames. Throws heel::Error when the folder cannot be written.
+  /// Writes ticks.csv, poses.csv, truth.csv, wire.hex, shirt.heel and about twelve frames; nothing when
+  /// `directory` is empty. Throws heel::Error when the folder cannot be written.
   RunRecord(const std::string& directory, const sim::LockstepSettings& settings);
 
   void on_tick(const TickRecord& tick, const sim::TruthMoment& truth) override;
@@ -27,23 +29,18 @@ class RunRecord : public sim::LockstepObserver {
   void on_bytes_to_robot(std::span<const std::uint8_t> bytes, TimeNs t_ns) override;
 
   const MetricsCollector& metrics() const { return metrics_; }
-  /// Everything told so far is in the files.
+  /// Hands all records so far to the operating system.
   void flush();
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  using File = std::unique_ptr<std::FILE, Close>;
-  static File create(const std::string& path);
-  void write_truth(const sim::TruthMoment& truth);
-  void save_frame(const FrameView& frame) const;
+  void open_truth(bool has_world);
 
   std::string directory_;
   MetricsCollector metrics_;
-  std::unique_ptr<Recorder> recorder_;
-  File truth_;
-  File wire_;
+  std::unique_ptr<Recorder> recorder_;  ///< this and the files: null without a directory
+  std::unique_ptr<SampledCsv> truth_file_;
+  sim::TruthMoment truth_;  ///< of the row being written
+  std::unique_ptr<sim::WireFile> wire_;
   TimeNs frame_interval_ns_ = 0;
   TimeNs t_next_frame_ns_ = 0;
 };

@@ -1,9 +1,9 @@
 #include "evaluation/metrics/metrics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <numbers>
 
 #include "core/angles.h"
 #include "heel/flow.h"
@@ -139,13 +139,17 @@ nlohmann::ordered_json to_json(const Quantiles& q) {
           {"p50", q.p50},     {"p95", q.p95},    {"max", q.highest}};
 }
 
-std::string line(const char* format, double found, double allowed) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, found, allowed);
-  return text;
+double nearest_rank(const std::vector<double>& sorted, double share) {
+  return sorted[static_cast<std::size_t>(std::lround(share * static_cast<double>(sorted.size() - 1)))];
 }
 
 }  // namespace
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return nearest_rank(values, share);
+}
 
 Quantiles quantiles(std::vector<double> values) {
   Quantiles q;
@@ -158,15 +162,12 @@ Quantiles quantiles(std::vector<double> values) {
     squares += value * value;
   }
   const auto n = static_cast<double>(values.size());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(std::lround(share * (n - 1.0)))];
-  };
   q.mean = sum / n;
   q.rms = std::sqrt(squares / n);
   q.deviation = std::sqrt(std::max(0.0, squares / n - q.mean * q.mean));
-  q.p05 = at(0.05);
-  q.p50 = at(0.5);
-  q.p95 = at(0.95);
+  q.p05 = nearest_rank(values, 0.05);
+  q.p50 = nearest_rank(values, 0.5);
+  q.p95 = nearest_rank(values, 0.95);
   q.lowest = values.front();
   q.highest = values.back();
   return q;
@@ -237,14 +238,15 @@ std::vector<std::string> failed_criteria(const FollowMetrics& m, const FollowCri
   std::vector<std::string> failed;
   if (m.frames == 0) failed.push_back("no frame was seen while the person walked");
   if (criteria.max_out_of_view_s >= 0.0 && m.out_of_view_longest_s > criteria.max_out_of_view_s)
-    failed.push_back(line("the target was out of view for %.2f s (at most %.2f s allowed)",
-                          m.out_of_view_longest_s, criteria.max_out_of_view_s));
+    failed.push_back(fmt::format("the target was out of view for {:.2f} s (at most {:.2f} s allowed)",
+                                 m.out_of_view_longest_s, criteria.max_out_of_view_s));
   if (criteria.max_rms_m >= 0.0 && (m.lateral_m.count == 0 || !(m.lateral_m.rms <= criteria.max_rms_m)))
-    failed.push_back(line("the robot's path was %.3f m RMS beside the person's (at most %.3f m allowed)",
-                          m.lateral_m.rms, criteria.max_rms_m));
-  if (criteria.min_robot_path_m >= 0.0 && m.robot_path_m < criteria.min_robot_path_m)
     failed.push_back(
-        line("the robot went %.2f m (at least %.2f m expected)", m.robot_path_m, criteria.min_robot_path_m));
+        fmt::format("the robot's path was {:.3f} m RMS beside the person's (at most {:.3f} m allowed)",
+                    m.lateral_m.rms, criteria.max_rms_m));
+  if (criteria.min_robot_path_m >= 0.0 && m.robot_path_m < criteria.min_robot_path_m)
+    failed.push_back(fmt::format("the robot went {:.2f} m (at least {:.2f} m expected)", m.robot_path_m,
+                                 criteria.min_robot_path_m));
   return failed;
 }
 

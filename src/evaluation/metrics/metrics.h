@@ -54,6 +54,8 @@ struct Quantiles {
   double p05 = 0.0, p50 = 0.0, p95 = 0.0, lowest = 0.0, highest = 0.0;
 };
 Quantiles quantiles(std::vector<double> values);
+/// The value of the nearest rank below which `share` of the values lie; 0 when there are none.
+double quantile(std::vector<double> values, double share);
 
 /// A target found farther than this from its true place is another one.
 inline constexpr double kWrong_m = 0.5;

@@ -7,7 +7,7 @@
 
 #include "core/angles.h"
 #include "evaluation/metrics/metrics.h"
-#include "evaluation/reports/csv_file.h"
+#include "files/csv_file.h"
 
 namespace heel::evaluation {
 namespace {
@@ -146,7 +146,7 @@ void write_errors(const std::vector<ErrorCurve>& curves, const std::string& path
       for (const double nees : {b.yaw_nees, b.t_x_nees, b.t_z_nees}) file.number(nees, 3);
       file.end_row();
     }
-  file.close();
+  file.flush();
 }
 
 void write_error_map(const std::vector<StillSample>& samples, const std::string& path) {
@@ -169,7 +169,7 @@ void write_error_map(const std::vector<StillSample>& samples, const std::string&
         file.number(kDegPerRad * yaw_rad, 3);
       file.end_row();
     }
-  file.close();
+  file.flush();
 }
 
 NeesBand nees_band(std::size_t count) {

@@ -7,9 +7,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/angles.h"
-#include "evaluation/reports/csv_file.h"
 #include "evaluation/reports/csv_table.h"
 #include "evaluation/reports/run_numbers.h"
+#include "files/csv_file.h"
 #include "files/template_file.h"
 #include "heel/shirt_template.h"
 
@@ -94,7 +94,7 @@ void write_kept_frames(const std::string& directory, double t_begin_s) {
     for (const Eigen::Vector2d& corner_px : corners) file.number(corner_px.x(), 2).number(corner_px.y(), 2);
     file.end_row();
   }
-  file.close();
+  file.flush();
 }
 
 }  // namespace heel::evaluation

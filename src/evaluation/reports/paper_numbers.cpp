@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/angles.h"
-#include "evaluation/reports/csv_file.h"
 #include "files/atomic_file.h"
+#include "files/csv_file.h"
 
 namespace heel::evaluation {
 namespace {
@@ -43,7 +43,7 @@ void write_response(const std::string& directory, const MetricsCollector& run) {
     file.number(kDegPerRad * wrap_angle_rad(now.robot.heading_rad - now.person.heading_rad), 3);
     file.end_row();
   }
-  file.close();
+  file.flush();
 }
 
 void write_walk(const std::string& directory, const MetricsCollector& run,
@@ -57,7 +57,7 @@ void write_walk(const std::string& directory, const MetricsCollector& run,
     add_run(file, "walk-position-only", *position_only);
     json["position_only_rms_m"] = position_only->evaluate().lateral_m.rms;
   }
-  file.close();
+  file.flush();
   write_file_atomically(directory + "/fig8_walk.json", json.dump(2) + "\n");
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/angles.h"
-#include "evaluation/reports/csv_file.h"
+#include "files/csv_file.h"
 
 namespace heel::evaluation {
 namespace {
@@ -34,7 +34,7 @@ void write_path(const std::string& path, const MetricsCollector& run, const Foll
     file.number(sample.has_person ? sample.person.y_m : kNoValue, kLengthDecimals);
     file.end_row();
   }
-  file.close();
+  file.flush();
 }
 
 void write_pose_errors(const std::string& path, const MetricsCollector& run, const FollowMetrics& metrics) {
@@ -53,7 +53,7 @@ void write_pose_errors(const std::string& path, const MetricsCollector& run, con
     file.number(robot.x_m, kLengthDecimals).number(robot.y_m, kLengthDecimals);
     file.end_row();
   }
-  file.close();
+  file.flush();
 }
 
 void write_commands(const std::string& path, const MetricsCollector& run) {
@@ -63,7 +63,7 @@ void write_commands(const std::string& path, const MetricsCollector& run) {
     file.number(tick.v_m_s, kShareDecimals).number(tick.yaw_rate_rad_s, kShareDecimals);
     file.end_row();
   }
-  file.close();
+  file.flush();
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 
 #include "core/angles.h"
 #include "evaluation/metrics/metrics.h"
-#include "evaluation/reports/csv_file.h"
 #include "evaluation/reports/csv_table.h"
+#include "files/csv_file.h"
 
 namespace heel::evaluation {
 namespace {
@@ -116,7 +116,7 @@ void write_steps(const std::vector<Step>& steps, const std::string& unit, const 
       file.number(value, 4);
     file.end_row();
   }
-  file.close();
+  file.flush();
 }
 
 }  // namespace heel::evaluation

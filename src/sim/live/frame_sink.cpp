@@ -8,8 +8,8 @@
 #include "capture/factory/source_address.h"
 #include "capture/frame_source.h"
 #include "capture/shared_memory/sim_channel.h"
+#include "files/image_file.h"
 #include "heel/error.h"
-#include "sim/live/picture_file.h"
 #include "sim/live/v4l2_sink.h"
 
 namespace heel::sim {
@@ -32,22 +32,23 @@ class ChannelSink : public FrameSink {
   SimChannelWriter channel_;
 };
 
-/// One picture, each frame in its turn: written beside it and renamed, so that readers see whole ones only.
+/// A picture file that every frame replaces. The frame is written beside it and renamed, so that readers only
+/// see whole pictures.
 class PictureSink : public FrameSink {
  public:
-  explicit PictureSink(std::string path) : path_(std::move(path)), unfinished_(path_ + ".part.pgm") {
+  explicit PictureSink(std::string path) : path_(std::move(path)), temporary_path_(path_ + ".part.pgm") {
     if (!path_.ends_with(".pgm")) throw Error("--camera file:" + path_ + " (expected file:PICTURE.pgm)");
   }
 
   void put(const FrameHeader& header, const std::vector<std::uint8_t>& grey) override {
-    write_grey_picture(unfinished_, grey, static_cast<int>(header.width_px),
-                       static_cast<int>(header.height_px));
-    if (std::rename(unfinished_.c_str(), path_.c_str()) != 0)
+    write_grey_image(temporary_path_, grey.data(), static_cast<int>(header.width_px),
+                     static_cast<int>(header.height_px));
+    if (std::rename(temporary_path_.c_str(), path_.c_str()) != 0)
       throw Error(path_ + ": cannot be replaced: " + std::strerror(errno));
   }
 
  private:
-  std::string path_, unfinished_;
+  std::string path_, temporary_path_;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Where the simulated camera's frames go: to readers of "sim:NAME", into a video device for anybody's
-// program, or into a file for whoever can reach it, another machine among them.
+// Where the simulated camera's frames go: to readers of "sim:NAME" on this machine, into a video device that
+// any program can read, or into a picture file, which another machine can read as well.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,13 @@ namespace heel::sim {
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
-  /// `grey` is dense, of the header's size. Throws heel::Error when frames can no longer go there.
+  /// `grey` has the header's size, rows without gaps. Throws heel::Error when frames can no longer be
+  /// delivered.
   virtual void put(const FrameHeader& header, const std::vector<std::uint8_t>& grey) = 0;
 };
 
-/// "sim:NAME", "v4l2:/dev/videoN" or "file:PICTURE.pgm", for frames of this size and rate. Throws heel::Error
-/// naming the address, what is wrong and what was expected.
+/// Opens "sim:NAME", "v4l2:/dev/videoN" or "file:PICTURE.pgm" for frames of this size and rate. Throws
+/// heel::Error naming the address, what is wrong and what was expected.
 std::unique_ptr<FrameSink> open_frame_sink(const std::string& address, int width_px, int height_px,
                                            double rate_hz);
 

@@ -20,7 +20,7 @@ class KernelOutputDevice final : public OutputDevice {
   }
 
   int open(const std::string& path) override {
-    // An ordinary file of that name must not be written over.
+    // An ordinary file with this name must not be overwritten.
     struct stat file {};
     if (stat(path.c_str(), &file) != 0) return errno;
     if (!S_ISCHR(file.st_mode)) return ENOTTY;

@@ -1,14 +1,15 @@
 #include "sim/live/live_camera.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <utility>
 
+#include "files/image_file.h"
 #include "heel/error.h"
 #include "realtime/clock.h"
-#include "sim/live/picture_file.h"
+#include "sim/contact/robot_in_world.h"
 
 namespace heel::sim {
 
@@ -23,15 +24,7 @@ RobotMotion SharedMotion::at(TimeNs t_ns) const {
     const std::scoped_lock lock(mutex_);
     truth = truth_;
   }
-  const double dt_s = seconds_from_ns(t_ns - truth.t_ns);
-  const double mid_heading_rad = truth.pose.heading_rad + 0.5 * dt_s * truth.yaw_rate_rad_s;
-  RobotMotion motion;
-  motion.x_m = truth.pose.x_m + dt_s * truth.v_m_s * std::cos(mid_heading_rad);
-  motion.y_m = truth.pose.y_m + dt_s * truth.v_m_s * std::sin(mid_heading_rad);
-  motion.heading_rad = truth.pose.heading_rad + dt_s * truth.yaw_rate_rad_s;
-  motion.v_m_s = truth.v_m_s;
-  motion.yaw_rate_rad_s = truth.yaw_rate_rad_s;
-  return motion;
+  return moved(motion_of(truth), seconds_from_ns(t_ns - truth.t_ns));
 }
 
 LiveCamera::LiveCamera(World& world, const SharedMotion& motion, std::unique_ptr<FrameSink> sink,
@@ -40,9 +33,10 @@ LiveCamera::LiveCamera(World& world, const SharedMotion& motion, std::unique_ptr
       motion_(motion),
       sink_(std::move(sink)),
       t_start_ns_(t_start_ns),
+      period_ns_(ns_from_seconds(1.0 / world.scenario().camera.rate_hz)),
       saved_folder_(saved_folder),
       saved_every_ns_(ns_from_seconds(saved_every_s)),
-      t_save_ns_(saved_every_ns_ / 2) {
+      t_next_save_ns_(saved_every_ns_ / 2) {
   if (!saved_folder_.empty()) {
     std::error_code error;
     std::filesystem::create_directories(saved_folder_, error);
@@ -61,21 +55,25 @@ LiveCameraCounters LiveCamera::counters() const {
   return counters_;
 }
 
+/// The frame whose time is now.
+std::uint64_t LiveCamera::current_sequence() const {
+  return static_cast<std::uint64_t>((monotonic_now_ns() - t_start_ns_) / period_ns_);
+}
+
 void LiveCamera::run() {
-  const TimeNs period_ns = ns_from_seconds(1.0 / world_.scenario().camera.rate_hz);
-  std::uint64_t sequence = 1 + static_cast<std::uint64_t>((monotonic_now_ns() - t_start_ns_) / period_ns);
+  std::uint64_t sequence = 1 + current_sequence();
   while (!stop_) {
-    const TimeNs t_ns = static_cast<TimeNs>(sequence) * period_ns;
+    const TimeNs t_ns = static_cast<TimeNs>(sequence) * period_ns_;
     sleep_until_ns(t_start_ns_ + readable_ns(t_ns));
     try {
       draw(sequence, t_ns);
     } catch (const Error& error) {
-      std::fprintf(stderr, "heel-sim: %s; no more frames\n", error.what());
+      fmt::print(stderr, "heel-sim: {}; the camera sends no more frames\n", error.what());
       return;
     }
-    // Frames whose time has passed meanwhile are left out; the count goes on, as a camera's does.
-    const auto due = static_cast<std::uint64_t>((monotonic_now_ns() - t_start_ns_) / period_ns);
-    const std::uint64_t next = std::max(sequence + 1, due);
+    // Frames whose time has passed while this one was drawn are left out. Their numbers are left out too, as
+    // a camera's are.
+    const std::uint64_t next = std::max(sequence + 1, current_sequence());
     if (next > sequence + 1) {
       const std::scoped_lock lock(counters_mutex_);
       counters_.frames_late += next - sequence - 1;
@@ -84,7 +82,7 @@ void LiveCamera::run() {
   }
 }
 
-/// A frame is there when its last row's exposure has ended.
+/// When the exposure of the last row has ended.
 TimeNs LiveCamera::readable_ns(TimeNs t_ns) const {
   return t_ns + ns_from_seconds(0.5e-3 * (world_.exposure(seconds_from_ns(t_ns)).exposure_ms +
                                           world_.scenario().camera.readout_ms));
@@ -92,40 +90,40 @@ TimeNs LiveCamera::readable_ns(TimeNs t_ns) const {
 
 void LiveCamera::draw(std::uint64_t sequence, TimeNs t_ns) {
   const TimeNs t_begin_ns = monotonic_now_ns();
-  const FrameFate fate = frame_fate(world_.scenario().camera.timing, world_.scenario().seed, sequence);
-  if (fate.dropped) {
+  const FrameDelivery delivery =
+      frame_delivery(world_.scenario().camera.timing, world_.scenario().seed, sequence);
+  if (delivery.dropped) {
     const std::scoped_lock lock(counters_mutex_);
     ++counters_.frames_dropped;
     return;
   }
   world_.render(motion_.at(t_ns), seconds_from_ns(t_ns), sequence, grey_);
-  const double took_ms = 1e-6 * static_cast<double>(monotonic_now_ns() - t_begin_ns);
-  if (fate.delay_ns > 0) sleep_until_ns(t_start_ns_ + readable_ns(t_ns) + fate.delay_ns);
+  const double draw_ms = 1e-6 * static_cast<double>(monotonic_now_ns() - t_begin_ns);
+  if (delivery.delay_ns > 0) sleep_until_ns(t_start_ns_ + readable_ns(t_ns) + delivery.delay_ns);
   const CameraModel& camera = world_.scenario().camera.model;
   FrameHeader header;
   header.sequence = sequence;
-  header.t_capture_ns = t_start_ns_ + t_ns + fate.stamp_error_ns;
+  header.t_capture_ns = t_start_ns_ + t_ns + delivery.stamp_error_ns;
   header.width_px = static_cast<std::uint32_t>(camera.width_px);
   header.height_px = static_cast<std::uint32_t>(camera.height_px);
   sink_->put(header, grey_);
   {
     const std::scoped_lock lock(counters_mutex_);
     ++counters_.frames;
-    counters_.draw_ms_mean += (took_ms - counters_.draw_ms_mean) / static_cast<double>(counters_.frames);
-    counters_.draw_ms_worst = std::max(counters_.draw_ms_worst, took_ms);
+    counters_.draw_ms_mean += (draw_ms - counters_.draw_ms_mean) / static_cast<double>(counters_.frames);
+    counters_.draw_ms_max = std::max(counters_.draw_ms_max, draw_ms);
   }
-  if (!saved_folder_.empty() && t_ns >= t_save_ns_) save(sequence, t_ns);
+  if (!saved_folder_.empty() && t_ns >= t_next_save_ns_) save(sequence, t_ns);
 }
 
 void LiveCamera::save(std::uint64_t sequence, TimeNs t_ns) {
   const CameraModel& camera = world_.scenario().camera.model;
-  while (t_save_ns_ <= t_ns) t_save_ns_ += saved_every_ns_;
-  char name[32];
-  std::snprintf(name, sizeof name, "/%06llu.png", static_cast<unsigned long long>(sequence));
+  while (t_next_save_ns_ <= t_ns) t_next_save_ns_ += saved_every_ns_;
   try {
-    write_grey_picture(saved_folder_ + name, grey_, camera.width_px, camera.height_px);
+    write_grey_image(fmt::format("{}/{:06}.png", saved_folder_, sequence), grey_.data(), camera.width_px,
+                     camera.height_px);
   } catch (const Error& error) {
-    std::fprintf(stderr, "heel-sim: %s; no more frames are kept\n", error.what());
+    fmt::print(stderr, "heel-sim: {}; no more frames are saved\n", error.what());
     saved_folder_.clear();
   }
 }

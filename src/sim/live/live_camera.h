@@ -1,6 +1,6 @@
-// The simulated camera in real time: a thread of its own draws what the robot's camera sees and hands it to
-// a sink. Drawing never holds up the robot: the two share one small record under a lock that
-// nobody keeps for longer than a copy.
+// The simulated camera in real time: a thread of its own draws what the robot's camera sees and hands each
+// frame to a sink. Drawing never delays the robot: the two threads share one small record, locked only while
+// it is copied.
 #pragma once
 
 #include <atomic>
@@ -16,11 +16,11 @@
 
 namespace heel::sim {
 
-/// Where the robot was last, for the camera's thread.
+/// The robot's last known motion, written by the robot's thread and read by the camera's.
 class SharedMotion {
  public:
   void set(const RobotTruth& truth);
-  /// Carried on from the last record to `t_ns` at its speed.
+  /// The last record extrapolated to `t_ns` at constant speed.
   RobotMotion at(TimeNs t_ns) const;
 
  private:
@@ -30,17 +30,17 @@ class SharedMotion {
 
 struct LiveCameraCounters {
   std::uint64_t frames = 0;
-  std::uint64_t frames_late = 0;     ///< left out: drawing had not kept up
-  std::uint64_t frames_dropped = 0;  ///< on purpose: the scenario's share
+  std::uint64_t frames_late = 0;     ///< left out: drawing was not fast enough
+  std::uint64_t frames_dropped = 0;  ///< left out: the scenario's drop_share
   double draw_ms_mean = 0.0;
-  double draw_ms_worst = 0.0;
+  double draw_ms_max = 0.0;
 };
 
 class LiveCamera {
  public:
-  /// Frames begin at `t_start_ns` (CLOCK_MONOTONIC), which is time 0 of world and robot. Every
-  /// `saved_every_s` one is kept in `saved_folder` (none when empty). Throws heel::Error when that cannot be
-  /// made. A sink that fails later ends the camera, with a line that says so, and not the robot.
+  /// Frames begin at `t_start_ns` (CLOCK_MONOTONIC), which is time 0 of world and robot. A frame every
+  /// `saved_every_s` is also saved in `saved_folder` (none when empty). Throws heel::Error when the folder
+  /// cannot be made. A sink that fails later ends the camera with a line on stderr; the robot goes on.
   LiveCamera(World& world, const SharedMotion& motion, std::unique_ptr<FrameSink> sink, TimeNs t_start_ns,
              const std::string& saved_folder, double saved_every_s);
   ~LiveCamera();
@@ -51,22 +51,24 @@ class LiveCamera {
 
  private:
   void run();
-  void save(std::uint64_t sequence, TimeNs t_ns);
   void draw(std::uint64_t sequence, TimeNs t_ns);
+  void save(std::uint64_t sequence, TimeNs t_ns);
   TimeNs readable_ns(TimeNs t_ns) const;
+  std::uint64_t current_sequence() const;
 
   World& world_;
   const SharedMotion& motion_;
   std::unique_ptr<FrameSink> sink_;
   TimeNs t_start_ns_;
+  TimeNs period_ns_;
   std::string saved_folder_;
   TimeNs saved_every_ns_;
-  TimeNs t_save_ns_;
+  TimeNs t_next_save_ns_;
   std::vector<std::uint8_t> grey_;
   mutable std::mutex counters_mutex_;
   LiveCameraCounters counters_;
   std::atomic<bool> stop_{false};
-  std::thread thread_;  ///< last: begins when all else stands
+  std::thread thread_;  ///< last: it starts when every other member is ready
 };
 
 }  // namespace heel::sim

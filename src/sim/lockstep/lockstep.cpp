@@ -12,6 +12,7 @@
 #include "heel/pose_tracker.h"
 #include "robot/arcos_session.h"
 #include "sim/contact/contact.h"
+#include "sim/contact/robot_in_world.h"
 #include "sim/lockstep/frame_supply.h"
 #include "sim/pose_noise/sampled_poses.h"
 
@@ -43,7 +44,6 @@ class Lockstep {
   void see(const TakenFrame& taken, TimeNs t_start_ns);
   void tick(TimeNs t_ns, bool shutdown);
   void send(std::span<const std::uint8_t> bytes, TimeNs t_ns);
-  void start_person_when_motors_run(TimeNs t_ns);
   RobotMotion motion_at(TimeNs t_ns) const;
   TruthMoment truth_at(TimeNs t_ns) const;
 
@@ -127,20 +127,14 @@ void Lockstep::advance_line(TimeNs t_ns) {
     if (contact_) contact_->step(seconds_from_ns(t_line_ns_));
     session_.receive(robot_.take_output(), t_line_ns_);
   }
-  if (world_) start_person_when_motors_run(t_ns);
-}
-
-void Lockstep::start_person_when_motors_run(TimeNs t_ns) {
-  if (world_->walking() || !robot_.truth().motors_enabled) return;
-  world_->start_walk(seconds_from_ns(t_ns) + scenario_.walk_after_s);
+  if (world_) start_walk_when_motors_run(robot_.truth(), seconds_from_ns(t_ns), *world_);
 }
 
 RobotMotion Lockstep::motion_at(TimeNs t_ns) const {
   const RobotTruth truth = robot_.truth();
   // The model stands at the last whole millisecond.
   const double dt_s = seconds_from_ns(t_ns - t_line_ns_);
-  RobotMotion motion{truth.pose.x_m, truth.pose.y_m, truth.pose.heading_rad, truth.v_m_s,
-                     truth.yaw_rate_rad_s};
+  RobotMotion motion = motion_of(truth);
   motion.x_m += dt_s * truth.v_m_s * std::cos(truth.pose.heading_rad);
   motion.y_m += dt_s * truth.v_m_s * std::sin(truth.pose.heading_rad);
   motion.heading_rad += dt_s * truth.yaw_rate_rad_s;
@@ -169,14 +163,14 @@ TimeNs Lockstep::readable_ns(TimeNs t_ns) const {
 /// Vision takes the freshest frame as soon as it is free; a frame that is overtaken is never looked at.
 void Lockstep::expose(TimeNs t_ns) {
   ++counts_.frames;
-  const FrameFate fate = frame_fate(scenario_.camera.timing, scenario_.seed, counts_.frames);
-  if (fate.dropped) {
+  const FrameDelivery delivery = frame_delivery(scenario_.camera.timing, scenario_.seed, counts_.frames);
+  if (delivery.dropped) {
     ++counts_.frames_dropped;
     return;
   }
-  const TimeNs t_ready_ns = std::max(t_last_ready_ns_, readable_ns(t_ns) + fate.delay_ns);
+  const TimeNs t_ready_ns = std::max(t_last_ready_ns_, readable_ns(t_ns) + delivery.delay_ns);
   t_last_ready_ns_ = t_ready_ns;
-  const TakenFrame taken{counts_.frames, t_ns, fate.stamp_error_ns, motion_at(t_ns), truth_at(t_ns)};
+  const TakenFrame taken{counts_.frames, t_ns, delivery.stamp_error_ns, motion_at(t_ns), truth_at(t_ns)};
   if (waiting_ && t_ready_ns >= t_vision_free_ns_) {
     // It became free since the last frame: that one was seen first.
     see(*waiting_, t_vision_free_ns_);
@@ -280,14 +274,9 @@ void apply_scenario(const Scenario& scenario, Config& config) {
 }
 
 P3AtSettings robot_settings(const Scenario& scenario) {
-  const ScenarioRobot& robot = scenario.robot;
   P3AtSettings settings;
   settings.boot_baud = 38400;
-  settings.start = {robot.x_m, robot.y_m, robot.heading_rad};
-  settings.chassis.true_track_m = robot.true_track_m;
-  settings.chassis.left_scale_error = robot.left_scale_error;
-  settings.chassis.right_scale_error = robot.right_scale_error;
-  for (const std::string& fault : robot.faults) settings.faults.push_back(parse_fault(fault));
+  apply_robot(scenario.robot, settings);
   return settings;
 }
 

@@ -26,7 +26,7 @@ struct FitRow {
 ErrorModel fit_error_model(const std::vector<FitRow>& stills, const std::vector<FitRow>& walk);
 
 /// The conditions of a truth: what hides the back, and what of it is out of the picture, is one share.
-/// `occluded` as evaluation::StillView.
+/// `occluded` as evaluation::StillImageView.
 ViewConditions conditions_of(double x_m, double z_m, double yaw_rad, double fx_px, double cx_px,
                              double width_px, double occluded);
 

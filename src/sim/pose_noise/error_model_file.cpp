@@ -1,8 +1,7 @@
-// The model as TOML: a table a quantity, a key a term.
-#include <cstdio>
-#include <fstream>
+// The error model as TOML: a section for each quantity, a key for each term.
+#include <fmt/ranges.h>
 
-#include "heel/error.h"
+#include "files/output_file.h"
 #include "sim/pose_noise/error_model.h"
 #include "toml/toml_file.h"
 #include "toml/toml_section.h"
@@ -12,16 +11,16 @@ namespace {
 
 constexpr NumberRange kAny{-1e6, 1e6, ""};
 
-template <typename Terms, std::size_t N>
-void write_terms(std::ostream& out, const Terms& terms, const std::array<const char*, N>& names) {
-  for (std::size_t i = 0; i < N; ++i) {
-    char line[80];
-    std::snprintf(line, sizeof line, "%s = %.8g\n", names[i], terms(static_cast<Eigen::Index>(i)) + 0.0);
-    out << line;
-  }
+void write_value(OutputFile& file, const char* name, double value) {
+  file.print("{} = {:.8g}\n", name, value);
 }
 
-/// TOML tells whole numbers from others; both are numbers here.
+template <typename Terms, std::size_t N>
+void write_terms(OutputFile& file, const Terms& terms, const std::array<const char*, N>& names) {
+  // Adding 0 makes 0 of −0.
+  for (std::size_t i = 0; i < N; ++i) write_value(file, names[i], terms(static_cast<Eigen::Index>(i)) + 0.0);
+}
+
 template <typename Terms, std::size_t N>
 Terms read_terms(TomlSection section, const std::array<const char*, N>& names) {
   Terms terms;
@@ -31,28 +30,17 @@ Terms read_terms(TomlSection section, const std::array<const char*, N>& names) {
   return terms;
 }
 
-void write_value(std::ostream& out, const char* name, double value) {
-  char line[80];
-  std::snprintf(line, sizeof line, "%s = %.8g\n", name, value);
-  out << line;
-}
-
-void write_spread(std::ostream& out, const std::string& name, const char* what, const SpreadModel& model) {
-  out << "\n# " << what << "\n[" << name << "]\n";
-  write_value(out, "print_share", model.print_share);
-  write_value(out, "memory_s", model.memory_s);
-  out << "residual = [";
-  for (std::size_t i = 0; i < kQuantiles; ++i) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%s%.5f", i == 0 ? "" : ", ", model.residual[i]);
-    out << number;
-  }
-  out << "]\n[" << name << ".bias_even]\n";
-  write_terms(out, model.bias_even, kEvenTerms);
-  out << "[" << name << ".bias_odd]\n";
-  write_terms(out, model.bias_odd, kOddTerms);
-  out << "[" << name << ".log_spread]\n";
-  write_terms(out, model.log_spread, kEvenTerms);
+void write_spread(OutputFile& file, const std::string& name, const char* comment, const SpreadModel& model) {
+  file.print("\n# {}\n[{}]\n", comment, name);
+  write_value(file, "print_share", model.print_share);
+  write_value(file, "memory_s", model.memory_s);
+  file.print("residual = [{:.5f}]\n", fmt::join(model.residual, ", "));
+  file.print("[{}.bias_even]\n", name);
+  write_terms(file, model.bias_even, kEvenTerms);
+  file.print("[{}.bias_odd]\n", name);
+  write_terms(file, model.bias_odd, kOddTerms);
+  file.print("[{}.log_spread]\n", name);
+  write_terms(file, model.log_spread, kEvenTerms);
 }
 
 SpreadModel read_spread(TomlSection section) {
@@ -69,11 +57,11 @@ SpreadModel read_spread(TomlSection section) {
   return model;
 }
 
-void write_log(std::ostream& out, const std::string& name, const char* what, const LogModel& model) {
-  out << "\n# " << what << "\n[" << name << "]\n";
-  write_value(out, "log_deviation", model.log_deviation);
-  out << "[" << name << ".log_mean]\n";
-  write_terms(out, model.log_mean, kEvenTerms);
+void write_log(OutputFile& file, const std::string& name, const char* comment, const LogModel& model) {
+  file.print("\n# {}\n[{}]\n", comment, name);
+  write_value(file, "log_deviation", model.log_deviation);
+  file.print("[{}.log_mean]\n", name);
+  write_terms(file, model.log_mean, kEvenTerms);
 }
 
 LogModel read_log(TomlSection section) {
@@ -108,30 +96,32 @@ ErrorModel read_error_model(const std::string& path) {
 }
 
 void write_error_model(const ErrorModel& model, const std::string& note, const std::string& path) {
-  std::ofstream out(path);
-  out << "# What vision makes of the pictured world, for `heel simulate --error-model`. Written by `heel "
-         "fit`.\n# "
-      << note
-      << "\n# Terms: distance in m, angle to the line of sight in rad, blur in px, dark in halvings of the "
-         "light,\n"
-         "# hidden as a share of the back's width; src/sim/pose_noise/error_model.h.\n\n";
-  write_value(out, "distance_max_m", model.distance_max_m);
-  write_value(out, "aspect_max_rad", model.aspect_max_rad);
-  write_value(out, "found_memory_s", model.found_memory_s);
-  write_value(out, "missed_log_time_share", model.missed_log_time_share);
-  out << "\n# the shirt is found\n[found_log_odds]\n";
-  write_terms(out, model.found_log_odds, kEvenTerms);
-  out << "\n# the estimate has the back turned to the wrong side of the line of sight\n[flip_log_odds]\n";
-  write_terms(out, model.flip_log_odds, kEvenTerms);
-  write_spread(out, "aspect_rad", "estimated minus true angle of the back to the line of sight",
+  OutputFile file(path);
+  file.print(
+      "# What vision makes of the pictured world, for `heel simulate --error-model`. Written by `heel fit`.\n"
+      "# {}\n"
+      "# Terms: distance in m, angle to the line of sight in rad, blur in px, dark in halvings of the "
+      "light,\n"
+      "# hidden as a share of the back's width; src/sim/pose_noise/error_model.h.\n\n",
+      note);
+  write_value(file, "distance_max_m", model.distance_max_m);
+  write_value(file, "aspect_max_rad", model.aspect_max_rad);
+  write_value(file, "found_memory_s", model.found_memory_s);
+  write_value(file, "missed_log_time_share", model.missed_log_time_share);
+  file.write("\n# the shirt is found\n[found_log_odds]\n");
+  write_terms(file, model.found_log_odds, kEvenTerms);
+  file.write(
+      "\n# the estimate has the back turned to the wrong side of the line of sight\n[flip_log_odds]\n");
+  write_terms(file, model.flip_log_odds, kEvenTerms);
+  write_spread(file, "aspect_rad", "estimated minus true angle of the back to the line of sight",
                model.aspect_rad);
-  write_spread(out, "range_share", "estimated over true distance, minus one", model.range_share);
-  write_spread(out, "bearing_rad", "estimated minus true direction, right positive", model.bearing_rad);
-  write_log(out, "certainty", "inliers over template features", model.certainty);
-  write_log(out, "yaw_sigma_rad", "the deviation of yaw that vision states", model.yaw_sigma_rad);
-  write_log(out, "time_share", "time of the vision stage over that straight ahead at 2 m, tracked",
+  write_spread(file, "range_share", "estimated over true distance, minus one", model.range_share);
+  write_spread(file, "bearing_rad", "estimated minus true direction, right positive", model.bearing_rad);
+  write_log(file, "certainty", "inliers over template features", model.certainty);
+  write_log(file, "yaw_sigma_rad", "the deviation of yaw that vision states", model.yaw_sigma_rad);
+  write_log(file, "time_share", "time of the vision stage over that straight ahead at 2 m, tracked",
             model.time_share);
-  if (!out.flush()) throw Error(path + ": cannot write (expected a writable folder)");
+  file.flush();
 }
 
 }  // namespace heel::sim

@@ -1,4 +1,4 @@
-// When a frame comes, and what time is written on it: dropped frames, late frames, a clock that jitters.
+// Errors of a camera's frame timing: dropped frames, late frames, time stamps that jitter.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,20 @@
 namespace heel::sim {
 
 struct FrameTimingSettings {
-  double drop_share = 0.0;  ///< frames that never come
-  double late_share = 0.0;  ///< frames held up on the way, stamped with their true time all the same
-  double late_ms = 60.0;    ///< for up to this long
-  double jitter_ms = 0.0;   ///< of the time stamp, one standard deviation, at most three
+  double drop_share = 0.0;  ///< share of frames that are lost
+  double late_share = 0.0;  ///< share of frames that arrive late; their time stamp is right
+  double late_ms = 60.0;    ///< the longest delay of a late frame
+  double jitter_ms = 0.0;   ///< standard deviation of the time stamp's error, which stays below three of them
 };
 
-struct FrameFate {
+/// How one frame reaches the reader.
+struct FrameDelivery {
   bool dropped = false;
-  TimeNs delay_ns = 0;        ///< beyond the end of the exposure
+  TimeNs delay_ns = 0;        ///< after the end of the exposure
   TimeNs stamp_error_ns = 0;  ///< stamped minus true time
 };
 
-/// A function of its arguments only.
-FrameFate frame_fate(const FrameTimingSettings& settings, std::uint64_t seed, std::uint64_t frame);
+/// Depends on its arguments only.
+FrameDelivery frame_delivery(const FrameTimingSettings& settings, std::uint64_t seed, std::uint64_t frame);
 
 }  // namespace heel::sim

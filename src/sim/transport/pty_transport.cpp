@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const std::string& what) {
+[[noreturn]] void fail_with_errno(const std::string& what) {
   throw Error(what + ": " + std::strerror(errno));
 }
 
@@ -49,7 +49,7 @@ void make_raw(int fd, int baud) {
   tcsetattr(fd, TCSANOW, &settings);
 }
 
-/// Puts the symlink in place in one step, so that a client never sees the path missing or half made.
+/// Replaces the symlink in one step (rename), so that clients find it at any time.
 void place_symlink(const std::string& target, const std::string& link_path) {
   const fs::file_status present = fs::symlink_status(link_path);
   if (fs::exists(present) && !fs::is_symlink(present)) {
@@ -67,15 +67,17 @@ void place_symlink(const std::string& target, const std::string& link_path) {
 
 PtyTransport::PtyTransport(const std::string& link_path, int boot_baud) : link_path_(link_path) {
   master_ = FileDescriptor(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (!master_.valid()) fail("cannot open a pseudo-terminal");
-  if (grantpt(master_.get()) != 0 || unlockpt(master_.get()) != 0) fail("cannot unlock the pseudo-terminal");
+  if (!master_.valid()) fail_with_errno("cannot open a pseudo-terminal");
+  if (grantpt(master_.get()) != 0 || unlockpt(master_.get()) != 0)
+    fail_with_errno("cannot unlock the pseudo-terminal");
   std::array<char, 128> name{};
-  if (ptsname_r(master_.get(), name.data(), name.size()) != 0) fail("the pseudo-terminal has no name");
+  if (ptsname_r(master_.get(), name.data(), name.size()) != 0)
+    fail_with_errno("the pseudo-terminal has no name");
   slave_path_ = name.data();
   {
-    // Opened and closed once: from now on the master reports a hang-up while no client is there.
+    // Opened and closed once: only then does the master report a hang-up while no client is connected.
     const FileDescriptor slave = open_slave(slave_path_);
-    if (!slave.valid()) fail(slave_path_ + ": cannot open");
+    if (!slave.valid()) fail_with_errno(slave_path_ + ": cannot open");
     make_raw(slave.get(), boot_baud);
   }
   place_symlink(slave_path_, link_path_);
@@ -112,7 +114,7 @@ int PtyTransport::host_baud() const {
   return terminal_rate(master_.get());
 }
 
-/// The next client must not read what its predecessor left: a real port's buffer empties on close.
+/// The next client must not read what the last one left: a real port's buffer is emptied at close.
 void PtyTransport::discard_unread() {
   const FileDescriptor slave = open_slave(slave_path_);
   if (slave.valid()) tcflush(slave.get(), TCIFLUSH);

@@ -1,8 +1,8 @@
-// A pseudo-terminal whose client side is found under a symlink of the user's choice.
+// A pseudo-terminal; its client side is at a symlink with a path that the user chooses.
 //
-// The master stays open while clients come and go. The terminal starts raw and at the robot's boot rate, and
-// keeps what a client has set, as a real port's driver would: a client that sets no rate agrees with the
-// robot until somebody changes one of them.
+// The master stays open while clients connect and disconnect. The terminal starts raw and at the robot's boot
+// rate, and keeps a client's settings, as the driver of a real port does: a client that sets no rate has the
+// robot's rate until one of the two is changed.
 #pragma once
 
 #include "sim/transport/file_descriptor.h"
@@ -12,9 +12,9 @@ namespace heel::sim {
 
 class PtyTransport : public Transport {
  public:
-  /// Replaces a symlink left at `link_path`; throws heel::Error when something else is there.
+  /// Replaces a symlink that is left at `link_path`; throws heel::Error when there is anything else.
   PtyTransport(const std::string& link_path, int boot_baud);
-  ~PtyTransport() override;  ///< removes the symlink if it is still ours
+  ~PtyTransport() override;  ///< removes the symlink if it still leads to this terminal
 
   bool client_present() override;
   std::size_t read(std::span<std::uint8_t> into) override;

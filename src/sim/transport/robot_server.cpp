@@ -3,16 +3,17 @@
 namespace heel::sim {
 namespace {
 
-constexpr std::size_t kMostBacklog = 2048;  // more stays with the client's kernel, which then blocks it
+constexpr std::size_t kMaxBacklog_bytes =
+    2048;  // more stays in the kernel's buffer, which then blocks the client
 
 }  // namespace
 
-void RobotServer::listen(TimeNs t_ns) {
-  watch_client(t_ns);
+void RobotServer::receive(TimeNs t_ns) {
+  check_client(t_ns);
   read_client(t_ns);
 }
 
-void RobotServer::speak(TimeNs t_ns) {
+void RobotServer::advance(TimeNs t_ns) {
   robot_.advance(t_ns);
   t_last_ns_ = t_ns;
   const std::vector<std::uint8_t> out = robot_.take_output();
@@ -20,7 +21,7 @@ void RobotServer::speak(TimeNs t_ns) {
   for (const RobotEvent& event : robot_.take_events()) on_event_(event.t_ns, describe(event));
 }
 
-void RobotServer::watch_client(TimeNs t_ns) {
+void RobotServer::check_client(TimeNs t_ns) {
   const bool present = transport_.client_present();
   if (present == client_present_) return;
   client_present_ = present;
@@ -30,12 +31,12 @@ void RobotServer::watch_client(TimeNs t_ns) {
 
 void RobotServer::read_client(TimeNs t_ns) {
   std::size_t size = 0;
-  if (robot_.input_backlog() < kMostBacklog) size = transport_.read(buffer_);
+  if (robot_.input_backlog() < kMaxBacklog_bytes) size = transport_.read(buffer_);
   const std::span<const std::uint8_t> bytes(buffer_.data(), size);
   if (size > 0 && on_received_) on_received_(t_ns, bytes);
 
-  // Nobody can tell whether bytes found together with a new rate were sent before or after the change. They
-  // count as sent at the rate the robot understands, if it is one of the two.
+  // Bytes found together with a new rate were sent before or after the change: it is not known which. They
+  // count as sent at the rate that the robot has, if that is one of the two.
   const int baud = transport_.host_baud();
   const bool sent_before = baud != host_baud_ && host_baud_ == robot_.baud();
   if (sent_before && size > 0) robot_.receive(bytes, t_last_ns_);

@@ -1,5 +1,6 @@
 #include "sim/transport/tcp_transport.h"
 
+#include <fmt/format.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -13,13 +14,13 @@
 namespace heel::sim {
 namespace {
 
-constexpr int kOn = 1;
+constexpr int kEnabled = 1;
 
 FileDescriptor listen_on(const addrinfo& place) {
   FileDescriptor listener(
       ::socket(place.ai_family, place.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, place.ai_protocol));
   if (!listener.valid()) return listener;
-  setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &kOn, sizeof kOn);
+  setsockopt(listener.get(), SOL_SOCKET, SO_REUSEADDR, &kEnabled, sizeof kEnabled);
   const bool listening =
       ::bind(listener.get(), place.ai_addr, place.ai_addrlen) == 0 && ::listen(listener.get(), 4) == 0;
   return listening ? std::move(listener) : FileDescriptor();
@@ -36,30 +37,31 @@ int port_of(int fd) {
 }  // namespace
 
 TcpTransport::TcpTransport(const std::string& host, int port) : host_(host), port_(port) {
-  const std::string where = "--robot tcp:" + host + ":" + std::to_string(port);
+  const std::string where = fmt::format("--robot tcp:{}:{}", host, port);
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
   addrinfo* found = nullptr;
   if (const int error = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found); error != 0) {
-    throw Error(where + ": '" + host + "' is not a host of this machine: " + gai_strerror(error));
+    throw Error(
+        fmt::format("{}: '{}' is not an address of this machine: {}", where, host, gai_strerror(error)));
   }
   listener_ = listen_on(*found);
   const int error = errno;
   freeaddrinfo(found);
-  if (!listener_.valid()) throw Error(where + ": cannot listen: " + std::strerror(error));
+  if (!listener_.valid()) throw Error(fmt::format("{}: cannot listen: {}", where, std::strerror(error)));
   port_ = port_of(listener_.get());
 }
 
 bool TcpTransport::client_present() {
   if (client_.valid()) return true;
-  if (client_was_present_) {  // the caller shall see every change of client
+  if (client_was_present_) {  // the caller must see that the last client has gone before it sees the next
     client_was_present_ = false;
     return false;
   }
   client_ = FileDescriptor(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
   client_was_present_ = client_.valid();
-  if (client_was_present_) setsockopt(client_.get(), IPPROTO_TCP, TCP_NODELAY, &kOn, sizeof kOn);
+  if (client_was_present_) setsockopt(client_.get(), IPPROTO_TCP, TCP_NODELAY, &kEnabled, sizeof kEnabled);
   return client_was_present_;
 }
 
@@ -74,7 +76,7 @@ std::size_t TcpTransport::read(std::span<std::uint8_t> into) {
 void TcpTransport::write(std::span<const std::uint8_t> bytes) {
   while (client_.valid() && !bytes.empty()) {
     const ssize_t size = ::send(client_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (size <= 0) return;  // no room, or gone: the next read tells
+    if (size <= 0) return;  // no room, or disconnected: the next read finds that out
     bytes = bytes.subspan(static_cast<std::size_t>(size));
   }
 }

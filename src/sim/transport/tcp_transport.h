@@ -1,4 +1,4 @@
-// A TCP port that one client at a time may use; the next one waits until it has gone.
+// A TCP port for one client at a time; the next client waits until the last has disconnected.
 #pragma once
 
 #include "sim/transport/file_descriptor.h"
@@ -8,7 +8,7 @@ namespace heel::sim {
 
 class TcpTransport : public Transport {
  public:
-  /// Listens at once; throws heel::Error when it cannot. Port 0 takes a free one.
+  /// Starts to listen; throws heel::Error when it cannot. Port 0 takes a free one.
   TcpTransport(const std::string& host, int port);
 
   bool client_present() override;

@@ -1,10 +1,11 @@
-// A terminal's rate in bit/s as a number. On its own because the kernel's header for it (any rate, not only
-// the named ones) and <termios.h> cannot be included together.
+// A terminal's rate in bit/s, whatever number it is. A file of its own, because the kernel's header for it
+// and <termios.h>, which knows the named rates only, cannot be included together.
 #pragma once
 
 namespace heel::sim {
 
-/// The output rate; 0 when it is not a terminal or hangs up (B0). Of a pty's master: what the client has set.
+/// The output rate; 0 when `fd` is no terminal or its rate is "hang up" (B0). For a pty's master: the rate
+/// that the client has set.
 int terminal_rate(int fd);
 
 }  // namespace heel::sim

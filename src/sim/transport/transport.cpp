@@ -1,5 +1,7 @@
 #include "sim/transport/transport.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 
 #include "heel/error.h"
@@ -9,28 +11,29 @@
 namespace heel::sim {
 namespace {
 
-int port_of(const std::string& text, const std::string& spec) {
+int port_of(const std::string& text, const std::string& address) {
   int port = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
   if (error != std::errc{} || end != text.data() + text.size() || port < 0 || port > 65535) {
-    throw Error("--robot " + spec + ": '" + text + "' is not a port (expected 0…65535)");
+    throw Error(fmt::format("--robot {}: '{}' is not a port (expected 0…65535)", address, text));
   }
   return port;
 }
 
 }  // namespace
 
-std::unique_ptr<Transport> open_transport(const std::string& spec, int boot_baud) {
-  if (spec.starts_with("pty:") && spec.size() > 4) {
-    return std::make_unique<PtyTransport>(spec.substr(4), boot_baud);
+std::unique_ptr<Transport> open_transport(const std::string& address, int boot_baud) {
+  if (address.starts_with("pty:") && address.size() > 4) {
+    return std::make_unique<PtyTransport>(address.substr(4), boot_baud);
   }
-  if (spec.starts_with("tcp:")) {
-    const std::string rest = spec.substr(4);
+  if (address.starts_with("tcp:")) {
+    const std::string rest = address.substr(4);
     const std::size_t colon = rest.rfind(':');
     const std::string host = colon == std::string::npos ? "127.0.0.1" : rest.substr(0, colon);
-    return std::make_unique<TcpTransport>(host, port_of(rest.substr(colon + 1), spec));
+    return std::make_unique<TcpTransport>(host, port_of(rest.substr(colon + 1), address));
   }
-  throw Error("--robot " + spec + ": not an address (expected pty:PATH, tcp:PORT or tcp:HOST:PORT)");
+  throw Error(
+      fmt::format("--robot {}: not an address (expected pty:PATH, tcp:PORT or tcp:HOST:PORT)", address));
 }
 
 }  // namespace heel::sim

@@ -1,31 +1,27 @@
-// What a client sends, as text: one line a piece, "seconds hex", as `heel simulate --out` writes wire.hex.
+// The bytes a client sends to the robot, as text: a line "SECONDS HEX" for each piece.
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
-#include <memory>
 #include <span>
 #include <string>
 
+#include "files/output_file.h"
 #include "heel/time.h"
 
 namespace heel::sim {
 
 class WireFile {
  public:
-  /// Throws heel::Error when the file cannot be written.
-  explicit WireFile(const std::string& path);
+  /// `decimals` of the seconds. Throws heel::Error naming the file when it cannot be written; so do the
+  /// others.
+  WireFile(const std::string& path, int decimals) : file_(path), decimals_(decimals) {}
 
-  /// Whole lines are on disk at once, so that the file can be read while the robot runs.
   void write(TimeNs t_ns, std::span<const std::uint8_t> bytes);
+  void flush() { file_.flush(); }
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-
-  std::string path_;
-  std::unique_ptr<std::FILE, Close> file_;
+  OutputFile file_;
+  int decimals_;
 };
 
 }  // namespace heel::sim

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/angles.h"
-#include "evaluation/experiments/still_file.h"
+#include "evaluation/experiments/still_image_file.h"
 #include "evaluation/reports/csv_table.h"
 #include "evaluation/reports/error_statistics.h"
 #include "evaluation/reports/fit_rows.h"
@@ -21,13 +21,13 @@
 namespace heel {
 namespace {
 
-using evaluation::StillRow;
+using evaluation::StillImageRow;
 using evaluation::StillSample;
 using test::TemporaryFolder;
 using ::testing::HasSubstr;
 
-StillRow row_at(double x_m, double z_m, double yaw_rad, double yaw_error_rad, double certainty = 0.3) {
-  StillRow row;
+StillImageRow row_at(double x_m, double z_m, double yaw_rad, double yaw_error_rad, double certainty = 0.3) {
+  StillImageRow row;
   row.name = "made up";
   row.view = {.x_m = x_m, .z_m = z_m, .yaw_rad = yaw_rad};
   row.true_x_m = x_m;
@@ -42,16 +42,16 @@ StillRow row_at(double x_m, double z_m, double yaw_rad, double yaw_error_rad, do
   return row;
 }
 
-std::vector<StillSample> written_and_read(const std::vector<StillRow>& rows) {
+std::vector<StillSample> written_and_read(const std::vector<StillImageRow>& rows) {
   const TemporaryFolder folder;
-  evaluation::write_stills(rows, folder.file("rows.csv"));
+  evaluation::write_still_images(rows, folder.file("rows.csv"));
   return evaluation::read_stills(folder.file("rows.csv"));
 }
 
 TEST(Stills, AreReadAsTheyWereWritten) {
-  StillRow lost = row_at(0.1, 2.0, 0.5, 0.0);
+  StillImageRow lost = row_at(0.1, 2.0, 0.5, 0.0);
   lost.pose.reason = PoseReason::TooFewInliers;
-  lost.surroundings = {3, "mosaic", 0.25};
+  lost.world = {3, "mosaic", 0.25};
   lost.view.blur_px = 2.5;
   const auto samples = written_and_read({row_at(-0.4, 1.5, 0.3, 0.02), lost});
   ASSERT_EQ(samples.size(), 2U);
@@ -80,7 +80,7 @@ TEST(Stills, FlippedAndWrong) {
 }
 
 TEST(Steps, MeanDeviationAndCertaintyOfEachCommandedValue) {
-  StillRow lost = row_at(0.0, 1.0, 0.2, 0.0);
+  StillImageRow lost = row_at(0.0, 1.0, 0.2, 0.0);
   lost.pose.reason = PoseReason::TooFewMatches;
   const auto steps = evaluation::steps_of(
       written_and_read({row_at(0.0, 1.0, 0.2, 0.01, 0.4), row_at(0.0, 1.0, 0.2, 0.03, 0.2), lost,
@@ -135,11 +135,11 @@ TEST(ExperimentReport, WritesTheNumbersOfWhatThereIsAndSaysHowGoodItIs) {
   const TemporaryFolder folder;
   const std::string directory = folder.path().string();
   EXPECT_FALSE(evaluation::holds_experiments(directory));
-  std::vector<StillRow> lateral, yaw;
+  std::vector<StillImageRow> lateral, yaw;
   for (int i = -4; i <= 4; ++i) lateral.push_back(row_at(0.2 * i, 2.0, 0.0, 0.01));
   for (int i = -3; i <= 3; ++i) yaw.push_back(row_at(0.0, 2.0, 0.3 * i, i == 3 ? -0.5 : 0.0));
-  evaluation::write_stills(lateral, folder.file("lateral.csv"));
-  evaluation::write_stills(yaw, folder.file("yaw.csv"));
+  evaluation::write_still_images(lateral, folder.file("lateral.csv"));
+  evaluation::write_still_images(yaw, folder.file("yaw.csv"));
   ASSERT_TRUE(evaluation::holds_experiments(directory));
   const std::string summary = evaluation::report_experiments(directory);
   EXPECT_THAT(summary, HasSubstr("R2 1.00000 | yes"));
@@ -158,12 +158,12 @@ TEST(ExperimentReport, WritesTheNumbersOfWhatThereIsAndSaysHowGoodItIs) {
 
 TEST(FitRows, TellConditionsAndErrorsOfWhatWasSeen) {
   const double bearing_rad = std::atan2(0.4, 2.0);
-  StillRow lost = row_at(0.4, 2.0, 0.0, 0.0);
+  StillImageRow lost = row_at(0.4, 2.0, 0.0, 0.0);
   lost.pose.reason = PoseReason::TooFewMatches;
-  StillRow after_lost = row_at(0.4, 2.0, bearing_rad + 0.35, -0.70);
+  StillImageRow after_lost = row_at(0.4, 2.0, bearing_rad + 0.35, -0.70);
   after_lost.picture = 1;
-  after_lost.surroundings.shirt = "mosaic";
-  StillRow seen = row_at(0.4, 2.0, 0.0, 0.02), tracked = seen;
+  after_lost.world.shirt = "mosaic";
+  StillImageRow seen = row_at(0.4, 2.0, 0.0, 0.02), tracked = seen;
   tracked.picture = 1;
   CameraModel camera{.width_px = 640, .height_px = 480, .fx = 554, .fy = 554, .cx = 320, .cy = 240};
   const auto rows = evaluation::still_fit_rows(written_and_read({lost, after_lost, seen, tracked}), camera);

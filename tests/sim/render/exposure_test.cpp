@@ -1,4 +1,4 @@
-// Automatic exposure in its steps, and the fate of frames.
+// Automatic exposure in its steps, and frames that are lost or late.
 #include "sim/render/exposure.h"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(Exposure, AutomaticHasLimits) {
   EXPECT_NEAR(control.at(50).gain, 2.0, 1e-9);
 }
 
-TEST(FrameFate, SharesAreMet) {
+TEST(FrameDelivery, SharesAreMet) {
   FrameTimingSettings settings;
   settings.drop_share = 0.1;
   settings.late_share = 0.2;
@@ -64,22 +64,22 @@ TEST(FrameFate, SharesAreMet) {
   double jitter2 = 0;
   constexpr int kFrames = 20000;
   for (int i = 0; i < kFrames; ++i) {
-    const FrameFate fate = frame_fate(settings, 3, static_cast<std::uint64_t>(i));
-    dropped += fate.dropped;
-    late += fate.delay_ns > 0;
-    if (fate.delay_ns > 0) {
-      EXPECT_GE(fate.delay_ns, ns_from_seconds(0.02));
-      EXPECT_LE(fate.delay_ns, ns_from_seconds(0.08));
+    const FrameDelivery delivery = frame_delivery(settings, 3, static_cast<std::uint64_t>(i));
+    dropped += delivery.dropped;
+    late += delivery.delay_ns > 0;
+    if (delivery.delay_ns > 0) {
+      EXPECT_GE(delivery.delay_ns, ns_from_seconds(0.02));
+      EXPECT_LE(delivery.delay_ns, ns_from_seconds(0.08));
     }
-    EXPECT_LE(std::abs(seconds_from_ns(fate.stamp_error_ns)), 0.006 + 1e-9);
-    jitter2 += std::pow(seconds_from_ns(fate.stamp_error_ns), 2) / kFrames;
+    EXPECT_LE(std::abs(seconds_from_ns(delivery.stamp_error_ns)), 0.006 + 1e-9);
+    jitter2 += std::pow(seconds_from_ns(delivery.stamp_error_ns), 2) / kFrames;
   }
   EXPECT_NEAR(dropped, 2000, 150);
   EXPECT_NEAR(late, 4000, 200);
   EXPECT_NEAR(std::sqrt(jitter2), 0.002, 0.0001);
-  // The same frame has the same fate; no trouble asked for, none had.
-  EXPECT_EQ(frame_fate(settings, 3, 5).stamp_error_ns, frame_fate(settings, 3, 5).stamp_error_ns);
-  const FrameFate calm = frame_fate({}, 3, 5);
+  // The same frame is delivered the same way; settings without faults cause none.
+  EXPECT_EQ(frame_delivery(settings, 3, 5).stamp_error_ns, frame_delivery(settings, 3, 5).stamp_error_ns);
+  const FrameDelivery calm = frame_delivery({}, 3, 5);
   EXPECT_FALSE(calm.dropped);
   EXPECT_EQ(calm.delay_ns + calm.stamp_error_ns, 0);
 }

@@ -1,54 +1,53 @@
-#include "evaluation/experiments/still_cases.h"
+#include "evaluation/experiments/still_image_cases.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <memory>
-#include <numbers>
 
+#include "core/angles.h"
 #include "core/random.h"
 #include "sim/lockstep/lockstep.h"
 
 namespace heel::evaluation {
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180.0;
-constexpr double kPaperDistance_m = 2.0;  ///< the paper's lateral and yaw experiments: "approximately 2 m"
+constexpr double kPaperDistance_m = 2.0;  ///< "approximately 2 m" in the paper's lateral and yaw experiments
 
 std::uint64_t seed_of(int repeat) {
-  return static_cast<std::uint64_t>(1 + repeat % kMostSeeds);
+  return static_cast<std::uint64_t>(1 + repeat % kMaxWorlds);
 }
 
-std::vector<StillCase> repeated(const std::vector<StillView>& views, const char* name, int repeats) {
-  std::vector<StillCase> cases;
-  for (const StillView& view : views)
+std::vector<StillImageCase> repeated(const std::vector<StillImageView>& views, const char* name,
+                                     int repeats) {
+  std::vector<StillImageCase> cases;
+  for (const StillImageView& view : views)
     for (int i = 0; i < repeats; ++i) cases.push_back({name, {seed_of(i), "bold", 1.0}, view});
   return cases;
 }
 
-std::vector<StillCase> lateral_cases(int repeats) {
-  std::vector<StillView> views;
+std::vector<StillImageCase> lateral_cases(int repeats) {
+  std::vector<StillImageView> views;
   for (int i = -4; i <= 4; ++i) views.push_back({.x_m = 0.2 * i, .z_m = kPaperDistance_m});
   return repeated(views, "lateral", repeats);
 }
 
-std::vector<StillCase> distance_cases(int repeats) {
-  std::vector<StillView> views;
+std::vector<StillImageCase> distance_cases(int repeats) {
+  std::vector<StillImageView> views;
   for (int i = 2; i <= 12; ++i) views.push_back({.z_m = 0.5 * i});
   return repeated(views, "distance", repeats);
 }
 
-std::vector<StillCase> yaw_cases(int repeats) {
-  std::vector<StillView> views;
+std::vector<StillImageCase> yaw_cases(int repeats) {
+  std::vector<StillImageView> views;
   for (int deg = -85; deg <= 85; deg += 5)
     if (std::abs(deg) > 60 || deg % 20 == 0)
-      views.push_back({.z_m = kPaperDistance_m, .yaw_rad = kRad * deg});
+      views.push_back({.z_m = kPaperDistance_m, .yaw_rad = kRadPerDeg * deg});
   return repeated(views, "yaw", repeats);
 }
 
-std::vector<StillCase> hard_cases(int /*repeats*/) {
-  const auto deg = [](double value) { return kRad * value; };
+std::vector<StillImageCase> hard_cases(int /*repeats*/) {
+  const auto deg = [](double value) { return kRadPerDeg * value; };
   return {
       {"straight ahead at 2 m", {1, "bold", 1.0}, {.z_m = 2.0}},
       {"turned away by 55 deg", {2, "bold", 1.0}, {.z_m = 2.0, .yaw_rad = deg(55)}},
@@ -67,27 +66,27 @@ std::vector<StillCase> hard_cases(int /*repeats*/) {
   };
 }
 
-/// Poses all over the range in which the robot may follow; 45 % of them undisturbed, 15 % each blurred, dark
-/// and covered, 10 % all of it. `repeats` thousand poses.
-std::vector<StillCase> errors_cases(int repeats) {
+/// `repeats` thousand poses in the whole range in which the robot may follow: 45 % of them undisturbed, 15 %
+/// each blurred, dark or covered, 10 % all three.
+std::vector<StillImageCase> errors_cases(int repeats) {
   constexpr std::array<double, 4> kLights{0.5, 0.25, 0.12, 0.06};
   constexpr std::array<const char*, 2> kShirts{"bold", "mosaic"};
-  constexpr double kWidestBearing_rad = 25.0 * kRad;
+  constexpr double kWidestBearing_rad = 25.0 * kRadPerDeg;
   Random random(0xe44);
-  std::vector<StillCase> cases;
+  std::vector<StillImageCase> cases;
   for (int i = 0; i < 1000 * repeats; ++i) {
-    StillCase drawn;
+    StillImageCase drawn;
     drawn.name = "errors";
-    drawn.surroundings.seed = seed_of(random.index(kMostSeeds));
-    drawn.surroundings.shirt = kShirts[static_cast<std::size_t>(random.uniform() < 0.25 ? 1 : 0)];
+    drawn.world.seed = seed_of(random.index(kMaxWorlds));
+    drawn.world.shirt = kShirts[static_cast<std::size_t>(random.uniform() < 0.25 ? 1 : 0)];
     drawn.view.z_m = random.uniform(0.9, 5.5);
     drawn.view.x_m = drawn.view.z_m * std::tan(random.uniform(-kWidestBearing_rad, kWidestBearing_rad));
-    drawn.view.yaw_rad = random.uniform(-80.0 * kRad, 80.0 * kRad);
+    drawn.view.yaw_rad = random.uniform(-80.0 * kRadPerDeg, 80.0 * kRadPerDeg);
     const double disturbed = random.uniform();
     const bool together = disturbed > 0.9;
     if ((disturbed > 0.45 && disturbed < 0.6) || together) drawn.view.blur_px = random.uniform(0.5, 9.0);
     if ((disturbed > 0.6 && disturbed < 0.75) || together)
-      drawn.surroundings.light = kLights[static_cast<std::size_t>(random.index(4))];
+      drawn.world.light = kLights[static_cast<std::size_t>(random.index(4))];
     if ((disturbed > 0.75 && disturbed < 0.9) || together)
       drawn.view.occluded = (random.uniform() < 0.5 ? -1.0 : 1.0) * random.uniform(0.05, 0.7);
     cases.push_back(drawn);
@@ -97,8 +96,8 @@ std::vector<StillCase> errors_cases(int repeats) {
 
 }  // namespace
 
-const std::vector<StillExperiment>& still_experiments() {
-  static const std::vector<StillExperiment> kExperiments{
+const std::vector<StillImageExperiment>& still_image_experiments() {
+  static const std::vector<StillImageExperiment> kExperiments{
       {"lateral", "t_x and yaw at sideways offsets, 2 m away", lateral_cases, 24, false},
       {"distance", "t_z and yaw from 1 to 6 m", distance_cases, 24, false},
       {"yaw", "yaw in 20 degree steps to 60, then in steps of 5 to where it fails", yaw_cases, 24, false},
@@ -109,33 +108,29 @@ const std::vector<StillExperiment>& still_experiments() {
   return kExperiments;
 }
 
-std::vector<StillRow> run_stills(const sim::Scenario& base, std::vector<StillCase> cases,
-                                 double teach_distance_m, const VisionConfig& vision,
-                                 const std::function<void(const StillRow&, std::size_t index,
-                                                          const std::vector<std::uint8_t>& grey)>& keep,
-                                 const std::function<void(std::size_t done, std::size_t of)>& progress) {
-  // One world after the other: each takes a while to make and much memory. Rows come out in the cases' order.
-  std::map<StillSurroundings, std::vector<std::size_t>> by_world;
-  for (std::size_t i = 0; i < cases.size(); ++i) by_world[cases[i].surroundings].push_back(i);
-  std::vector<StillRow> rows(2 * cases.size());
-  std::map<std::pair<std::uint64_t, std::string>, ShirtTemplate> taught;
+std::vector<StillImageRow> run_still_images(const sim::Scenario& base,
+                                            const std::vector<StillImageCase>& cases, double teach_distance_m,
+                                            const VisionConfig& vision, const PictureCallback& on_picture,
+                                            const ProgressCallback& on_progress) {
+  // World by world, because a world is slow to make and large. Rows are in the order of the cases.
+  std::map<StillImageWorld, std::vector<std::size_t>> cases_of_world;
+  for (std::size_t i = 0; i < cases.size(); ++i) cases_of_world[cases[i].world].push_back(i);
+  std::vector<StillImageRow> rows(2 * cases.size());
+  std::map<StillImageWorld, ShirtTemplate> templates;
   std::size_t done = 0;
-  for (const auto& [surroundings, members] : by_world) {
-    const auto key = std::pair(surroundings.seed, surroundings.shirt);
-    if (!taught.contains(key)) {
-      StillSurroundings bright = surroundings;
-      bright.light = 1.0;
-      taught[key] = sim::teach_from_world(still_scenario(base, bright), teach_distance_m);
-    }
-    StillScene scene(base, surroundings, taught[key], vision);
-    for (const std::size_t i : members) {
-      const auto pair = scene.look(cases[i].name, cases[i].view);
+  for (const auto& [world, indices] : cases_of_world) {
+    const StillImageWorld bright{world.seed, world.shirt, 1.0};
+    if (!templates.contains(bright))
+      templates[bright] = sim::teach_from_world(still_image_scenario(base, bright), teach_distance_m);
+    StillImageScene scene(base, world, templates[bright], vision);
+    for (const std::size_t i : indices) {
+      const auto pair = scene.estimate_pair(cases[i].name, cases[i].view);
       rows[2 * i] = pair[0];
       rows[2 * i + 1] = pair[1];
-      if (keep) keep(pair[1], i, scene.grey());
+      if (on_picture) on_picture(i, scene.grey());
     }
-    done += members.size();
-    if (progress) progress(done, cases.size());
+    done += indices.size();
+    if (on_progress) on_progress(done, cases.size());
   }
   return rows;
 }

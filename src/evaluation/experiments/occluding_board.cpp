@@ -1,4 +1,4 @@
-#include "evaluation/experiments/board.h"
+#include "evaluation/experiments/occluding_board.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,31 +9,31 @@ namespace heel::evaluation {
 namespace {
 
 constexpr int kCell_px = 9;
-constexpr double kBeyond = 0.6;  ///< of the back's size, past its outer edge, above and below
+constexpr double kMargin = 0.6;  ///< of the board beyond the back, as a share of the back's size
 
 }  // namespace
 
-void draw_board(const sim::Truth& truth, const CameraModel& camera, double share, std::uint64_t seed,
-                double light, std::vector<std::uint8_t>& grey) {
+void draw_occluding_board(const sim::Truth& truth, const CameraModel& camera, double share,
+                          std::uint64_t seed, double light, std::vector<std::uint8_t>& grey) {
   const Eigen::Vector3d& back = truth.back_in_camera_m;
   if (back.z() < 0.1) return;
-  // Seen from aside, the back is as narrow as the cosine of the angle to the line of sight makes it.
+  // The visible width shrinks with the cosine of the back's angle to the line of sight.
   const double aspect_rad = truth.yaw_rad - std::atan2(back.x(), back.z());
   const double half_width_px = camera.fx * kBackHalfWidth_m * std::abs(std::cos(aspect_rad)) / back.z();
   const double half_height_px = camera.fy * kBackHalfHeight_m / back.z();
   const double hidden_px = 2.0 * half_width_px * std::abs(share);
-  double from_px = truth.back_px.x() - (1.0 + 2.0 * kBeyond) * half_width_px;
+  double from_px = truth.back_px.x() - (1.0 + 2.0 * kMargin) * half_width_px;
   double to_px = truth.back_px.x() - half_width_px + hidden_px;
   if (share < 0.0) {
     from_px = truth.back_px.x() + half_width_px - hidden_px;
-    to_px = truth.back_px.x() + (1.0 + 2.0 * kBeyond) * half_width_px;
+    to_px = truth.back_px.x() + (1.0 + 2.0 * kMargin) * half_width_px;
   }
   const auto clamped = [](double px, int size) {
     return std::clamp(static_cast<int>(std::lround(px)), 0, size);
   };
   const int x0 = clamped(from_px, camera.width_px), x1 = clamped(to_px, camera.width_px);
-  const int y0 = clamped(truth.back_px.y() - (1.0 + kBeyond) * half_height_px, camera.height_px);
-  const int y1 = clamped(truth.back_px.y() + (1.0 + kBeyond) * half_height_px, camera.height_px);
+  const int y0 = clamped(truth.back_px.y() - (1.0 + kMargin) * half_height_px, camera.height_px);
+  const int y1 = clamped(truth.back_px.y() + (1.0 + kMargin) * half_height_px, camera.height_px);
 
   Random random(seed);
   const int columns = (x1 - x0) / kCell_px + 1;

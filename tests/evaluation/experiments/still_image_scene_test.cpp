@@ -1,5 +1,5 @@
-// Still experiments: the pictured person is where it was commanded, and the shirt is found there.
-#include "evaluation/experiments/still_scene.h"
+// Experiments with still images: the rendered person is where it was commanded, and the shirt is found there.
+#include "evaluation/experiments/still_image_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numeric>
 #include <set>
 
-#include "evaluation/experiments/board.h"
-#include "evaluation/experiments/still_cases.h"
+#include "evaluation/experiments/occluding_board.h"
+#include "evaluation/experiments/still_image_cases.h"
 #include "heel/error.h"
 #include "sim/lockstep/lockstep.h"
 
@@ -22,14 +22,14 @@ sim::Scenario small_base() {
   return base;
 }
 
-TEST(StillScene, TheRobotStandsSoThatTheBackIsWhereItWasCommanded) {
+TEST(StillImageScene, TheRobotStandsSoThatTheBackIsWhereItWasCommanded) {
   sim::Scenario base = small_base();
   base.camera.mount_y_m = 0.07;
-  sim::World world(still_scenario(base, {}));
+  sim::World world(still_image_scenario(base, {}));
   const Eigen::Vector3d back_m = world.truth({}, 0.0).back_m;
-  for (const StillView& view :
-       {StillView{.x_m = 0.0, .z_m = 2.0}, StillView{.x_m = -0.7, .z_m = 1.4, .yaw_rad = 0.9},
-        StillView{.x_m = 0.4, .z_m = 5.0, .yaw_rad = -1.3}}) {
+  for (const StillImageView& view :
+       {StillImageView{.x_m = 0.0, .z_m = 2.0}, StillImageView{.x_m = -0.7, .z_m = 1.4, .yaw_rad = 0.9},
+        StillImageView{.x_m = 0.4, .z_m = 5.0, .yaw_rad = -1.3}}) {
     const sim::Truth truth = world.truth(robot_for(base.camera, back_m, view), 0.0);
     EXPECT_NEAR(truth.back_in_camera_m.x(), view.x_m, 1e-9);
     EXPECT_NEAR(truth.back_in_camera_m.z(), view.z_m, 1e-9);
@@ -37,21 +37,21 @@ TEST(StillScene, TheRobotStandsSoThatTheBackIsWhereItWasCommanded) {
   }
 }
 
-TEST(StillScene, BlurIsTheCommandedLengthInTheMiddleOfThePicture) {
+TEST(StillImageScene, BlurIsTheCommandedLengthInTheMiddleOfThePicture) {
   const sim::Scenario base = small_base();
   const sim::RobotMotion robot = robot_for(base.camera, {0, 0, 1.2}, {.z_m = 2.0, .blur_px = 6.0});
   const double turned_rad = robot.yaw_rate_rad_s * 1e-3 * base.camera.sensor.exposure_ms;
   EXPECT_NEAR(base.camera.model.fx * turned_rad, 6.0, 1e-9);
 }
 
-TEST(StillScene, TheShirtIsFoundAndTrackedNearTheTruth) {
+TEST(StillImageScene, TheShirtIsFoundAndTrackedNearTheTruth) {
   const sim::Scenario base = small_base();
-  const ShirtTemplate shirt = sim::teach_from_world(still_scenario(base, {}), 1.5);
-  StillScene scene(base, {}, shirt, VisionConfig{});
-  const auto rows = scene.look("near", {.x_m = 0.2, .z_m = 1.8, .yaw_rad = 0.2});
+  const ShirtTemplate shirt = sim::teach_from_world(still_image_scenario(base, {}), 1.5);
+  StillImageScene scene(base, {}, shirt, VisionConfig{});
+  const auto rows = scene.estimate_pair("near", {.x_m = 0.2, .z_m = 1.8, .yaw_rad = 0.2});
   EXPECT_FALSE(rows[0].pose.tracked) << "nothing was seen before";
   EXPECT_TRUE(rows[1].pose.tracked);
-  for (const StillRow& row : rows) {
+  for (const StillImageRow& row : rows) {
     ASSERT_TRUE(row.pose.found()) << to_string(row.pose.reason);
     EXPECT_NEAR(row.pose.yaw_rad, row.true_yaw_rad, 0.1);
     EXPECT_NEAR(row.pose.position_m[0], row.true_x_m, 0.02);
@@ -60,11 +60,11 @@ TEST(StillScene, TheShirtIsFoundAndTrackedNearTheTruth) {
     EXPECT_NEAR(row.t_m[0] - row.true_t_m.x(), -1.5 * (row.pose.yaw_rad - row.true_yaw_rad), 0.03);
     EXPECT_NEAR(row.t_m[2], row.true_t_m.z(), 0.06);
   }
-  // Another pose, far from the first: searched anew, not expected where the last one was.
-  EXPECT_FALSE(scene.look("elsewhere", {.x_m = -0.4, .z_m = 2.0})[0].pose.tracked);
+  // Another pose, far from the first: the whole frame is searched, not only the last place.
+  EXPECT_FALSE(scene.estimate_pair("elsewhere", {.x_m = -0.4, .z_m = 2.0})[0].pose.tracked);
 }
 
-TEST(Board, HidesTheCommandedShareOfTheBack) {
+TEST(OccludingBoard, HidesTheCommandedShareOfTheBack) {
   const CameraModel camera = sim::default_camera_model();
   sim::Truth truth;
   truth.back_in_camera_m = {0.0, 0.0, 2.0};
@@ -72,7 +72,7 @@ TEST(Board, HidesTheCommandedShareOfTheBack) {
   const double half_px = camera.fx * kBackHalfWidth_m / 2.0;
   const auto covered = [&](double share) {
     std::vector<std::uint8_t> grey(640 * 480, 0);
-    draw_board(truth, camera, share, 5, 1.0, grey);
+    draw_occluding_board(truth, camera, share, 5, 1.0, grey);
     int hidden = 0;
     const int first = static_cast<int>(std::lround(320 - half_px)),
               last = static_cast<int>(std::lround(320 + half_px));
@@ -84,18 +84,18 @@ TEST(Board, HidesTheCommandedShareOfTheBack) {
   EXPECT_NEAR(covered(1.0), 1.0, 0.02);
 }
 
-TEST(StillCases, CoverWhatTheirNamesSay) {
-  for (const StillExperiment& experiment : still_experiments()) {
+TEST(StillImageCases, CoverWhatTheirNamesSay) {
+  for (const StillImageExperiment& experiment : still_image_experiments()) {
     const auto cases = experiment.cases(experiment.repeats);
     EXPECT_GE(cases.size(), 12U) << experiment.name;
     std::set<std::uint64_t> seeds;
-    for (const StillCase& one : cases) {
-      seeds.insert(one.surroundings.seed);
+    for (const StillImageCase& one : cases) {
+      seeds.insert(one.world.seed);
       EXPECT_EQ(one.name.find(','), std::string::npos) << "names stand in CSV";
-      EXPECT_NO_THROW(sim::shirt_design(one.surroundings.shirt));
+      EXPECT_NO_THROW(sim::shirt_design(one.world.shirt));
       EXPECT_LT(std::hypot(one.view.x_m, one.view.z_m), 6.1);
     }
-    EXPECT_EQ(seeds.size(), static_cast<std::size_t>(kMostSeeds)) << experiment.name;
+    EXPECT_EQ(seeds.size(), static_cast<std::size_t>(kMaxWorlds)) << experiment.name;
   }
 }
 

@@ -1,0 +1,23 @@
+#include "sim/contact/robot_in_world.h"
+
+namespace heel::sim {
+
+void apply_robot(const ScenarioRobot& robot, P3AtSettings& settings) {
+  settings.start = {robot.x_m, robot.y_m, robot.heading_rad};
+  settings.chassis.true_track_m = robot.true_track_m;
+  settings.chassis.left_scale_error = robot.left_scale_error;
+  settings.chassis.right_scale_error = robot.right_scale_error;
+  for (const std::string& fault : robot.faults) settings.faults.push_back(parse_fault(fault));
+}
+
+RobotMotion motion_of(const RobotTruth& truth) {
+  return {truth.pose.x_m, truth.pose.y_m, truth.pose.heading_rad, truth.v_m_s, truth.yaw_rate_rad_s};
+}
+
+bool start_walk_when_motors_run(const RobotTruth& robot, double t_s, World& world) {
+  if (world.walking() || !robot.motors_enabled) return false;
+  world.start_walk(t_s + world.scenario().walk_after_s);
+  return true;
+}
+
+}  // namespace heel::sim

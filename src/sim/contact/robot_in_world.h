@@ -1,0 +1,21 @@
+// The robot's model and the world's model of the same scenario, joined: settings, motion, and the start of
+// the walk.
+#pragma once
+
+#include "sim/robot/p3at.h"
+#include "sim/scene/world.h"
+
+namespace heel::sim {
+
+/// Adds what a scenario states about its robot: place, wheels, floor and faults. Throws heel::Error naming a
+/// fault that cannot be read.
+void apply_robot(const ScenarioRobot& robot, P3AtSettings& settings);
+
+/// The robot's true motion as the world takes it.
+RobotMotion motion_of(const RobotTruth& truth);
+
+/// Starts the person's walk `walk_after_s` after the first time this finds the robot's motors on; true that
+/// time.
+bool start_walk_when_motors_run(const RobotTruth& robot, double t_s, World& world);
+
+}  // namespace heel::sim

@@ -1,0 +1,35 @@
+#include "simulate_options.h"
+
+#include "config/config_load.h"
+#include "files/template_file.h"
+#include "heel/error.h"
+
+namespace heel::cli {
+
+sim::Scenario scenario_of(const SimulateOptions& options, const std::string& file) {
+  sim::Scenario scenario = sim::read_scenario(file);
+  if (options.seed) scenario.seed = *options.seed;
+  if (options.duration_s > 0.0) scenario.duration_s = options.duration_s;
+  return scenario;
+}
+
+sim::LockstepSettings settings_of(const SimulateOptions& options, const sim::Scenario& scenario) {
+  sim::LockstepSettings settings;
+  settings.scenario = scenario;
+  if (!options.config_file.empty()) settings.config = load_config(options.config_file).config;
+  sim::apply_scenario(settings.scenario, settings.config);
+  if (!options.error_model_file.empty()) {
+    settings.errors = sim::read_error_model(options.error_model_file);
+    settings.shirt.distance_m = options.teach_distance_m;
+  } else if (!options.template_file.empty()) {
+    settings.shirt = read_template(options.template_file);
+  } else if (settings.scenario.camera.source == "sim") {
+    settings.shirt = sim::teach_from_world(settings.scenario, options.teach_distance_m);
+  } else {
+    throw Error("--template: missing (expected a template for frames from " +
+                settings.scenario.camera.source + ")");
+  }
+  return settings;
+}
+
+}  // namespace heel::cli
