@@ -112,15 +112,13 @@ void process_frames(const PoseOptions& options, const ShirtTemplate& shirt, cons
   fmt::print(stderr, "heel pose: {}\n", summary.line());
 }
 
-void run_pose(PoseOptions options) {
+void run_pose(const PoseOptions& options) {
   if (options.last < options.first)
     throw Error(fmt::format("--last {}: before --first {} (expected the same frame or a later one)",
                             options.last, options.first));
   ShirtTemplate shirt = read_template(options.template_file);
   if (options.oriented) shirt.oriented = true;
   const CameraModel camera = read_camera_model(options.camera_file);
-  // Without a deadline the same input gives the same output, however loaded the machine is.
-  options.vision.ransac_budget_ms = 0.0;
   if (!options.picture_dir.empty()) make_folder(options.picture_dir);
   process_frames(options, shirt, camera);
 }
