@@ -1,5 +1,7 @@
 #include "capture/jpeg_decoder.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <csetjmp>
 #include <cstdio>
@@ -10,9 +12,9 @@ namespace heel {
 
 namespace {
 
-// libjpeg reports a fatal error through error_exit, which must not return; it jumps back to decode().
+// libjpeg reports a fatal error through error_exit, which must not return: it jumps back to decode().
 struct ErrorManager {
-  jpeg_error_mgr base{};  // first: libjpeg hands back a pointer to it
+  jpeg_error_mgr base{};  // must be first: libjpeg passes a pointer to it
   std::jmp_buf back{};
   std::array<char, JMSG_LENGTH_MAX> message{};
 };
@@ -27,7 +29,7 @@ void keep_message(j_common_ptr jpeg) {
   std::longjmp(reinterpret_cast<ErrorManager*>(jpeg->err)->back, 1);
 }
 
-// Warnings ("premature end of JPEG file") mean a damaged image. libjpeg would fill in grey and go on.
+// A warning ("premature end of JPEG file") means a damaged image. libjpeg would fill the rest with grey.
 void count_warning(j_common_ptr jpeg, int level) {
   if (level >= 0) return;
   if (jpeg->err->num_warnings++ == 0) keep_message(jpeg);
@@ -59,7 +61,7 @@ const char* JpegDecoder::problem() const {
   return impl_->errors.message.data();
 }
 
-// No object with a destructor may live in this function: longjmp passes over them.
+// This function must not hold an object with a destructor, because longjmp skips destructors.
 bool JpegDecoder::decode(const std::uint8_t* jpeg, std::size_t bytes, std::uint32_t width_px,
                          std::uint32_t height_px, std::uint8_t* grey) {
   Impl& d = *impl_;
@@ -72,8 +74,10 @@ bool JpegDecoder::decode(const std::uint8_t* jpeg, std::size_t bytes, std::uint3
   jpeg_mem_src(&d.jpeg, jpeg, static_cast<unsigned long>(bytes));
   jpeg_read_header(&d.jpeg, TRUE);
   if (d.jpeg.image_width != width_px || d.jpeg.image_height != height_px) {
-    std::snprintf(d.errors.message.data(), d.errors.message.size(), "a JPEG of %ux%u px, expected %ux%u",
-                  d.jpeg.image_width, d.jpeg.image_height, width_px, height_px);
+    *fmt::format_to_n(d.errors.message.data(), d.errors.message.size() - 1,
+                      "a JPEG of {}x{} px (expected {}x{})", d.jpeg.image_width, d.jpeg.image_height,
+                      width_px, height_px)
+         .out = '\0';
     jpeg_abort_decompress(&d.jpeg);
     return false;
   }

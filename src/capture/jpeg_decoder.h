@@ -1,5 +1,5 @@
-// JPEG images, as Motion-JPEG cameras send them, to 8-bit grey. By libjpeg-turbo, which decodes only the luma
-// then; it takes and gives back its working memory with every image, from the heap.
+// Decodes JPEG images, as Motion-JPEG cameras send them, to 8-bit grey, by libjpeg-turbo. Only the luma is
+// decoded. The library allocates its working memory for each image and frees it again.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ class JpegDecoder {
   JpegDecoder(const JpegDecoder&) = delete;
   JpegDecoder& operator=(const JpegDecoder&) = delete;
 
-  /// Decodes into `grey`, densely packed. False: corrupt, truncated, or not of exactly this size; `grey` may
-  /// then hold part of the image, and problem() says what is wrong.
+  /// Decodes to `grey`, densely packed. False: the image is corrupt, truncated, or of another size; problem()
+  /// says which, and `grey` may hold a part of the image.
   bool decode(const std::uint8_t* jpeg, std::size_t bytes, std::uint32_t width_px, std::uint32_t height_px,
               std::uint8_t* grey);
   const char* problem() const;

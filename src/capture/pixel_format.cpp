@@ -12,7 +12,8 @@ void grey_from_yuyv(const std::uint8_t* row, std::uint32_t width_px, std::uint8_
   for (std::uint32_t x = 0; x < width_px; ++x) grey[x] = row[2 * x];
 }
 
-/// `red` and `blue`: which of a pixel's three bytes they are. Weights of 2⁻⁸ that add up to 1.
+/// `red` and `blue` are their positions in a pixel's three bytes. The weights, in units of 1/256, add up
+/// to 1.
 void grey_from_rgb(const std::uint8_t* row, unsigned red, unsigned blue, std::uint32_t width_px,
                    std::uint8_t* grey) {
   for (std::uint32_t x = 0; x < width_px; ++x) {
@@ -73,7 +74,7 @@ std::uint32_t row_bytes(PixelFormat format, std::uint32_t width_px) {
 std::size_t luma_bytes_needed(PixelFormat format, std::uint32_t width_px, std::uint32_t height_px,
                               std::uint32_t stride_bytes) {
   if (format == PixelFormat::Mjpg || height_px == 0) return 0;
-  // The last row need not be padded to the stride.
+  // The last row is not always padded to the stride.
   return std::size_t{stride_bytes} * (height_px - 1) + row_bytes(format, width_px);
 }
 

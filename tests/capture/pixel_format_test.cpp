@@ -53,7 +53,7 @@ void expect_luma(PixelFormat format, std::vector<std::uint8_t> (*pixel)(std::uin
       const Luma luma = luma_of(format, data.data(), stride, width_px, height_px, grey.data());
       for (std::uint32_t y = 0; y < height_px; ++y) {
         for (std::uint32_t x = 0; x < width_px; ++x) {
-          ASSERT_NEAR(luma.first[y * luma.stride_bytes + x], value(x, y), tolerance)
+          ASSERT_NEAR(luma.data[y * luma.stride_bytes + x], value(x, y), tolerance)
               << to_string(format) << ' ' << width_px << "+" << padding << " at " << x << ',' << y;
         }
       }

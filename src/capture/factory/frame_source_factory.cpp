@@ -25,7 +25,7 @@ std::unique_ptr<FrameSource> make_frame_source(const CameraConfig& config) {
   return std::make_unique<LibcameraSource>(address.rest, config);
 #else
   throw Error("camera address '" + config.source +
-              "': this heel was built without libcamera; expected v4l2:PATH, file:PATH or sim:NAME");
+              "': this program was built without libcamera (expected v4l2:PATH, file:PATH or sim:NAME)");
 #endif
 }
 

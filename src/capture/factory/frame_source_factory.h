@@ -1,4 +1,4 @@
-// From a camera address to the source that serves it, e.g. v4l2:/dev/video0 to a V4l2Source.
+// Makes the source for a camera address, e.g. a V4l2Source for v4l2:/dev/video0.
 #pragma once
 
 #include <memory>
@@ -8,10 +8,11 @@
 
 namespace heel {
 
-/// Makes the source without opening it. Throws heel::Error on a bad address or a kind this build lacks.
+/// Makes the source and does not open it. Throws heel::Error for a bad address or a kind that this build does
+/// not have.
 std::unique_ptr<FrameSource> make_frame_source(const CameraConfig& config);
 
-/// Makes and opens it. Throws heel::Error with the problem when it does not open.
+/// Makes and opens the source. Throws heel::Error with the problem when it does not open.
 std::unique_ptr<FrameSource> open_frame_source(const CameraConfig& config);
 
 }  // namespace heel

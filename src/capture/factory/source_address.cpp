@@ -1,5 +1,7 @@
 #include "capture/factory/source_address.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <utility>
 
@@ -9,8 +11,6 @@ namespace heel {
 
 namespace {
 
-constexpr const char* kExpected = "expected v4l2:PATH, libcamera:ID, file:PATH or sim:NAME";
-
 constexpr std::array<std::pair<const char*, SourceKind>, 4> kKinds{{
     {"v4l2", SourceKind::V4l2},
     {"libcamera", SourceKind::Libcamera},
@@ -18,23 +18,24 @@ constexpr std::array<std::pair<const char*, SourceKind>, 4> kKinds{{
     {"sim", SourceKind::Sim},
 }};
 
+[[noreturn]] void refuse(const std::string& address, const std::string& why) {
+  throw Error(fmt::format("camera address '{}': {} (expected v4l2:PATH, libcamera:ID, file:PATH or sim:NAME)",
+                          address, why));
+}
+
 }  // namespace
 
 SourceAddress parse_source_address(const std::string& address) {
   const std::size_t colon = address.find(':');
-  if (colon == std::string::npos) {
-    throw Error("camera address '" + address + "': no kind before a colon; " + kExpected);
-  }
+  if (colon == std::string::npos) refuse(address, "no kind before a colon");
   const std::string kind = address.substr(0, colon);
   for (const auto& [name, value] : kKinds) {
     if (kind != name) continue;
     std::string rest = address.substr(colon + 1);
-    if (rest.empty()) {
-      throw Error("camera address '" + address + "': nothing after the colon; " + kExpected);
-    }
+    if (rest.empty()) refuse(address, "nothing after the colon");
     return {value, std::move(rest)};
   }
-  throw Error("camera address '" + address + "': unknown kind '" + kind + "'; " + kExpected);
+  refuse(address, fmt::format("unknown kind '{}'", kind));
 }
 
 }  // namespace heel

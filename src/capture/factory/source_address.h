@@ -14,7 +14,8 @@ struct SourceAddress {
   std::string rest;  ///< path, camera id or channel name
 };
 
-/// Parses "v4l2:PATH", "libcamera:ID", "file:PATH", "sim:NAME". Throws heel::Error naming what was expected.
+/// Parses "v4l2:PATH", "libcamera:ID", "file:PATH" or "sim:NAME". Throws heel::Error, which says what is
+/// wrong and what was expected.
 SourceAddress parse_source_address(const std::string& address);
 
 }  // namespace heel

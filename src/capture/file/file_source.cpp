@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -31,7 +32,7 @@ OpenResult FileSource::open() {
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
   if (!fs::exists(status)) {
-    return fail(OpenResult::Refused, "no such file; expected a video, an image or a folder of images");
+    return fail(OpenResult::Refused, "no such file (expected a video, an image or a folder of images)");
   }
   decoder_ = std::make_unique<Decoder>();
   const OpenResult result = fs::is_directory(status) || is_image_file(path_) ? open_images() : open_video();
@@ -43,9 +44,10 @@ OpenResult FileSource::open_images() {
   if (fs::is_directory(path_)) {
     std::error_code error;
     images_ = images_in_folder(path_, error);
-    if (error) return fail(OpenResult::Refused, "cannot list the folder: " + error.message());
+    if (error) return fail(OpenResult::Refused, "cannot read the folder: " + error.message());
     if (images_.empty()) {
-      return fail(OpenResult::Refused, "the folder holds no images; expected .png, .jpg, .bmp, .pgm or .tif");
+      return fail(OpenResult::Refused,
+                  "the folder holds no images (expected .png, .jpg, .bmp, .pgm or .tif)");
     }
   } else {
     images_.push_back(path_);
@@ -58,25 +60,25 @@ OpenResult FileSource::open_images() {
 OpenResult FileSource::open_video() {
   VideoReader& video = decoder_->video;
   if (!video.open(path_)) {
-    return fail(OpenResult::Refused, "cannot be decoded; expected a video, an image or a folder of images");
+    return fail(OpenResult::Refused, "cannot be decoded (expected a video, an image or a folder of images)");
   }
   own_rate_hz_ = video.rate_hz() > 0.0 ? video.rate_hz() : image_rate_hz_;
   const cv::Size size_px = video.size_px();
   description_ =
-      fmt::format("{}: video, {}x{} at {:.4g} Hz", address_, size_px.width, size_px.height, own_rate_hz_);
+      fmt::format("{}: video, {}x{} px at {:.4g} Hz", address_, size_px.width, size_px.height, own_rate_hz_);
   return OpenResult::Opened;
 }
 
 FrameResult FileSource::wait_frame(TimeNs timeout_ns, FrameView& frame) {
-  if (decoder_ == nullptr) return fail(FrameResult::Lost, "not open");
-  const TimeNs asked_ns = monotonic_now_ns();
+  if (decoder_ == nullptr) return fail(FrameResult::Lost, "is not open");
+  const TimeNs t_call_ns = monotonic_now_ns();
   if (!decoded_) {
     const FrameResult result = decode_next();
     if (result != FrameResult::Frame) return result;
   }
   const TimeNs t_capture_ns = due_ns();
   if (file_speed_ > 0.0) {
-    sleep_until_ns(std::min(t_capture_ns, asked_ns + timeout_ns));
+    sleep_until_ns(std::min(t_capture_ns, t_call_ns + timeout_ns));
     if (monotonic_now_ns() < t_capture_ns) return FrameResult::Timeout;
   }
   decoded_ = false;
@@ -94,18 +96,18 @@ FrameResult FileSource::decode_next() {
   Decoder& decoder = *decoder_;
   if (images_.empty()) {
     if (!decoder.video.read(decoder.grey)) {
-      return fail(FrameResult::EndOfStream, "ended after " + std::to_string(next_) + " frames");
+      return fail(FrameResult::EndOfStream, fmt::format("ended after {} frames", next_));
     }
   } else {
     if (next_ == images_.size()) {
-      return fail(FrameResult::EndOfStream, "ended after " + std::to_string(next_) + " images");
+      return fail(FrameResult::EndOfStream, fmt::format("ended after {} images", next_));
     }
     decoder.grey = decode_grey_image(images_[next_]);
   }
   ++next_;
   if (decoder.grey.empty()) {
     ++counters_.corrupt;
-    return fail(FrameResult::Error, images_[next_ - 1] + " cannot be decoded; expected an image");
+    return fail(FrameResult::Error, images_[next_ - 1] + " cannot be decoded (expected an image)");
   }
   decoded_ = true;
   return FrameResult::Frame;
@@ -118,8 +120,8 @@ TimeNs FileSource::due_ns() {
   const TimeNs now_ns = monotonic_now_ns();
   if (has_origin_) {
     const TimeNs due = origin_ns_ + ns_from_seconds(static_cast<double>(index - origin_index_) * period_s);
-    // More than a period behind: the reader (or the decoder) is slow. Go on from here, so that the stamps
-    // stay what a camera's would be and no burst follows.
+    // More than a period behind: the reader or the decoder is slow. The due times start again from now, so
+    // that the stamps are those of a camera and no burst follows.
     if (now_ns - due <= ns_from_seconds(period_s)) return due;
   }
   has_origin_ = true;

@@ -1,11 +1,11 @@
-// Frames from files: a video (whatever OpenCV decodes), one image, or a folder of images in natural order.
+// Frames from files: a video that OpenCV can decode, one image, or a folder of images in natural order.
 //
-// Pace: a video at its own rate, images at camera.rate_hz, times `file_speed`; 0: as fast as asked.
-// Times:  file_speed > 0: CLOCK_MONOTONIC, each frame given at, and stamped with, its due time;
-//         file_speed = 0: time in the file, the first frame at 0 (so that runs repeat to the bit).
-// `sequence` is the frame's index in the file or folder, from 0. A frame is never skipped: a reader that is
-// slow moves the remaining due times.
-// OpenCV's decoders allocate for each frame: this source is for trials, not for the robot.
+// Rate:  that of a video, or camera.rate_hz for images, times `file_speed`; 0: each frame as soon as
+// requested. Times: file_speed > 0: CLOCK_MONOTONIC; each frame is given at its due time and stamped with it;
+//        file_speed = 0: time in the file, the first frame at 0, so that runs repeat to the bit.
+// `sequence` is the frame's index in the file or folder, from 0. No frame is skipped: a slow reader delays
+// the due times of the frames that follow. OpenCV's decoders allocate memory for each frame: this source is
+// for experiments, not for use on the robot.
 #pragma once
 
 #include <cstdint>
@@ -22,12 +22,12 @@ class FileSource final : public FrameSource {
   FileSource(const std::string& path, double rate_hz, double file_speed);
   ~FileSource() override;
 
-  /// Refused: nothing at the path, not readable, or a folder without images.
+  /// Refused: no such file, it cannot be decoded, or the folder has no images.
   OpenResult open() override;
   FrameResult wait_frame(TimeNs timeout_ns, FrameView& frame) override;
   void close() override;
 
-  /// The pace of the file itself, frames per second of its own time; valid once opened.
+  /// The frame rate of the file itself; valid once opened.
   double rate_hz() const { return own_rate_hz_; }
 
  private:
@@ -42,9 +42,9 @@ class FileSource final : public FrameSource {
   double file_speed_;
   double own_rate_hz_ = 0.0;
   std::unique_ptr<Decoder> decoder_;
-  std::vector<std::string> images_;  ///< empty: a video
+  std::vector<std::string> images_;  ///< empty for a video
   std::uint64_t next_ = 0;           ///< index of the frame to decode next
-  bool decoded_ = false;             ///< frame next_ − 1 is decoded and not given yet
+  bool decoded_ = false;             ///< frame next_ − 1 has been decoded and not yet given
   // Due time of frame k: origin_ns_ + (k − origin_index_) / (rate · speed).
   TimeNs origin_ns_ = 0;
   std::uint64_t origin_index_ = 0;

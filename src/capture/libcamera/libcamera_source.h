@@ -1,15 +1,17 @@
-// A camera over libcamera (0.0.3): the cameras of small computers, whose sensors V4L2 alone does not serve.
-// Built only where libcamera is found (HEEL_HAVE_LIBCAMERA). The library completes requests in a thread of
-// its own and allocates for each frame.
+// A camera over libcamera 0.0.3, for the cameras of small computers, whose sensors V4L2 alone does not drive.
+// Built only where libcamera is installed (HEEL_HAVE_LIBCAMERA). The library completes requests in a thread
+// of its own and allocates memory for each frame.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 
 #include "capture/frame_source.h"
+#include "core/config.h"
 
 namespace heel {
+
+class LibcameraSession;
 
 class LibcameraSource final : public FrameSource {
  public:
@@ -20,21 +22,14 @@ class LibcameraSource final : public FrameSource {
   FrameResult wait_frame(TimeNs timeout_ns, FrameView& frame) override;
   void close() override;
 
-  /// No frame for this long: the camera has stalled, and only a new process may help.
-  static constexpr TimeNs kStall_ns = 2 * kNsPerS;
-
  private:
-  struct Session;
-  OpenResult find_camera();
-  OpenResult configure();
-  OpenResult start();
-  [[noreturn]] void give_up(const char* what);
-  /// The frame of the request held.
-  FrameResult deliver(TimeNs arrived_ns, FrameView& frame);
+  OpenResult set_up();
+  [[noreturn]] void abandon_session(const char* reason);
+  FrameResult deliver_held_request(TimeNs arrived_ns, FrameView& frame);
 
   std::string id_;
   CameraConfig config_;
-  std::unique_ptr<Session> session_;
+  std::unique_ptr<LibcameraSession> session_;
 };
 
 }  // namespace heel

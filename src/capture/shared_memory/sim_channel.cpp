@@ -1,6 +1,7 @@
 #include "capture/shared_memory/sim_channel.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -27,7 +28,7 @@ std::uint32_t round_up(std::uint32_t value, std::uint32_t step) {
 }
 
 Error channel_error(const std::string& path, const std::string& what) {
-  return Error("shared memory " + path + ": " + what + ": " + std::strerror(errno));
+  return Error(fmt::format("shared memory {}: {}: {}", path, what, std::strerror(errno)));
 }
 
 }  // namespace
@@ -35,8 +36,8 @@ Error channel_error(const std::string& path, const std::string& what) {
 std::string sim_channel_path(const std::string& name) {
   const auto allowed = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_' || c == '.'; };
   if (name.empty() || name.size() > 64 || !std::all_of(name.begin(), name.end(), allowed)) {
-    throw Error("sim:" + name +
-                ": the channel's name must be 1 to 64 letters, digits, '-', '_' or '.', e.g. sim:yard");
+    throw Error(fmt::format(
+        "sim:{}: bad channel name (expected 1 to 64 letters, digits, '-', '_' or '.', e.g. sim:yard)", name));
   }
   return "/heel-sim-" + name;
 }
@@ -57,16 +58,15 @@ SimChannelWriter::SimChannelWriter(const std::string& name, std::uint32_t max_wi
       max_height_px_(max_height_px),
       stride_bytes_(round_up(max_width_px, kCacheLineBytes)) {
   if (max_width_px == 0 || max_height_px == 0 || max_width_px > kMaxSide_px || max_height_px > kMaxSide_px) {
-    throw Error("sim:" + name + ": frames of " + std::to_string(max_width_px) + "x" +
-                std::to_string(max_height_px) + " px; expected 1 to " + std::to_string(kMaxSide_px) +
-                " px on each side");
+    throw Error(fmt::format("sim:{}: frames of {}x{} px (expected 1 to {} px on each side)", name,
+                            max_width_px, max_height_px, kMaxSide_px));
   }
   const std::uint64_t pixel_bytes = std::uint64_t{stride_bytes_} * max_height_px_;
   const std::uint64_t slot_bytes = sizeof(SimSlotHeader) + pixel_bytes;
   const std::uint64_t total_bytes = sizeof(SimChannelHeader) + kSimSlots * slot_bytes;
   pixels_.assign(pixel_bytes / kWordBytes, 0);
 
-  take_over_name(name);
+  remove_dead_segment(name);
   map_new_segment(name, total_bytes);
   channel_->version = kSimChannelVersion;
   channel_->slots = kSimSlots;
@@ -78,13 +78,13 @@ SimChannelWriter::SimChannelWriter(const std::string& name, std::uint32_t max_wi
   channel_->magic.store(kSimChannelMagic, std::memory_order_release);
 }
 
-// Removes the name a dead writer left. Readers try the lock for an instant to see whether the writer lives,
-// so being refused once does not yet mean that it does.
-void SimChannelWriter::take_over_name(const std::string& name) {
+// Removes the name that a dead writer has left. A reader that checks whether the writer is alive holds the
+// lock for a moment, so one refusal does not mean that it is.
+void SimChannelWriter::remove_dead_segment(const std::string& name) {
   const int old = shm_open(path_.c_str(), O_RDWR | O_CLOEXEC, 0);
   if (old < 0) {
     if (errno == ENOENT) return;
-    throw channel_error(path_, "cannot open what is there under this name");
+    throw channel_error(path_, "cannot open the existing segment");
   }
   constexpr int kTries = 10;
   bool locked = false;
@@ -95,28 +95,31 @@ void SimChannelWriter::take_over_name(const std::string& name) {
   if (locked) shm_unlink(path_.c_str());
   ::close(old);
   if (!locked) {
-    throw Error("sim:" + name + ": another simulator is already serving this channel; expected a free name");
+    throw Error(fmt::format("sim:{}: another simulator serves this channel (expected a free name)", name));
   }
 }
 
 void SimChannelWriter::map_new_segment(const std::string& name, std::uint64_t total_bytes) {
   fd_ = shm_open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (fd_ < 0) {
-    if (errno == EEXIST) throw Error("sim:" + name + ": another simulator has just taken this channel");
+    if (errno == EEXIST) {
+      throw Error(fmt::format(
+          "sim:{}: another simulator has just created this channel (expected a free name)", name));
+    }
     throw channel_error(path_, "cannot create");
   }
-  // Locked while still empty: a reader that finds the segment at all finds a living writer.
+  // Locked while it is empty, so that a reader that finds the segment finds its writer alive.
   void* memory = MAP_FAILED;
   if (flock(fd_, LOCK_EX | LOCK_NB) == 0 && ftruncate(fd_, static_cast<off_t>(total_bytes)) == 0) {
     memory = mmap(nullptr, total_bytes, PROT_READ | PROT_WRITE, MAP_SHARED, fd_, 0);
   }
   if (memory == MAP_FAILED) {
-    const Error error = channel_error(path_, "cannot take " + std::to_string(total_bytes) + " bytes");
+    const Error error = channel_error(path_, fmt::format("cannot allocate {} bytes", total_bytes));
     shm_unlink(path_.c_str());
     ::close(fd_);
     throw error;
   }
-  // Fresh shared memory is all zeros, which is a valid state of every member.
+  // New shared memory is zero, which is a valid state of every member.
   channel_ = new (memory) SimChannelHeader{};
 }
 
@@ -134,15 +137,14 @@ WritableFrame SimChannelWriter::writable() {
 
 void SimChannelWriter::publish() {
   if (frame_.width_px > max_width_px_ || frame_.height_px > max_height_px_) {
-    throw Error("shared memory " + path_ + ": a frame of " + std::to_string(frame_.width_px) + "x" +
-                std::to_string(frame_.height_px) + " px; expected at most " + std::to_string(max_width_px_) +
-                "x" + std::to_string(max_height_px_));
+    throw Error(fmt::format("shared memory {}: a frame of {}x{} px (expected at most {}x{})", path_,
+                            frame_.width_px, frame_.height_px, max_width_px_, max_height_px_));
   }
   const std::uint32_t n = channel_->published.load(std::memory_order_relaxed) + 1;
   SimSlotHeader* slot = sim_slot(channel_, n);
   slot->lock.store(2 * std::uint64_t{n} + 1, std::memory_order_relaxed);
-  // Readers may look at the slot while it changes and then throw their copy away, so every word is an atomic.
-  // Release, word by word: who sees any of the new frame also sees the odd lock before it.
+  // Readers may copy the slot while it changes, and then discard the copy; therefore every word is atomic.
+  // Release for each word: a reader that sees any word of the new frame also sees the odd lock.
   slot->sequence.store(frame_.sequence, std::memory_order_release);
   slot->t_capture_ns.store(frame_.t_capture_ns, std::memory_order_release);
   slot->width_px.store(frame_.width_px, std::memory_order_release);

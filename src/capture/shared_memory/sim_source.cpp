@@ -1,6 +1,7 @@
 #include "capture/shared_memory/sim_source.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -19,14 +20,14 @@ namespace {
 
 constexpr const char* kEnded = "the simulator that served this channel has ended";
 
-/// One slot copied out under its sequence lock. False: the writer changed it meanwhile.
+/// Copies a slot under its sequence lock. False: the writer changed it meanwhile.
 bool copy_slot(const SimChannelHeader& channel, std::uint32_t n, FrameHeader& header,
                std::vector<std::uint64_t>& pixels) {
   const SimSlotHeader* slot = sim_slot(&channel, n);
   const std::uint64_t whole = 2 * std::uint64_t{n};
   if (slot->lock.load(std::memory_order_acquire) != whole) return false;
-  // Acquire, word by word: having read anything the writer stored later, the second look at the lock below
-  // sees it odd (or further on).
+  // Acquire for each word: after reading a word that the writer stored later, the second read of the lock
+  // below sees a changed value.
   header.sequence = slot->sequence.load(std::memory_order_acquire);
   header.t_capture_ns = slot->t_capture_ns.load(std::memory_order_acquire);
   header.width_px = slot->width_px.load(std::memory_order_acquire);
@@ -57,10 +58,10 @@ OpenResult SimSource::open() {
     return result;
   }
   pixels_.assign(std::size_t{channel_->stride_bytes} * channel_->max_height_px / kWordBytes, 0);
-  last_published_ = channel_->published.load(std::memory_order_acquire);  // what is there already is old
+  last_published_ = channel_->published.load(std::memory_order_acquire);  // frames before this are old
   has_sequence_ = false;
-  description_ = address_ + ": up to " + std::to_string(channel_->max_width_px) + "x" +
-                 std::to_string(channel_->max_height_px) + " px from shared memory " + path_;
+  description_ = fmt::format("{}: up to {}x{} px from shared memory {}", address_, channel_->max_width_px,
+                             channel_->max_height_px, path_);
   return result;
 }
 
@@ -68,18 +69,18 @@ OpenResult SimSource::map_segment() {
   fd_ = shm_open(path_.c_str(), O_RDONLY | O_CLOEXEC, 0);
   if (fd_ < 0) {
     if (errno == ENOENT) return fail(OpenResult::Absent, "no simulator serves this channel");
-    return fail(OpenResult::Refused, "shared memory " + path_ + ": " + std::strerror(errno));
+    return fail(OpenResult::Refused, fmt::format("shared memory {}: {}", path_, std::strerror(errno)));
   }
   struct stat file {};
   if (fstat(fd_, &file) != 0 || file.st_size < static_cast<off_t>(sizeof(SimChannelHeader))) {
-    return fail(OpenResult::Absent, "the simulator is just starting");
+    return fail(OpenResult::Absent, "the simulator is starting");
   }
-  if (!writer_lives()) return fail(OpenResult::Absent, kEnded);
+  if (!writer_is_alive()) return fail(OpenResult::Absent, kEnded);
   const auto bytes = static_cast<std::uint64_t>(file.st_size);
   void* memory = mmap(nullptr, bytes, PROT_READ, MAP_SHARED, fd_, 0);
   if (memory == MAP_FAILED) {
-    return fail(OpenResult::Refused, "shared memory " + path_ + ": cannot map " + std::to_string(bytes) +
-                                         " bytes: " + std::strerror(errno));
+    return fail(OpenResult::Refused,
+                fmt::format("shared memory {}: cannot map {} bytes: {}", path_, bytes, std::strerror(errno)));
   }
   channel_ = static_cast<const SimChannelHeader*>(memory);
   mapped_bytes_ = bytes;
@@ -88,38 +89,38 @@ OpenResult SimSource::map_segment() {
 
 OpenResult SimSource::check_header() {
   const std::uint32_t magic = channel_->magic.load(std::memory_order_acquire);
-  if (magic == 0) return fail(OpenResult::Absent, "the simulator is just starting");
+  if (magic == 0) return fail(OpenResult::Absent, "the simulator is starting");
   if (magic != kSimChannelMagic) {
-    return fail(OpenResult::Refused, "shared memory " + path_ + " is not a frame channel");
+    return fail(OpenResult::Refused, fmt::format("shared memory {}: not a frame channel", path_));
   }
   if (channel_->version != kSimChannelVersion) {
-    return fail(OpenResult::Refused, "shared memory " + path_ + " has version " +
-                                         std::to_string(channel_->version) + ", expected " +
-                                         std::to_string(kSimChannelVersion));
+    return fail(OpenResult::Refused, fmt::format("shared memory {}: version {} (expected {})", path_,
+                                                 channel_->version, kSimChannelVersion));
   }
   const SimChannelHeader& c = *channel_;
-  const bool sound =
+  const bool consistent =
       c.slots >= 2 && c.slots <= 64 && c.max_width_px > 0 && c.max_height_px > 0 &&
       c.stride_bytes >= c.max_width_px && c.stride_bytes % kWordBytes == 0 &&
       c.slot_bytes >= sizeof(SimSlotHeader) + std::uint64_t{c.stride_bytes} * c.max_height_px &&
       c.slot_bytes % kWordBytes == 0 && c.slot_bytes <= mapped_bytes_ &&
       sizeof(SimChannelHeader) + c.slots * c.slot_bytes <= mapped_bytes_;
-  if (!sound)
-    return fail(OpenResult::Refused, "shared memory " + path_ + ": its header contradicts its size");
-  // Between its farewell and the end of its process the writer still holds name and lock.
+  if (!consistent) {
+    return fail(OpenResult::Refused, fmt::format("shared memory {}: its header contradicts its size", path_));
+  }
+  // A writer that has closed the channel holds its name and lock until its process ends.
   if (c.closed.load(std::memory_order_acquire) != 0) return fail(OpenResult::Absent, kEnded);
   return OpenResult::Opened;
 }
 
-// A living writer holds the exclusive lock, so a shared one is to be had only from a dead one.
-bool SimSource::writer_lives() const {
+// The writer holds the exclusive lock while it is alive, so a shared lock is granted only when it is dead.
+bool SimSource::writer_is_alive() const {
   if (flock(fd_, LOCK_SH | LOCK_NB) != 0) return true;
   flock(fd_, LOCK_UN);
   return false;
 }
 
 FrameResult SimSource::wait_frame(TimeNs timeout_ns, FrameView& frame) {
-  if (channel_ == nullptr) return fail(FrameResult::Lost, "not open");
+  if (channel_ == nullptr) return fail(FrameResult::Lost, "is not open");
   const TimeNs until_ns = monotonic_now_ns() + timeout_ns;
   while (true) {
     const std::uint32_t published = channel_->published.load(std::memory_order_acquire);
@@ -128,7 +129,8 @@ FrameResult SimSource::wait_frame(TimeNs timeout_ns, FrameView& frame) {
         last_published_ = published;
         return deliver(frame);
       }
-      // Lapped: there is a newer one. A sound writer always leaves the newest whole; the bound is for others.
+      // The writer has overwritten the slot, so there is a newer frame. A correct writer always keeps the
+      // newest one complete; the bound is for others.
       if (monotonic_now_ns() > until_ns) return FrameResult::Timeout;
       continue;
     }
@@ -139,14 +141,14 @@ FrameResult SimSource::wait_frame(TimeNs timeout_ns, FrameView& frame) {
     if (left_ns <= 0) break;
     futex_wait(channel_->published, published, left_ns, FutexScope::Shared);
   }
-  if (!writer_lives()) return fail(FrameResult::Lost, "the simulator has been killed");
+  if (!writer_is_alive()) return fail(FrameResult::Lost, "the simulator has been killed");
   return FrameResult::Timeout;
 }
 
 FrameResult SimSource::deliver(FrameView& frame) {
   if (header_.width_px > channel_->max_width_px || header_.height_px > channel_->max_height_px) {
     ++counters_.corrupt;
-    return fail(FrameResult::Error, "a frame larger than its channel");
+    return fail(FrameResult::Error, "the frame is larger than its channel");
   }
   if (has_sequence_ && header_.sequence > frame_sequence_ + 1) {
     counters_.dropped_by_driver += header_.sequence - frame_sequence_ - 1;

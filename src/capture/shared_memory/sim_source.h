@@ -1,5 +1,6 @@
-// Frames from the simulator's process over shared memory (capture/sim_channel.h). Survives a simulator that
-// is not there yet (Absent), ends, is killed, or is started again (Lost; open again).
+// Frames from the simulator's process over shared memory (sim_channel.h). While no simulator runs, opening
+// gives Absent; when the simulator ends, is killed or restarts, waiting gives Lost, and the source can be
+// opened again.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@ namespace heel {
 
 class SimSource final : public FrameSource {
  public:
-  /// Throws heel::Error on a name no channel can have.
+  /// Throws heel::Error for a name that a channel cannot have.
   explicit SimSource(const std::string& name);
   ~SimSource() override;
 
@@ -24,7 +25,7 @@ class SimSource final : public FrameSource {
  private:
   OpenResult map_segment();
   OpenResult check_header();
-  bool writer_lives() const;
+  bool writer_is_alive() const;
   FrameResult deliver(FrameView& frame);
 
   std::string path_;
@@ -33,7 +34,7 @@ class SimSource final : public FrameSource {
   std::uint64_t mapped_bytes_ = 0;
   std::uint32_t last_published_ = 0;
   bool has_sequence_ = false;
-  std::uint64_t frame_sequence_ = 0;  ///< of the frame given last
+  std::uint64_t frame_sequence_ = 0;  ///< of the last frame given
   FrameHeader header_;
   std::vector<std::uint64_t> pixels_;
 };

@@ -5,8 +5,8 @@
 
 namespace heel {
 
-/// Fixes what the configuration fixes and reads it back; what it leaves automatic is set automatic where the
-/// device can. False: the device lacks a control that is asked for, or refuses the value; problem is set.
-bool agree_on_controls(V4l2Device& device, const CameraConfig& config, V4l2Agreement& agreement);
+/// Sets the values that the configuration fixes and reads them back; sets the others automatic where the
+/// device can. False: the device has no such control or refuses the value; `setup.problem` says which.
+bool set_up_controls(V4l2Device& device, const CameraConfig& config, V4l2Setup& setup);
 
 }  // namespace heel

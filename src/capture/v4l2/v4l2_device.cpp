@@ -23,7 +23,7 @@ class KernelV4l2Device final : public V4l2Device {
 
   int open(const std::string& path) override {
     close();
-    // Non-blocking: dequeuing never sleeps, only wait_readable() does, and that has a timeout.
+    // Non-blocking: dequeuing never sleeps; only wait_readable() sleeps, with a timeout.
     fd_ = ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
     if (fd_ < 0) return errno;
     struct stat file {};
@@ -45,7 +45,7 @@ class KernelV4l2Device final : public V4l2Device {
   }
 
   void* map(std::size_t bytes, std::int64_t offset) override {
-    // Some drivers insist on a writable mapping even for capture.
+    // Some drivers require a writable mapping even for capture.
     void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, fd_, offset);
     return memory == MAP_FAILED ? nullptr : memory;
   }

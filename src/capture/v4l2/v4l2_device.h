@@ -1,5 +1,5 @@
-// The thin seam between heel and the kernel's video devices: the handful of system calls V4L2 is spoken with.
-// Everything with a decision in it stands on this side of the seam and is tested against a scripted device.
+// The interface between heel and the kernel's video devices: the few system calls that V4L2 needs. It makes
+// no decisions; the code that does is tested against a scripted device.
 #pragma once
 
 #include <cstddef>
@@ -20,16 +20,16 @@ class V4l2Device {
   /// 0 or errno.
   virtual int open(const std::string& path) = 0;
   virtual void close() = 0;
-  /// ioctl(2), repeated while a signal interrupts it. 0 or errno.
+  /// ioctl(2), repeated when a signal interrupts it. 0 or errno.
   virtual int control(unsigned long request, void* argument) = 0;
-  /// mmap(2) of `bytes` at `offset`, read-only use. Null: failed.
+  /// mmap(2) of `bytes` at `offset`, for reading. Null: it failed.
   virtual void* map(std::size_t bytes, std::int64_t offset) = 0;
   virtual void unmap(void* memory, std::size_t bytes) = 0;
-  /// Waits for a filled buffer (or an error condition, which dequeuing then names).
+  /// Waits for a filled buffer, or for an error, which VIDIOC_DQBUF then returns.
   virtual PollResult wait_readable(TimeNs timeout_ns) = 0;
 };
 
-/// The kernel's.
+/// The device by the kernel's system calls.
 std::unique_ptr<V4l2Device> make_kernel_v4l2_device();
 
 }  // namespace heel

@@ -5,8 +5,8 @@
 
 namespace heel {
 
-/// Sets format, size and rate and checks what the device makes of it. "auto" takes the first of GREY, NV12,
-/// YUYV, MJPG (in the order of the work they make) that reaches the rate, else the fastest.
-void agree_on_format(V4l2Device& device, const CameraConfig& config, V4l2Agreement& agreement);
+/// Sets format, size and rate, and checks what the device has set. "auto" takes the first of pixel_formats()
+/// that reaches the rate, or else the fastest.
+void set_up_format(V4l2Device& device, const CameraConfig& config, V4l2Setup& setup);
 
 }  // namespace heel

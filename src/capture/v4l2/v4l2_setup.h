@@ -1,5 +1,5 @@
-// Coming to terms with a V4L2 device: what it must be able to do, the format, the rate and the controls asked
-// for by the configuration, each set and read back. The device is open; nothing streams yet.
+// Sets up an open V4L2 device: checks its capabilities, and sets the format, the rate and the controls that
+// the configuration requests. Each is read back. The device does not stream yet.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,21 @@
 
 namespace heel {
 
-/// What was agreed, or what stands in the way.
-struct V4l2Agreement {
-  bool agreed = false;
-  std::string problem;  ///< one line without the address, when not agreed
+/// The set-up of a device, or why it failed.
+struct V4l2Setup {
+  bool complete = false;
+  std::string problem;  ///< one line without the address, unless complete
 
   PixelFormat format = PixelFormat::Grey;
   std::uint32_t width_px = 0;
   std::uint32_t height_px = 0;
   std::uint32_t stride_bytes = 0;  ///< 0 for MJPG
-  double rate_hz = 0.0;            ///< 0: the device does not say
+  double rate_hz = 0.0;            ///< 0: unknown to the device
   double exposure_s = 0.0;         ///< fixed exposure as read back; 0: automatic
   std::string card;                ///< the device's own name
-  std::string controls;            ///< what was fixed, e.g. "exposure 5 ms, gain 20"
+  std::string controls;            ///< the fixed controls, e.g. "exposure (ms) 5, gain 20"
 };
 
-V4l2Agreement agree_with_device(V4l2Device& device, const CameraConfig& config);
+V4l2Setup set_up_device(V4l2Device& device, const CameraConfig& config);
 
 }  // namespace heel

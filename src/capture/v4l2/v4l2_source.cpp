@@ -1,10 +1,9 @@
 #include "capture/v4l2/v4l2_source.h"
 
+#include <fmt/format.h>
 #include <linux/videodev2.h>
 
-#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <utility>
 
@@ -14,9 +13,9 @@ namespace heel {
 
 namespace {
 
-// One being looked at, one being filled, and two so that a late wake-up costs no frame.
+// One is in use, one is being filled, and two more so that a late wake-up loses no frame.
 constexpr std::uint32_t kBuffers = 4;
-constexpr std::uint32_t kFewestBuffers = 2;
+constexpr std::uint32_t kMinBuffers = 2;
 
 v4l2_buffer capture_buffer(std::uint32_t index) {
   v4l2_buffer buffer{};
@@ -26,7 +25,7 @@ v4l2_buffer capture_buffer(std::uint32_t index) {
   return buffer;
 }
 
-/// Errors that say the device is not there now, and may be again.
+/// True for errors that mean: the device is not there now, but may be later.
 bool is_absence(int error) {
   return error == ENOENT || error == ENODEV || error == ENXIO || error == EIO || error == EBUSY;
 }
@@ -35,14 +34,13 @@ bool is_absence(int error) {
 
 TimeNs capture_time_ns(const v4l2_buffer& buffer, TimeNs exposure_ns, TimeNs arrived_ns) {
   if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) return arrived_ns;
-  // A driver's 64-bit nanoseconds may have wrapped: seconds that do not fit back into nanoseconds are no
-  // time.
+  // A driver's 64-bit nanoseconds may have wrapped; its seconds then do not fit into nanoseconds.
   const std::int64_t stamp_s = buffer.timestamp.tv_sec;
   if (stamp_s < 0 || stamp_s > arrived_ns / kNsPerS) return arrived_ns;
   const TimeNs stamp_ns = stamp_s * kNsPerS + buffer.timestamp.tv_usec * kNsPerUs;
-  if (!is_believable_stamp(stamp_ns, arrived_ns)) return arrived_ns;
-  // Start-of-exposure stamps lie half an exposure before its middle, end-of-frame stamps (at least) half
-  // an exposure after it.
+  if (!is_plausible_stamp(stamp_ns, arrived_ns)) return arrived_ns;
+  // A stamp of the start of exposure lies half an exposure before its middle; a stamp of the end of the frame
+  // lies at least half an exposure after it.
   const bool at_start = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
   return at_start ? stamp_ns + exposure_ns / 2 : stamp_ns - exposure_ns / 2;
 }
@@ -66,20 +64,17 @@ OpenResult V4l2Source::open() {
 OpenResult V4l2Source::open_device() {
   if (const int error = device_->open(path_); error != 0) {
     const OpenResult result = is_absence(error) ? OpenResult::Absent : OpenResult::Refused;
-    if (error == ENOTTY) return fail(result, "is not a device; expected a camera such as /dev/video0");
-    return fail(result, std::string("cannot be opened: ") + std::strerror(error));
+    if (error == ENOTTY) return fail(result, "is not a device (expected a camera such as /dev/video0)");
+    return fail(result, fmt::format("cannot be opened: {}", std::strerror(error)));
   }
-  agreement_ = agree_with_device(*device_, config_);
-  if (!agreement_.agreed) return fail(OpenResult::Refused, agreement_.problem);
-  std::array<char, 160> terms{};
-  std::snprintf(terms.data(), terms.size(), "%s %ux%u at %.4g Hz", to_string(agreement_.format),
-                agreement_.width_px, agreement_.height_px, agreement_.rate_hz);
-  description_ = address_ + ": " + agreement_.card + ", " + terms.data();
-  if (agreement_.rate_hz < 0.9 * config_.rate_hz || agreement_.rate_hz > 1.1 * config_.rate_hz) {
-    std::snprintf(terms.data(), terms.size(), " (asked for %.4g Hz)", config_.rate_hz);
-    description_ += terms.data();
+  setup_ = set_up_device(*device_, config_);
+  if (!setup_.complete) return fail(OpenResult::Refused, setup_.problem);
+  description_ = fmt::format("{}: {}, {} {}x{} at {:.4g} Hz", address_, setup_.card, to_string(setup_.format),
+                             setup_.width_px, setup_.height_px, setup_.rate_hz);
+  if (setup_.rate_hz < 0.9 * config_.rate_hz || setup_.rate_hz > 1.1 * config_.rate_hz) {
+    description_ += fmt::format(" (requested: {:.4g} Hz)", config_.rate_hz);
   }
-  if (!agreement_.controls.empty()) description_ += ", " + agreement_.controls;
+  if (!setup_.controls.empty()) description_ += ", " + setup_.controls;
   return OpenResult::Opened;
 }
 
@@ -88,17 +83,17 @@ OpenResult V4l2Source::start_streaming() {
   if (mapped != OpenResult::Opened) return mapped;
   for (std::uint32_t index = 0; index < buffers_.size(); ++index) {
     if (const int error = queue(index); error != 0) {
-      return fail(OpenResult::Absent, std::string("cannot queue a buffer: ") + std::strerror(error));
+      return fail(OpenResult::Absent, fmt::format("cannot queue a buffer: {}", std::strerror(error)));
     }
   }
   int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   if (const int error = device_->control(VIDIOC_STREAMON, &type); error != 0) {
-    return fail(OpenResult::Absent, std::string("does not start streaming: ") + std::strerror(error));
+    return fail(OpenResult::Absent, fmt::format("does not start streaming: {}", std::strerror(error)));
   }
   streaming_ = true;
-  count_.restart();
-  heard_ns_ = monotonic_now_ns();
-  grey_.assign(std::size_t{agreement_.width_px} * agreement_.height_px, 0);
+  sequence_.restart();
+  t_last_frame_ns_ = monotonic_now_ns();
+  converter_.configure(setup_.format, setup_.width_px, setup_.height_px, setup_.stride_bytes);
   return OpenResult::Opened;
 }
 
@@ -109,12 +104,12 @@ OpenResult V4l2Source::map_buffers() {
   request.memory = V4L2_MEMORY_MMAP;
   if (const int error = device_->control(VIDIOC_REQBUFS, &request); error != 0) {
     const OpenResult result = is_absence(error) ? OpenResult::Absent : OpenResult::Refused;
-    return fail(result, std::string("gives no buffers: ") + std::strerror(error) +
-                            (error == EBUSY ? "; another program is using it" : ""));
+    return fail(result, fmt::format("gives no buffers: {}{}", std::strerror(error),
+                                    error == EBUSY ? "; another program is using it" : ""));
   }
-  if (request.count < kFewestBuffers) {
-    return fail(OpenResult::Refused, "gives " + std::to_string(request.count) +
-                                         " buffer(s); expected at least " + std::to_string(kFewestBuffers));
+  if (request.count < kMinBuffers) {
+    return fail(OpenResult::Refused,
+                fmt::format("gives {} buffer(s) (expected at least {})", request.count, kMinBuffers));
   }
   for (std::uint32_t index = 0; index < request.count; ++index) {
     v4l2_buffer buffer = capture_buffer(index);
@@ -132,65 +127,45 @@ int V4l2Source::queue(std::uint32_t index) {
 }
 
 FrameResult V4l2Source::wait_frame(TimeNs timeout_ns, FrameView& frame) {
-  if (!streaming_) return fail(FrameResult::Lost, "not open");
+  if (!streaming_) return fail(FrameResult::Lost, "is not open");
   if (std::exchange(holding_, false)) {
-    if (const int error = queue(held_); error != 0) return lose("takes no buffer back", error);
+    if (const int error = queue(held_); error != 0) return fail_lost("takes no buffer back", error);
   }
   const PollResult ready = device_->wait_readable(timeout_ns);
-  if (ready == PollResult::Failed) return lose("cannot be waited for", ENODEV);
+  if (ready == PollResult::Failed) return fail_lost("waiting for a frame failed", ENODEV);
   v4l2_buffer buffer = capture_buffer(0);
   const int error = ready == PollResult::Ready ? device_->control(VIDIOC_DQBUF, &buffer) : EAGAIN;
   const TimeNs now_ns = monotonic_now_ns();
   if (error == EAGAIN) {
-    return now_ns - heard_ns_ > kStall_ns ? fail(FrameResult::Lost, "no frame for 2 s")
-                                          : FrameResult::Timeout;
+    return now_ns - t_last_frame_ns_ > kStall_ns ? fail(FrameResult::Lost, kStallText) : FrameResult::Timeout;
   }
-  if (error != 0) return lose("gives no frame", error);
-  if (buffer.index >= buffers_.size()) return lose("gives a buffer it was not given", EINVAL);
-  heard_ns_ = now_ns;
+  if (error != 0) return fail_lost("gives no frame", error);
+  if (buffer.index >= buffers_.size()) return fail_lost("gives a buffer that it does not have", EINVAL);
+  t_last_frame_ns_ = now_ns;
   holding_ = true;
   held_ = buffer.index;
-  count_.advance(buffer.sequence);
-  counters_.dropped_by_driver += count_.gap();
+  sequence_.advance(buffer.sequence);
+  counters_.dropped_by_driver += sequence_.gap();
   if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0) {
     ++counters_.dropped_by_driver;
-    return fail(FrameResult::Error, "a frame the driver marked as damaged");
+    return fail(FrameResult::Error, kDamagedText);
   }
-  frame.header = {.sequence = count_.sequence(),
-                  .t_capture_ns = capture_time_ns(buffer, ns_from_seconds(agreement_.exposure_s), now_ns),
-                  .width_px = agreement_.width_px,
-                  .height_px = agreement_.height_px};
+  frame.header = {.sequence = sequence_.sequence(),
+                  .t_capture_ns = capture_time_ns(buffer, ns_from_seconds(setup_.exposure_s), now_ns),
+                  .width_px = setup_.width_px,
+                  .height_px = setup_.height_px};
   return deliver(buffer, frame);
 }
 
 FrameResult V4l2Source::deliver(const v4l2_buffer& buffer, FrameView& frame) {
   const Buffer& memory = buffers_[buffer.index];
-  const std::uint32_t width_px = agreement_.width_px;
-  const std::uint32_t height_px = agreement_.height_px;
-  const std::size_t needed =
-      luma_bytes_needed(agreement_.format, width_px, height_px, agreement_.stride_bytes);
-  if (buffer.bytesused > memory.bytes || buffer.bytesused == 0 || buffer.bytesused < needed) {
-    return refuse("a frame that is too short");
-  }
-  Luma luma{grey_.data(), width_px};
-  if (agreement_.format != PixelFormat::Mjpg) {
-    luma =
-        luma_of(agreement_.format, memory.data, agreement_.stride_bytes, width_px, height_px, grey_.data());
-  } else if (!jpeg_.decode(memory.data, buffer.bytesused, width_px, height_px, grey_.data())) {
-    return refuse(jpeg_.problem());
-  }
-  frame.grey = luma.first;
-  frame.stride_bytes = luma.stride_bytes;
-  return FrameResult::Frame;
-}
-
-FrameResult V4l2Source::lose(const char* what, int error) {
-  return fail(FrameResult::Lost, std::string(what) + ": " + std::strerror(error));
-}
-
-FrameResult V4l2Source::refuse(const char* what) {
+  if (converter_.convert(memory.data, buffer.bytesused, memory.bytes, frame)) return FrameResult::Frame;
   ++counters_.corrupt;
-  return fail(FrameResult::Error, what);
+  return fail(FrameResult::Error, converter_.problem());
+}
+
+FrameResult V4l2Source::fail_lost(const char* what, int error) {
+  return fail(FrameResult::Lost, fmt::format("{}: {}", what, std::strerror(error)));
 }
 
 void V4l2Source::close() {

@@ -194,7 +194,7 @@ TEST(SimSource, ForeignAndNewerSegmentsAreRefused) {
 
   header->version = 2;
   EXPECT_EQ(source.open(), OpenResult::Refused);
-  EXPECT_THAT(source.problem(), HasSubstr("version 2, expected 1"));
+  EXPECT_THAT(source.problem(), HasSubstr("version 2 (expected 1)"));
   header->version = kSimChannelVersion;
 
   header->magic.store(0);

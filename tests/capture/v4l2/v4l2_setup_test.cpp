@@ -1,4 +1,4 @@
-// Coming to terms with a device: what is chosen, what is set, and each refusal's line.
+// Setting up a device: what is chosen, what is set, and the line of each refusal.
 #include "capture/v4l2/v4l2_setup.h"
 
 #include <gmock/gmock.h>
@@ -22,14 +22,14 @@ class V4l2SetupTest : public testing::Test {
     config_.height_px = 4;
     config_.rate_hz = 30.0;
   }
-  V4l2Agreement agree() {
+  V4l2Setup set_up() {
     ScriptedV4l2Device device(camera_);
-    return agree_with_device(device, config_);
+    return set_up_device(device, config_);
   }
   void expect_refused(const std::string& part, const std::string& other = "") {
-    const V4l2Agreement agreement = agree();
-    EXPECT_FALSE(agreement.agreed);
-    EXPECT_THAT(agreement.problem, AllOf(HasSubstr(part), HasSubstr(other)));
+    const V4l2Setup setup = set_up();
+    EXPECT_FALSE(setup.complete);
+    EXPECT_THAT(setup.problem, AllOf(HasSubstr(part), HasSubstr(other)));
   }
 
   ScriptedCamera camera_;
@@ -38,25 +38,25 @@ class V4l2SetupTest : public testing::Test {
 
 TEST_F(V4l2SetupTest, FormatSizeStrideAndRateAreWhatTheDeviceSays) {
   camera_.padding = 6;
-  const V4l2Agreement agreement = agree();
-  ASSERT_TRUE(agreement.agreed) << agreement.problem;
-  EXPECT_EQ(agreement.card, "Scripted camera");
-  EXPECT_EQ(agreement.format, PixelFormat::Yuyv);
-  EXPECT_EQ(agreement.width_px, 8u);
-  EXPECT_EQ(agreement.height_px, 4u);
-  EXPECT_EQ(agreement.stride_bytes, 22u);
-  EXPECT_NEAR(agreement.rate_hz, 30.0, 1e-9) << "not the driver's default of 5 Hz";
+  const V4l2Setup setup = set_up();
+  ASSERT_TRUE(setup.complete) << setup.problem;
+  EXPECT_EQ(setup.card, "Scripted camera");
+  EXPECT_EQ(setup.format, PixelFormat::Yuyv);
+  EXPECT_EQ(setup.width_px, 8u);
+  EXPECT_EQ(setup.height_px, 4u);
+  EXPECT_EQ(setup.stride_bytes, 22u);
+  EXPECT_NEAR(setup.rate_hz, 30.0, 1e-9) << "not the driver's default of 5 Hz";
   EXPECT_NEAR(camera_.rate_hz, 30.0, 1e-9);
 }
 
 TEST_F(V4l2SetupTest, AutoTakesTheLeastWorkThatReachesTheRate) {
   camera_.formats = {V4L2_PIX_FMT_MJPEG, V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_NV12};
-  EXPECT_EQ(agree().format, PixelFormat::Grey);
+  EXPECT_EQ(set_up().format, PixelFormat::Grey);
   camera_.fastest_hz = {{V4L2_PIX_FMT_GREY, 10.0}, {V4L2_PIX_FMT_NV12, 25.0}, {V4L2_PIX_FMT_YUYV, 20.0}};
-  EXPECT_EQ(agree().format, PixelFormat::Mjpg);
+  EXPECT_EQ(set_up().format, PixelFormat::Mjpg);
   camera_.fastest_hz[V4L2_PIX_FMT_MJPEG] = 15.0;
-  const V4l2Agreement slow = agree();
-  ASSERT_TRUE(slow.agreed);
+  const V4l2Setup slow = set_up();
+  ASSERT_TRUE(slow.complete);
   EXPECT_EQ(slow.format, PixelFormat::Nv12) << "none reaches 30 Hz: the fastest";
   EXPECT_NEAR(slow.rate_hz, 25.0, 1e-9);
   EXPECT_EQ(camera_.format, std::uint32_t{V4L2_PIX_FMT_NV12});
@@ -66,15 +66,15 @@ TEST_F(V4l2SetupTest, AutoTakesTheLeastWorkThatReachesTheRate) {
 TEST_F(V4l2SetupTest, ANamedFormatIsTakenOrRefused) {
   camera_.formats = {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_YUYV};
   config_.format = "YUYV";
-  EXPECT_EQ(agree().format, PixelFormat::Yuyv);
+  EXPECT_EQ(set_up().format, PixelFormat::Yuyv);
   config_.format = "MJPG";
-  expect_refused("asked for 8x4 MJPG", "gives 8x4 GREY");
+  expect_refused("requested 8x4 MJPG", "gives 8x4 GREY");
 }
 
 TEST_F(V4l2SetupTest, AnotherSizeThanAskedIsRefused) {
   config_.width_px = 640;
   config_.height_px = 480;
-  expect_refused("asked for 640x480 YUYV, the device gives 8x4 YUYV");
+  expect_refused("requested 640x480 YUYV, the device gives 8x4 YUYV");
 }
 
 TEST_F(V4l2SetupTest, MissingCapabilitiesAreRefusedByName) {
@@ -96,9 +96,9 @@ TEST_F(V4l2SetupTest, FormatsNobodyHereReadsAreListed) {
 
 TEST_F(V4l2SetupTest, ADeviceWithoutASettableRateKeepsItsOwn) {
   camera_.rate_settable = false;
-  const V4l2Agreement agreement = agree();
-  EXPECT_TRUE(agreement.agreed);
-  EXPECT_NEAR(agreement.rate_hz, 5.0, 1e-9);
+  const V4l2Setup setup = set_up();
+  EXPECT_TRUE(setup.complete);
+  EXPECT_NEAR(setup.rate_hz, 5.0, 1e-9);
 }
 
 TEST_F(V4l2SetupTest, ControlsAreFixedAndReadBack) {
@@ -112,8 +112,8 @@ TEST_F(V4l2SetupTest, ControlsAreFixedAndReadBack) {
   config_.exposure_ms = 5.0;
   config_.gain = 20.0;
   config_.focus = 30.0;
-  const V4l2Agreement agreement = agree();
-  ASSERT_TRUE(agreement.agreed) << agreement.problem;
+  const V4l2Setup setup = set_up();
+  ASSERT_TRUE(setup.complete) << setup.problem;
   EXPECT_EQ(camera_.controls[V4L2_CID_EXPOSURE_AUTO].value, V4L2_EXPOSURE_MANUAL);
   EXPECT_EQ(camera_.controls[V4L2_CID_EXPOSURE_AUTO_PRIORITY].value, 0);
   EXPECT_EQ(camera_.controls[V4L2_CID_EXPOSURE_ABSOLUTE].value, 50) << "units of 100 µs";
@@ -121,20 +121,20 @@ TEST_F(V4l2SetupTest, ControlsAreFixedAndReadBack) {
   EXPECT_EQ(camera_.controls[V4L2_CID_GAIN].value, 20);
   EXPECT_EQ(camera_.controls[V4L2_CID_FOCUS_AUTO].value, 0);
   EXPECT_EQ(camera_.controls[V4L2_CID_FOCUS_ABSOLUTE].value, 30);
-  EXPECT_NEAR(agreement.exposure_s, 0.005, 1e-9);
-  EXPECT_EQ(agreement.controls, "exposure (ms) 5, gain 20, focus 30");
+  EXPECT_NEAR(setup.exposure_s, 0.005, 1e-9);
+  EXPECT_EQ(setup.controls, "exposure (ms) 5, gain 20, focus 30");
 }
 
 TEST_F(V4l2SetupTest, WhatIsLeftAutomaticIsSetAutomatic) {
   camera_.controls = {{V4L2_CID_EXPOSURE_AUTO, {0, 3, 1, V4L2_EXPOSURE_MANUAL}},
                       {V4L2_CID_AUTOGAIN, {0, 1, 1, 0}},
                       {V4L2_CID_FOCUS_AUTO, {0, 1, 1, 0}}};
-  const V4l2Agreement agreement = agree();
-  EXPECT_TRUE(agreement.agreed);
+  const V4l2Setup setup = set_up();
+  EXPECT_TRUE(setup.complete);
   EXPECT_EQ(camera_.controls[V4L2_CID_EXPOSURE_AUTO].value, V4L2_EXPOSURE_APERTURE_PRIORITY);
   EXPECT_EQ(camera_.controls[V4L2_CID_AUTOGAIN].value, 1);
   EXPECT_EQ(camera_.controls[V4L2_CID_FOCUS_AUTO].value, 0) << "-1 leaves the focus alone";
-  EXPECT_EQ(agreement.exposure_s, 0.0);
+  EXPECT_EQ(setup.exposure_s, 0.0);
 }
 
 TEST_F(V4l2SetupTest, ControlsThatCannotBeFixedAreRefusedByKey) {

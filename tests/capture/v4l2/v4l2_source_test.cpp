@@ -151,7 +151,7 @@ TEST_F(V4l2SourceTest, ShortAndOverlongBuffersAreRefusedNotRead) {
   give(0);
   camera_.frames.back().bytes.resize(kWidth * 2 * kHeight - 1);
   EXPECT_EQ(source.wait_frame(0, frame_), FrameResult::Error);
-  EXPECT_THAT(source.problem(), HasSubstr("v4l2:/dev/scripted: a frame that is too short"));
+  EXPECT_THAT(source.problem(), HasSubstr("v4l2:/dev/scripted: the frame is too short"));
   camera_.frames.push_back({.bytes = {}, .sequence = 1});
   EXPECT_EQ(source.wait_frame(0, frame_), FrameResult::Error);
   EXPECT_EQ(source.counters().corrupt, 2u);
@@ -193,7 +193,7 @@ TEST(V4l2CaptureTime, DistrustsStampsRoundTheWrapOf64BitNanoseconds) {
     EXPECT_EQ(capture_time_ns(buffer, 0, kArrived), kArrived) << t_s;
   }
   for (const TimeNs t_ns : {std::numeric_limits<TimeNs>::min(), std::numeric_limits<TimeNs>::max()}) {
-    EXPECT_FALSE(is_believable_stamp(t_ns, kArrived)) << t_ns;
+    EXPECT_FALSE(is_plausible_stamp(t_ns, kArrived)) << t_ns;
   }
 }
 

@@ -15,13 +15,13 @@ def run(bench):
         follow(bench, "/dev/video0", f"{name} 320x180 at 10 Hz")
     set_and_read_back(bench)
     refused(bench, "camera.exposure_ms = 10: the device has no control of its exposure", more_camera="exposure_ms = 10\n")
-    refused(bench, "asked for 320x180 MJPG, the device gives 320x180 ", format="MJPG")
+    refused(bench, "requested 320x180 MJPG, the device gives 320x180 ", format="MJPG")
     guest.run("modprobe -r vivid && modprobe vivid n_devs=1 node_types=0x100 num_outputs=1 output_types=0")
     refused(bench, "does not capture video")
     guest.run("modprobe -r vivid")
 
     guest.run(f"modprobe v4l2loopback video_nr={JPEG_DEVICE[-2:]} exclusive_caps=0 && {FEED_JPEG}")
-    follow(bench, JPEG_DEVICE, "MJPG 320x180 at 30 Hz (asked for 10 Hz)")  # the loopback's own rate: it takes no other
+    follow(bench, JPEG_DEVICE, "MJPG 320x180 at 30 Hz (requested: 10 Hz)")  # the loopback's own rate: it takes no other
     guest.run("systemctl stop loopback-camera; modprobe -r v4l2loopback")
 
 

@@ -34,7 +34,7 @@ def run(bench):
     bench.fault("libcamera, vimc", "unbound, bound", robot, cause=f"echo vimc.0 >{DRIVER}/unbind", cure=f"echo vimc.0 >{DRIVER}/bind",
                 rest_within_s=CAMERA_REST_S)
     journal = service.journal_since(begin_s)
-    bench.check("only in a new process" in journal and "the robot is closed" in journal, "heeld has ended in order, with the reason")
+    bench.check("only in a new process" in journal and "heeld stopped" in journal, "heeld has ended in order, with the reason")
     service.stop()
     guest.run("modprobe -r vimc")
 
