@@ -14,7 +14,9 @@
 namespace heel {
 
 struct ControlStage::Impl {
-  explicit Impl(const Config& config) : estimator(config) { reconfigure(config); }
+  Impl(const Config& config, const RobotGeometry& robot) : estimator(config), obstacle_map(robot) {
+    reconfigure(config);
+  }
 
   void reconfigure(const Config& config);
 
@@ -30,7 +32,7 @@ struct ControlStage::Impl {
   bool sonar_on = true;
 
   TargetEstimator estimator;
-  SonarObstacleMap echoes;
+  SonarObstacleMap obstacle_map;
   ConditionMonitor monitor;
   VelocityCommand last_command;
   std::uint64_t ticks = 0;
@@ -54,11 +56,11 @@ void ControlStage::Impl::update_robot(const RobotState& robot) {
   if (robot.reconnects != reconnects) {
     reconnects = robot.reconnects;
     estimator.reset();
-    echoes.clear();
+    obstacle_map.clear();
   }
   if (!robot.has_sip) return;
   estimator.add_odometry(robot.odometry);
-  if (sonar_on) echoes.see(robot);
+  if (sonar_on) obstacle_map.update(robot);
 }
 
 MeasurementStatus ControlStage::Impl::update_target(const ControlInput& input) {
@@ -80,7 +82,8 @@ double ControlStage::Impl::person_range_m(const TargetState& target) const {
   return std::hypot(x_m, y_m);
 }
 
-ControlStage::ControlStage(const Config& config) : impl_(std::make_unique<Impl>(config)) {}
+ControlStage::ControlStage(const Config& config, const RobotGeometry& robot)
+    : impl_(std::make_unique<Impl>(config, robot)) {}
 ControlStage::~ControlStage() = default;
 ControlStage::ControlStage(ControlStage&&) noexcept = default;
 ControlStage& ControlStage::operator=(ControlStage&&) noexcept = default;
@@ -102,9 +105,10 @@ TickRecord ControlStage::tick(const ControlInput& input) {
   const Verdict verdict = supervise(record.conditions);
   record.stop_reason = verdict.reason;
   record.wanted = follow(record.target, s.control, s.mount, input.now_ns, s.gate.command_lifetime_s);
-  const Clearances around{s.person_range_m(record.target), s.echoes.at(input.now_ns, input.robot.odometry)};
+  const Clearances clearances{s.person_range_m(record.target),
+                              s.obstacle_map.obstacles_at(input.now_ns, input.robot.odometry)};
   const GateResult gated =
-      apply_gate(record.wanted, s.last_command, verdict.style, around, input.now_ns, s.gate);
+      apply_gate(record.wanted, s.last_command, verdict.style, clearances, input.now_ns, s.gate);
   record.free_distance_m = gated.free_distance_m;
   record.command = gated.command;
   s.last_command = record.command;

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/config.h"
+#include "core/robot_geometry.h"
 #include "heel/flow.h"
 
 namespace heel {
@@ -14,7 +15,7 @@ namespace heel {
 /// thread, the lock-step simulator and replay run this very code.
 class ControlStage {
  public:
-  explicit ControlStage(const Config& config);
+  ControlStage(const Config& config, const RobotGeometry& robot);
   ~ControlStage();
   ControlStage(ControlStage&&) noexcept;
   ControlStage& operator=(ControlStage&&) noexcept;

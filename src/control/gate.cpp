@@ -46,7 +46,7 @@ Motion moving_at(const VelocityCommand& previous, TimeNs now_ns, const GateConfi
 }  // namespace
 
 GateResult apply_gate(const VelocityCommand& wanted, const VelocityCommand& previous, StopStyle style,
-                      const Clearances& around, TimeNs now_ns, const GateConfig& limits) {
+                      const Clearances& clearances, TimeNs now_ns, const GateConfig& limits) {
   GateResult result;
   VelocityCommand& out = result.command;
   out.t_issued_ns = now_ns;
@@ -68,12 +68,12 @@ GateResult apply_gate(const VelocityCommand& wanted, const VelocityCommand& prev
   aim.yaw_rate_rad_s = bounded(aim.yaw_rate_rad_s, -limits.yaw_rate_max_rad_s, limits.yaw_rate_max_rad_s,
                                kGateSpeed, limited_by);
   aim.v_m_s =
-      bounded(aim.v_m_s, -limits.v_max_m_s, approach_limit(around.person_m, limits.separation_m, limits),
+      bounded(aim.v_m_s, -limits.v_max_m_s, approach_limit(clearances.person_m, limits.separation_m, limits),
               kGateSeparation, limited_by);
   // The way the robot is to take must be free, and so must the way it is on until it has changed over.
   const Motion now = moving_at(previous, now_ns, limits);
-  result.free_distance_m = std::min(around.echoes.free_distance_m(aim.v_m_s, aim.yaw_rate_rad_s),
-                                    around.echoes.free_distance_m(now.v_m_s, now.yaw_rate_rad_s));
+  result.free_distance_m = std::min(clearances.obstacles.free_distance_m(aim.v_m_s, aim.yaw_rate_rad_s),
+                                    clearances.obstacles.free_distance_m(now.v_m_s, now.yaw_rate_rad_s));
   const double cautious_m_s = approach_limit(result.free_distance_m, limits.clearance_m, limits);
   aim.v_m_s = bounded(aim.v_m_s, -cautious_m_s, cautious_m_s, kGateObstacle, limited_by);
 

@@ -18,7 +18,7 @@ inline constexpr TimeNs kLongestSlew_ns = 100 * kNsPerMs;
 /// What the robot must keep away from, now.
 struct Clearances {
   double person_m = std::numeric_limits<double>::infinity();  ///< camera to back, when the person is ahead
-  SonarObstacles echoes;
+  SonarObstacles obstacles;
 };
 
 struct GateResult {
@@ -29,6 +29,6 @@ struct GateResult {
 };
 
 GateResult apply_gate(const VelocityCommand& wanted, const VelocityCommand& previous, StopStyle style,
-                      const Clearances& around, TimeNs now_ns, const GateConfig& limits);
+                      const Clearances& clearances, TimeNs now_ns, const GateConfig& limits);
 
 }  // namespace heel

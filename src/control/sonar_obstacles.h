@@ -1,55 +1,68 @@
-// What the sonars heard, where in odom that was, and how far the robot may drive along an arc before it is
-// there.
+// Obstacles that the sonars detect: where they are, and how far the robot may drive along an arc before it
+// meets one.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <span>
 
+#include "core/robot_geometry.h"
 #include "heel/flow.h"
 
 namespace heel {
 
-/// A thing that echoed, in the robot frame.
+/// A point that reflected a sonar beam, in the robot frame.
 struct ObstaclePoint {
   double x_m = 0.0;
   double y_m = 0.0;
 };
 
-/// What the robot may meet now: at most one point a sonar. Does not allocate.
+/// The obstacles around the robot at one moment: at most one point a sonar. Does not allocate.
 class SonarObstacles {
  public:
+  /// None yet, around a robot of this outline.
+  explicit SonarObstacles(const RobotGeometry& robot)
+      : centre_to_bumper_m_(robot.centre_to_bumper_m), half_width_m_(robot.half_width_m) {}
+
   void add(ObstaclePoint point) { points_[count_++] = point; }
   std::span<const ObstaclePoint> points() const { return {points_.data(), count_}; }
 
-  /// Metres from the bumper to the first of them, driving on at `v_m_s` (backwards when negative) and turning
-  /// at `yaw_rate_rad_s` for ever; infinite when none is in the way, or when the robot does not drive.
+  /// Metres from the bumper to the first obstacle, for a robot that keeps `v_m_s` (negative: backwards) and
+  /// `yaw_rate_rad_s`; infinite when none is in the way or the robot does not drive.
   double free_distance_m(double v_m_s, double yaw_rate_rad_s) const;
 
  private:
+  double centre_to_bumper_m_;
+  double half_width_m_;
   std::array<ObstaclePoint, kSonars> points_{};
   std::size_t count_ = 0;
 };
 
-/// Remembers each sonar's newest echo at its place in odom: between two of them, a third of a second apart,
-/// the robot drives on. An echo is taken to come from the middle of the beam.
+/// Keeps the newest reading of each sonar as a point in odom, because a sonar is read only three times a
+/// second and the robot drives on meanwhile. The point is taken to lie in the middle of the beam.
 class SonarObstacleMap {
  public:
-  /// A sonar that was not heard again for this long says nothing more.
+  /// A reading older than this is dropped.
   static constexpr TimeNs kKept_ns = kNsPerS;
 
-  void see(const RobotState& robot);
-  void clear() { places_ = {}; }
-  /// In the robot frame at `now_ns`, the robot taken to have kept its speed and yaw rate since its last
-  /// packet.
-  SonarObstacles at(TimeNs now_ns, const Odometry& newest) const;
+  explicit SonarObstacleMap(const RobotGeometry& robot) : robot_(robot) {}
+
+  /// Takes in the readings that are new in `robot`.
+  void update(const RobotState& robot);
+  /// Forgets every reading.
+  void clear() { echoes_ = {}; }
+  /// The obstacles in the robot frame at `now_ns`. Since `newest` the robot is taken to have kept its speed
+  /// and yaw rate.
+  SonarObstacles obstacles_at(TimeNs now_ns, const Odometry& newest) const;
 
  private:
-  struct Place {
+  /// Of one sonar, in odom.
+  struct Echo {
     TimeNs t_ns = 0;  // 0: none
     double x_m = 0.0, y_m = 0.0;
   };
-  std::array<Place, kSonars> places_{};
+  RobotGeometry robot_;
+  std::array<Echo, kSonars> echoes_{};
 };
 
 }  // namespace heel

@@ -2,10 +2,12 @@
 
 #include <cstring>
 
+#include "robot/p3at_geometry.h"
+
 namespace heel {
 ControlLoop::ControlLoop(const Config& config, Mailbox<PoseEstimate>& poses, TelemetryQueues& queues)
     : link_(config.robot),
-      stage_(config),
+      stage_(config, p3at_geometry()),
       deadline_(ns_from_seconds(1.0 / config.control.rate_hz), monotonic_now_ns()),
       poses_(poses),
       queues_(queues) {}

@@ -6,6 +6,7 @@
 
 #include "core/angles.h"
 #include "estimate/floor_truth.h"
+#include "robot/p3at_geometry.h"
 #include "support/allocation_count.h"
 
 namespace heel {
@@ -13,7 +14,7 @@ namespace {
 
 struct Following {
   Config config;
-  ControlStage stage{config};
+  ControlStage stage{config, p3at_geometry()};
   test::Reference reference;
   Pose2 robot;
   Pose2 person{3.0, 0.0, 0.0};

@@ -6,6 +6,8 @@
 
 #include <limits>
 
+#include "robot/p3at_geometry.h"
+
 namespace heel {
 namespace {
 
@@ -18,9 +20,20 @@ VelocityCommand command(double v_m_s, double yaw_rate_rad_s, TimeNs t_issued_ns 
   return {t_issued_ns, t_issued_ns + 200 * kNsPerMs, v_m_s, yaw_rate_rad_s, 0};
 }
 
+/// Nobody and nothing near, or a person at `person_m` from the camera.
+Clearances free_space(double person_m = kInf) {
+  return {person_m, SonarObstacles(p3at_geometry())};
+}
+
+Clearances obstacle(double x_m, double y_m) {
+  Clearances clearances = free_space();
+  clearances.obstacles.add({x_m, y_m});
+  return clearances;
+}
+
 VelocityCommand pass(const VelocityCommand& wanted, const VelocityCommand& previous,
-                     StopStyle style = StopStyle::Go, const Clearances& around = {}) {
-  return apply_gate(wanted, previous, style, around, kNow_ns, GateConfig{}).command;
+                     StopStyle style = StopStyle::Go, const Clearances& clearances = free_space()) {
+  return apply_gate(wanted, previous, style, clearances, kNow_ns, GateConfig{}).command;
 }
 
 TEST(Gate, LetsAModestCommandThroughUntouched) {
@@ -61,8 +74,9 @@ TEST(Gate, ComesToRestWithinTheDeceleration) {
   TimeNs now_ns = kNow_ns;
   while (last.v_m_s != 0.0 || last.yaw_rate_rad_s != 0.0) {
     now_ns += kTick_ns;
-    const auto next =
-        apply_gate(command(0.7, -1.0, now_ns), last, StopStyle::ComeToRest, {}, now_ns, GateConfig{}).command;
+    const auto next = apply_gate(command(0.7, -1.0, now_ns), last, StopStyle::ComeToRest, free_space(),
+                                 now_ns, GateConfig{})
+                          .command;
     ASSERT_LE(last.v_m_s - next.v_m_s, 1.5 * 0.02 + 1e-12);
     last = next;
   }
@@ -96,56 +110,56 @@ TEST(Gate, StopsShortOfTheSeparation) {
   TimeNs now_ns = kNow_ns;
   for (int i = 0; i < 2000; ++i) {
     now_ns += kTick_ns;
-    last = apply_gate(command(0.7, 0, now_ns), last, StopStyle::Go, {range_m, {}}, now_ns, limits).command;
+    last =
+        apply_gate(command(0.7, 0, now_ns), last, StopStyle::Go, free_space(range_m), now_ns, limits).command;
     range_m -= last.v_m_s * 0.02;
   }
   EXPECT_GE(range_m, limits.separation_m - 1e-3);
   EXPECT_LT(range_m, limits.separation_m + 0.1);
   EXPECT_TRUE(last.limited_by & kGateSeparation);
   // A range that is not a number is no permission.
-  EXPECT_EQ(pass(command(0.5, 0), command(0.0, 0, kNow_ns - kTick_ns), StopStyle::Go, {kNaN, {}}).v_m_s, 0.0);
+  EXPECT_EQ(pass(command(0.5, 0), command(0.0, 0, kNow_ns - kTick_ns), StopStyle::Go, free_space(kNaN)).v_m_s,
+            0.0);
   // Backing away is still allowed.
-  EXPECT_LT(pass(command(-0.5, 0), command(0, 0, kNow_ns - kTick_ns), StopStyle::Go, {0.3, {}}).v_m_s, 0.0);
+  EXPECT_LT(pass(command(-0.5, 0), command(0, 0, kNow_ns - kTick_ns), StopStyle::Go, free_space(0.3)).v_m_s,
+            0.0);
 }
 
 TEST(Gate, SaysHowFarTheWayIsFreeWhenItAsks) {
-  const auto free_distance_m = [](StopStyle style, const Clearances& around) {
-    return apply_gate(command(0.5, 0), command(0.5, 0, kNow_ns - kTick_ns), style, around, kNow_ns,
+  const auto free_distance_m = [](StopStyle style, const Clearances& clearances) {
+    return apply_gate(command(0.5, 0), command(0.5, 0, kNow_ns - kTick_ns), style, clearances, kNow_ns,
                       GateConfig{})
         .free_distance_m;
   };
-  Clearances around;
-  EXPECT_EQ(free_distance_m(StopStyle::Go, around), kInf);
-  around.echoes.add({0.313 + 1.25, 0.1});
-  EXPECT_NEAR(free_distance_m(StopStyle::Go, around), 1.25, 1e-12);
-  EXPECT_NEAR(free_distance_m(StopStyle::ComeToRest, around), 1.25, 1e-12);
-  EXPECT_TRUE(std::isnan(free_distance_m(StopStyle::AtOnce, around)));
+  EXPECT_EQ(free_distance_m(StopStyle::Go, free_space()), kInf);
+  const Clearances ahead = obstacle(0.313 + 1.25, 0.1);
+  EXPECT_NEAR(free_distance_m(StopStyle::Go, ahead), 1.25, 1e-12);
+  EXPECT_NEAR(free_distance_m(StopStyle::ComeToRest, ahead), 1.25, 1e-12);
+  EXPECT_TRUE(std::isnan(free_distance_m(StopStyle::AtOnce, ahead)));
 }
 
-TEST(Gate, StopsShortOfWhatTheSonarsHear) {
+TEST(Gate, StopsShortOfASonarObstacle) {
   const GateConfig limits;
-  double thing_m = 3.0;  // ahead of the bumper
+  double obstacle_m = 3.0;  // ahead of the bumper
   VelocityCommand last = command(0, 0, kNow_ns);
   TimeNs now_ns = kNow_ns;
   const auto step = [&](double v_m_s) {
     now_ns += kTick_ns;
-    Clearances around;
-    around.echoes.add({0.313 + thing_m, 0.1});
-    last = apply_gate(command(v_m_s, 0, now_ns), last, StopStyle::Go, around, now_ns, limits).command;
-    thing_m -= last.v_m_s * 0.02;
+    const Clearances ahead = obstacle(0.313 + obstacle_m, 0.1);
+    last = apply_gate(command(v_m_s, 0, now_ns), last, StopStyle::Go, ahead, now_ns, limits).command;
+    obstacle_m -= last.v_m_s * 0.02;
   };
   for (int i = 0; i < 2000; ++i) step(0.7);
-  EXPECT_GE(thing_m, limits.clearance_m - 1e-3);
-  EXPECT_LT(thing_m, limits.clearance_m + 0.1);
+  EXPECT_GE(obstacle_m, limits.clearance_m - 1e-3);
+  EXPECT_LT(obstacle_m, limits.clearance_m + 0.1);
   EXPECT_TRUE(last.limited_by & kGateObstacle);
   for (int i = 0; i < 100; ++i) step(-0.5);  // backing away is still allowed
-  EXPECT_GT(thing_m, limits.clearance_m + 0.3);
+  EXPECT_GT(obstacle_m, limits.clearance_m + 0.3);
 }
 
-TEST(Gate, BrakesForTheWayItIsOnAsWellAsForTheOneItTurnsTo) {
-  Clearances left, right;
-  left.echoes.add({0.7, 0.45});    // on an arc to the left, not straight ahead
-  right.echoes.add({0.7, -0.45});  // and mirrored
+TEST(Gate, BrakesForThePathItDrivesAndForThePathItIsToTake) {
+  const Clearances left = obstacle(0.7, 0.45);  // on an arc to the left, not straight ahead
+  const Clearances right = obstacle(0.7, -0.45);
   const auto turning = command(0.6, 0.9, kNow_ns - kTick_ns);
   EXPECT_LT(pass(command(0.6, 0), turning, StopStyle::Go, left).v_m_s, 0.6);
   EXPECT_EQ(pass(command(0.6, 0), turning, StopStyle::Go, right).v_m_s, 0.6);
@@ -169,11 +183,11 @@ VelocityCommand any_command() {
   return {any_time(), any_time(), any_double(), any_double(), *rc::gen::arbitrary<std::uint8_t>()};
 }
 
-Clearances any_surroundings() {
-  Clearances around{any_double(), {}};
+Clearances any_clearances() {
+  Clearances clearances = free_space(any_double());
   for (std::size_t i = *rc::gen::inRange<std::size_t>(0, kSonars + 1); i > 0; --i)
-    around.echoes.add({any_double(), any_double()});
-  return around;
+    clearances.obstacles.add({any_double(), any_double()});
+  return clearances;
 }
 
 RC_GTEST_PROP(GateProperty, NothingEverExceedsALimitAndEverythingExpires, ()) {
@@ -181,7 +195,7 @@ RC_GTEST_PROP(GateProperty, NothingEverExceedsALimitAndEverythingExpires, ()) {
   const VelocityCommand wanted = any_command();
   const VelocityCommand previous = any_command();
   const auto style = *rc::gen::element(StopStyle::Go, StopStyle::ComeToRest, StopStyle::AtOnce);
-  const auto out = apply_gate(wanted, previous, style, any_surroundings(), kNow_ns, limits).command;
+  const auto out = apply_gate(wanted, previous, style, any_clearances(), kNow_ns, limits).command;
 
   RC_ASSERT(std::isfinite(out.v_m_s) && std::isfinite(out.yaw_rate_rad_s));
   RC_ASSERT(std::abs(out.v_m_s) <= limits.v_max_m_s);
@@ -202,7 +216,7 @@ RC_GTEST_PROP(GateProperty, NoStepIsLargerThanTheAccelerationsAllow, ()) {
     VelocityCommand wanted = any_command();
     wanted.t_expires_ns = now_ns + 1;
     const auto out = apply_gate(wanted, last, *rc::gen::element(StopStyle::Go, StopStyle::ComeToRest),
-                                any_surroundings(), now_ns, limits)
+                                any_clearances(), now_ns, limits)
                          .command;
     const double gain = std::abs(out.v_m_s) - std::abs(last.v_m_s);
     RC_ASSERT(gain <= limits.acceleration_m_s2 * dt_s + 1e-12);

@@ -11,6 +11,7 @@
 #include "heel/error.h"
 #include "heel/pose_tracker.h"
 #include "robot/arcos_session.h"
+#include "robot/p3at_geometry.h"
 #include "sim/contact/contact.h"
 #include "sim/contact/robot_in_world.h"
 #include "sim/lockstep/frame_supply.h"
@@ -74,7 +75,7 @@ Lockstep::Lockstep(const LockstepSettings& settings, LockstepObserver& observer)
     : scenario_(settings.scenario),
       control_rate_hz_(settings.config.control.rate_hz),
       observer_(observer),
-      control_(settings.config),
+      control_(settings.config, p3at_geometry()),
       session_(settings.config.robot),
       robot_(robot_settings(settings.scenario), derived_seed(settings.scenario.seed, 0x60)) {
   if (settings.errors) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "loopback/robot/robot_thread.h"
+#include "robot/p3at_geometry.h"
 #include "support/decisions.h"
 
 namespace heel {
@@ -54,7 +55,7 @@ TEST(ControlLoopOverPty, TheRecordedInputsGiveTheRecordedDecisionsAgain) {
   }
   drain();
 
-  ControlStage again(config);
+  ControlStage again(config, p3at_geometry());
   test::DecisionCounts counts;
   for (const TickRecord& record : records) {
     ASSERT_EQ(test::decision_bytes(again.tick(record.input)), test::decision_bytes(record)) << record.tick;

@@ -13,6 +13,7 @@
 #include "evaluation/experiments/run_record.h"
 #include "evaluation/metrics/metrics.h"
 #include "heel/error.h"
+#include "robot/p3at_geometry.h"
 #include "sim/lockstep/transcript.h"
 #include "support/decisions.h"
 #include "support/sanitized.h"
@@ -102,7 +103,7 @@ TEST(Lockstep, TheRecordedInputsGiveTheRecordedDecisionsAgain) {
   Records run;
   run_lockstep(settings, run);
 
-  ControlStage again(settings.config);
+  ControlStage again(settings.config, p3at_geometry());
   test::DecisionCounts counts;
   for (const TickRecord& record : run.ticks) {
     ASSERT_EQ(test::decision_bytes(again.tick(record.input)), test::decision_bytes(record)) << record.tick;
