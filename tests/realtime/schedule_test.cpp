@@ -2,13 +2,9 @@
 #include "realtime/schedule.h"
 
 #include <gtest/gtest.h>
-#include <linux/capability.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -17,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "support/collected_log.h"
+#include "support/priorities.h"
 
 namespace heel {
 namespace {
@@ -88,42 +84,6 @@ Entered enter(const ThreadPlan& plan, bool realtime) {
   return enter(plan, realtime, [] {});
 }
 
-/// What the kernel answers to a thread of this process that asks for SCHED_FIFO at `priority`: 0 or an errno.
-int kernels_answer(int priority) {
-  int error = 0;
-  std::jthread([&] {
-    sched_param parameters{};
-    parameters.sched_priority = priority;
-    error = sched_setscheduler(0, SCHED_FIFO, &parameters) == 0 ? 0 : errno;
-  }).join();
-  return error;
-}
-
-/// While it lives the process may raise no thread's priority by its resource limit.
-class NoPriorityLimit {
- public:
-  NoPriorityLimit() {
-    getrlimit(RLIMIT_RTPRIO, &before_);
-    const rlimit none{.rlim_cur = 0, .rlim_max = before_.rlim_max};
-    setrlimit(RLIMIT_RTPRIO, &none);
-  }
-  NoPriorityLimit(const NoPriorityLimit&) = delete;
-  NoPriorityLimit& operator=(const NoPriorityLimit&) = delete;
-  ~NoPriorityLimit() { setrlimit(RLIMIT_RTPRIO, &before_); }
-
- private:
-  rlimit before_{};
-};
-
-/// Takes CAP_SYS_NICE from the calling thread, and from it alone.
-void drop_sys_nice() {
-  __user_cap_header_struct header{.version = _LINUX_CAPABILITY_VERSION_3, .pid = 0};
-  std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> sets{};
-  ASSERT_EQ(syscall(SYS_capget, &header, sets.data()), 0);
-  sets[CAP_SYS_NICE / 32].effective &= ~(1u << (CAP_SYS_NICE % 32));
-  ASSERT_EQ(syscall(SYS_capset, &header, sets.data()), 0);
-}
-
 constexpr ThreadPlan kPlan{.role = ThreadRole::Control, .name = "heel-control", .priority = 60};
 
 TEST(EnterThread, NamesTheThreadAndLeavesItOrdinaryWithoutRealTime) {
@@ -138,28 +98,22 @@ TEST(EnterThread, NamesTheThreadAndLeavesItOrdinaryWithoutRealTime) {
 // Root gets the priority; a container without CAP_SYS_NICE does not. Either way the kernel's own answer
 // decides.
 TEST(EnterThread, ThePriorityIsTakenWhereTheKernelGrantsIt) {
-  const int error = kernels_answer(kPlan.priority);
-  const test::CollectedLog log;
+  const int error = test::answer_to_fifo_request(kPlan.priority);
   const Entered entered = enter(kPlan, true);
   EXPECT_EQ(entered.name, "heel-control");
   EXPECT_EQ(entered.entry.realtime, error == 0);
   EXPECT_EQ(entered.entry.error, error);
   EXPECT_EQ(entered.policy, error == 0 ? SCHED_FIFO : SCHED_OTHER);
   EXPECT_EQ(entered.priority, error == 0 ? kPlan.priority : 0);
-  EXPECT_EQ(log.count("heel-control: real-time priority 60 refused"), error == 0 ? 0 : 1) << log.text();
 }
 
-TEST(EnterThread, ARefusalNamesTheReasonAndTheRemedyAndTheThreadGoesOn) {
-  const test::CollectedLog log;
-  const NoPriorityLimit no_limit;
-  const Entered entered = enter(kPlan, true, drop_sys_nice);
+TEST(EnterThread, ARefusalIsReportedAndLeavesTheThreadOrdinary) {
+  const test::NoPriorityLimit no_limit;
+  const Entered entered = enter(kPlan, true, test::drop_sys_nice);
   EXPECT_FALSE(entered.entry.realtime);
   EXPECT_EQ(entered.entry.error, EPERM);
   EXPECT_EQ(entered.policy, SCHED_OTHER);
   EXPECT_EQ(entered.name, "heel-control");
-  EXPECT_EQ(log.count("[warning] heel-control: real-time priority 60 refused (Operation not permitted)"), 1)
-      << log.text();
-  EXPECT_EQ(log.count("CAP_SYS_NICE"), 1) << log.text();
 }
 
 TEST(EnterThread, APriorityThatDoesNotExistIsRefused) {

@@ -1,5 +1,6 @@
 #include "support/test_data.h"
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
@@ -32,6 +33,10 @@ bool has_data(const std::string& relative) {
 
 bool data_is_required() {
   return environment("HEEL_REQUIRE_DATA") == "1";
+}
+
+void print_data_use(const std::string& relative) {
+  std::printf("test data: %s\n", relative.c_str());
 }
 
 std::string absent_data_message(const std::string& relative) {

@@ -18,6 +18,9 @@ bool has_data(const std::string& relative);
 /// True under HEEL_REQUIRE_DATA=1: then a test without its data fails; otherwise it is skipped.
 bool data_is_required();
 
+/// A line in the test's output, by which tools/test knows that the data are used.
+void print_data_use(const std::string& relative);
+
 /// Why a test that needs this file or folder of the test data cannot run.
 std::string absent_data_message(const std::string& relative);
 
@@ -27,7 +30,10 @@ std::string absent_data_message(const std::string& relative);
 /// test is then skipped, or has failed under HEEL_REQUIRE_DATA=1.
 #define HEEL_NEEDS_TEST_DATA(relative)                                        \
   do {                                                                        \
-    if (::heel::test::has_data(relative)) break;                              \
+    if (::heel::test::has_data(relative)) {                                   \
+      ::heel::test::print_data_use(relative);                                 \
+      break;                                                                  \
+    }                                                                         \
     const std::string heel_why = ::heel::test::absent_data_message(relative); \
     if (::heel::test::data_is_required()) GTEST_FAIL() << heel_why;           \
     GTEST_SKIP() << heel_why;                                                 \

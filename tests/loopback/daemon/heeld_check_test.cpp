@@ -47,10 +47,9 @@ TEST(HeeldCheck, AllThatIsWrongWithAFileIsSaid) {
   const Outcome outcome = heeld({"--config", config, "--check"});
   EXPECT_EQ(outcome.status, kExitConfiguration);
   EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(outcome.err, place_of(config, "v_max") +
-                             ":1: gate.v_max: no such key; did you mean gate.v_max_m_s?\n" +
-                             place_of(config, "separation_m") +
-                             ":16: gate.separation_m: -1 (expected a number 0…5 m)\n");
+  EXPECT_EQ(outcome.err,
+            place_of(config, "v_max") + ":1: gate.v_max: no such key; did you mean gate.v_max_m_s?\n" +
+                place_of(config, "separation_m") + ":16: gate.separation_m: -1 (expected a number 0…5 m)\n");
 }
 
 TEST(HeeldCheck, FilesItRefersToAreLoaded) {
