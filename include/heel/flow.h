@@ -246,8 +246,8 @@ enum class EventKind : std::uint8_t {
   FrameRefused,       ///< a: width_px, b: height_px; not the size the ring was made for
   FrameCorrupt,       ///< a: corrupt frames so far
   Overrun,            ///< a: periods missed so far, b: lateness_ns of this one
-  Note,               ///< text: anything else; a: its number, when not 0
-  Warning,            ///< as Note, and someone should look at it
+  Note,               ///< text: anything else, with "{}" in place of the number a
+  Warning,            ///< as Note, and a person should know about it
 };
 
 /// A report of a real-time thread; `a` and `b` mean what its kind says.

@@ -1,4 +1,4 @@
-// See arcos_session.h. Here: the line, and what a packet means. What time does: arcos_session_steps.cpp.
+// The line and the packets of the session. The steps that are due at a time: arcos_session_steps.cpp.
 #include "robot/arcos_session.h"
 
 #include "arcos/command_codec.h"
@@ -42,30 +42,28 @@ void ArcosSession::enter(Step step, TimeNs now_ns) {
   attempts_ = 0;
   switch (step) {
     case Step::NoLine:
-      break;  // the caller knows whether it is closed or lost
+      break;  // the caller sets the phase: Closed or Lost
     case Step::Listening:
     case Step::Sync0:
     case Step::Sync1:
     case Step::Sync2:
     case Step::Closing:
-      return show_phase(LinkPhase::Syncing);
+      return set_phase(LinkPhase::Syncing);
     case Step::Opening:
     case Step::AskingRate:
     case Step::TryingRate:
     case Step::LeavingRate:
-      return show_phase(LinkPhase::Opening);
+      return set_phase(LinkPhase::Opening);
     case Step::Enabling:
-      return show_phase(LinkPhase::Enabling);
+      return set_phase(LinkPhase::Enabling);
     case Step::Running:
-      return show_phase(LinkPhase::Running);
+      return set_phase(LinkPhase::Running);
     case Step::Disabled:
-      return show_phase(LinkPhase::Disabled);
+      return set_phase(LinkPhase::Disabled);
     case Step::Silent:
-      return show_phase(LinkPhase::Lost);
+      return set_phase(LinkPhase::Lost);
   }
 }
-
-// ── the line ────────────────────────────────────────────────────────────────────────────────────
 
 void ArcosSession::line_opened(TimeNs now_ns) {
   parser_.reset();
@@ -84,7 +82,7 @@ void ArcosSession::line_lost(TimeNs now_ns) {
   odometry_.interrupted();
   events_.push(now_ns, Kind::LineLost);
   enter(Step::NoLine, now_ns);
-  show_phase(LinkPhase::Lost);
+  set_phase(LinkPhase::Lost);
 }
 
 std::span<const std::uint8_t> ArcosSession::close(TimeNs now_ns) {
@@ -98,11 +96,9 @@ std::span<const std::uint8_t> ArcosSession::close(TimeNs now_ns) {
   queue_.clear();
   odometry_.interrupted();
   enter(Step::NoLine, now_ns);
-  show_phase(LinkPhase::Closed);
+  set_phase(LinkPhase::Closed);
   return out_.bytes();
 }
-
-// ── bytes in ────────────────────────────────────────────────────────────────────────────────────
 
 void ArcosSession::receive(std::span<const std::uint8_t> bytes, TimeNs t_ns) {
   if (step_ == Step::NoLine) return;
@@ -127,7 +123,7 @@ void ArcosSession::on_packet(const arcos::Packet& packet) {
   } else if (id <= static_cast<std::uint8_t>(CommandId::Sync2)) {
     on_sync_echo(id, packet);
   }
-  // Other packets were not asked for and do not matter to a follower.
+  // Other packets were not requested.
 }
 
 void ArcosSession::on_sync_echo(std::uint8_t number, const arcos::Packet& packet) {
@@ -138,7 +134,7 @@ void ArcosSession::on_sync_echo(std::uint8_t number, const arcos::Packet& packet
     ask_sync(Step::Sync2, t_ns);
   } else if (step_ == Step::Sync2 && number == 2) {
     if (decode_sync2_echo(packet.body, identity_) != arcos::DecodeResult::Ok) {
-      events_.push(t_ns, Kind::BadPacket, number);  // its names are for people only
+      events_.push(t_ns, Kind::BadPacket, number);  // only the names in it are lost
     }
     events_.push(t_ns, Kind::Synchronised);
     sweep_.found();
@@ -159,7 +155,7 @@ void ArcosSession::on_sip(const arcos::Packet& packet) {
     return;
   }
   if (!is_connected()) {
-    if (step_ != Step::Closing) close_left_open(t_ns);
+    if (step_ != Step::Closing) close_earlier_session(t_ns);
     return;
   }
   switch (odometry_.update(sip_, t_ns)) {
@@ -183,7 +179,7 @@ void ArcosSession::on_sip(const arcos::Packet& packet) {
     was_connected_ = true;
     events_.push(t_ns, Kind::FirstSip);
   }
-  follow_motor_flags(t_ns);
+  apply_motor_flags(t_ns);
 }
 
 void ArcosSession::on_config(const arcos::Packet& packet) {
@@ -194,7 +190,7 @@ void ArcosSession::on_config(const arcos::Packet& packet) {
     return;
   }
   config_seen_ = true;
-  // Behind a TCP server is a serial line as well, and its rate is the robot's.
+  // The TCP server's serial line to the robot has the robot's rate.
   if (!sweep_.sweeps() && controller_.host_baud < kRobotBauds.size())
     pacer_.set_baud(kRobotBauds[controller_.host_baud]);
   events_.push(packet.t_first_byte_ns, Kind::ConfigReceived, controller_.watchdog_ms);
@@ -208,7 +204,7 @@ void ArcosSession::on_reset_notice(TimeNs t_ns) {
   enter(Step::Listening, t_ns);
 }
 
-void ArcosSession::follow_motor_flags(TimeNs t_ns) {
+void ArcosSession::apply_motor_flags(TimeNs t_ns) {
   const bool held = state_.stop_button || state_.e_stall;
   if (step_ == Step::Enabling) {
     if (held) {
@@ -216,7 +212,7 @@ void ArcosSession::follow_motor_flags(TimeNs t_ns) {
       queue_.clear();
       events_.push(t_ns, Kind::StopButton);
       enter(Step::Disabled, t_ns);
-    } else if (state_.motors_enabled && queue_.empty()) {  // not before our zero velocity has gone out
+    } else if (state_.motors_enabled && queue_.empty()) {  // not before zero velocity has been sent
       events_.push(t_ns, Kind::MotorsEnabled);
       enter(Step::Running, t_ns);
     }
@@ -227,9 +223,9 @@ void ArcosSession::follow_motor_flags(TimeNs t_ns) {
   }
 }
 
-void ArcosSession::close_left_open(TimeNs t_ns) {
+void ArcosSession::close_earlier_session(TimeNs t_ns) {
   events_.push(t_ns, Kind::FoundOpen);
-  sweep_.found();  // a SIP was understood: this is the rate
+  sweep_.found();  // a valid SIP: this is the robot's rate
   odometry_.interrupted();
   queue_.clear();
   queue_.push(arcos::encode_plain(CommandId::Stop));

@@ -1,12 +1,12 @@
-// The session with the robot's controller, from the first SYNC0 to the last CLOSE: bytes in, bytes out, and
-// the time it is. No device and no clock, so that daemon, lock-step simulator and replay run the same code;
-// no allocation after construction.
+// The session with the robot's controller, from the first SYNC0 to the last CLOSE. Its inputs are bytes and
+// the time, its output is bytes: it uses no device and no clock, so that the daemon and the lock-step
+// simulator run the same code. It does not allocate after construction.
 //
 //   NoLine → Listening → Sync0 → Sync1 → Sync2 → Opening → Enabling → Running ⇄ Disabled
 //              ↑  └ a SIP: left open → Closing ┘      ⇅          └ silence, reset → Silent → Listening
 //                                            AskingRate → TryingRate (→ LeavingRate): a faster line
 //
-// Listening comes first because SYNC0 is PULSE to a robot that was left open, and a pulse may resume its
+// Listening comes first because a robot that was left open takes SYNC0 as PULSE, and a pulse may resume its
 // motion.
 #pragma once
 
@@ -47,13 +47,14 @@ class ArcosSession {
   /// is.
   std::span<const std::uint8_t> send(const VelocityCommand& command, TimeNs now_ns);
 
-  /// The rate the line should have: changes where no robot is found, and when it has been asked for another.
-  /// After a change advance() and send() are to be called again only when the line runs at it.
+  /// The rate that the line must have. It changes when no robot is found at a rate, and when the robot has
+  /// been asked for another one. After a change advance() and send() are to be called again only when the
+  /// line runs at it.
   int wanted_baud() const { return sweep_.current(); }
-  /// Every rate was tried without an answer: the device itself may need to be opened anew.
+  /// True: every rate was tried without an answer; opening the device again may help.
   bool line_exhausted() const { return line_exhausted_; }
 
-  /// STOP, SONAR 0, CLOSE: on every way out. Nothing more is sent until line_opened.
+  /// STOP, SONAR 0, CLOSE, to be sent whenever the program ends. Nothing more is sent until line_opened().
   std::span<const std::uint8_t> close(TimeNs now_ns);
 
   const RobotState& state() const { return state_; }
@@ -63,23 +64,23 @@ class ArcosSession {
  private:
   enum class Step : std::uint8_t {
     NoLine,
-    Listening,  ///< is the robot already talking?
+    Listening,  ///< waits whether the robot already sends packets
     Sync0,
     Sync1,
     Sync2,
-    Closing,      ///< it was left open: CLOSE has been sent, let it take effect
-    Opening,      ///< OPEN sent: SIP and configuration awaited
+    Closing,      ///< the robot was left open: CLOSE has been sent and takes effect
+    Opening,      ///< OPEN sent; waits for a SIP and the configuration
     AskingRate,   ///< HOSTBAUD sent at the old rate
-    TryingRate,   ///< any packet at the new one?
-    LeavingRate,  ///< none: HOSTBAUD sent at the new rate, to go back
+    TryingRate,   ///< waits for a packet at the new rate
+    LeavingRate,  ///< no packet: HOSTBAUD sent at the new rate, to return to the old one
     Enabling,
     Running,
     Disabled,
-    Silent,  ///< SIPs stopped: a pause, then from the beginning
+    Silent,  ///< SIPs stopped: a pause, then Listening
   };
 
   void enter(Step step, TimeNs now_ns);
-  void show_phase(LinkPhase phase) { state_.phase = phase; }
+  void set_phase(LinkPhase phase) { state_.phase = phase; }
   bool is_connected() const;
   void copy_line_counters();
 
@@ -88,14 +89,14 @@ class ArcosSession {
   void on_sip(const arcos::Packet& packet);
   void on_config(const arcos::Packet& packet);
   void on_reset_notice(TimeNs t_ns);
-  void follow_motor_flags(TimeNs t_ns);
-  void close_left_open(TimeNs t_ns);
+  void apply_motor_flags(TimeNs t_ns);
+  void close_earlier_session(TimeNs t_ns);
 
   void take_due_steps(TimeNs now_ns);
   void retry_sync(TimeNs now_ns);
   void finish_opening(TimeNs now_ns);
   void retry_enable(TimeNs now_ns);
-  void give_up_silent(TimeNs now_ns);
+  void disconnect_silent(TimeNs now_ns);
 
   // arcos_session_rate.cpp
   bool rate_can_rise() const;
@@ -112,7 +113,7 @@ class ArcosSession {
 
   RobotConfig config_;
   BaudSweep sweep_;
-  int target_baud_;  ///< of the address
+  int target_baud_;  ///< the rate in the address
   CommandPacer pacer_;
   MotionSender motion_;
   OdometryTracker odometry_;
@@ -123,19 +124,19 @@ class ArcosSession {
   RobotState state_;
   arcos::RobotIdentity identity_;
 
-  // Decoded into place: they are too large for the stack of a real-time thread to hold twice over.
+  // Members, because they are too large to be copied on the stack of a real-time thread.
   arcos::Sip sip_;
   arcos::ConfigPacket controller_;
 
   Step step_ = Step::NoLine;
-  TimeNs t_step_ns_ = 0;  ///< when the step, or its last attempt, began
+  TimeNs t_step_ns_ = 0;  ///< when the step, or its last attempt, started
   TimeNs t_sip_ns_ = 0;
   int attempts_ = 0;
   bool sip_seen_ = false;     ///< since OPEN
   bool config_seen_ = false;  ///< since OPEN
   bool was_connected_ = false;
   bool line_exhausted_ = false;
-  bool rate_refused_ = false;   ///< once is enough
+  bool rate_refused_ = false;   ///< the robot is asked for a faster rate once
   bool hold_disabled_ = false;  ///< the motors went off: this session does not enable them again
 };
 

@@ -1,11 +1,12 @@
-// See arcos_session.h. Here: a slow line made faster, before the motors are enabled. A controller that can
-// (CONFIGpac: Autobaud 2) is asked for the rate of our address, and followed to it:
+// How the session makes a slow line faster before the motors are enabled. A controller that can change its
+// rate (CONFIGpac: Autobaud 2) is asked for the rate in the address, and the line changes to it as well:
 //
 //   Opening ─HOSTBAUD→ AskingRate ─10 ms, retune→ TryingRate ─any packet→ Opening, at the new rate
 //                                                     └900 ms, HOSTBAUD→ LeavingRate ─10 ms, retune→ Opening
 //
-// Who goes back says so at the new rate first: the robot may have followed and only not be heard. Should it
-// be lost nevertheless, Opening falls silent, and the sweep over all rates finds it.
+// Before the line returns to the old rate, the robot is asked at the new rate to return too: it may have
+// changed although no packet was received. If the robot is lost nevertheless, Opening receives nothing, and
+// the sweep over all rates finds the robot.
 #include <algorithm>
 
 #include "arcos/command_codec.h"
@@ -17,7 +18,7 @@ namespace {
 using arcos::CommandId;
 using Kind = SessionEventKind;
 
-constexpr std::uint8_t kAutobaudByItself = 2;
+constexpr std::uint8_t kAutobaudAutomatic = 2;
 constexpr TimeNs kSettle_ns = 10 * kNsPerMs;
 constexpr TimeNs kConfirm_ns = 900 * kNsPerMs;
 constexpr TimeNs kPulse_ns = 200 * kNsPerMs;
@@ -30,7 +31,7 @@ arcos::Frame host_baud_command(int baud) {
 }  // namespace
 
 bool ArcosSession::rate_can_rise() const {
-  return sweep_.sweeps() && !rate_refused_ && config_seen_ && controller_.autobaud == kAutobaudByItself &&
+  return sweep_.sweeps() && !rate_refused_ && config_seen_ && controller_.autobaud == kAutobaudAutomatic &&
          target_baud_ > sweep_.current();
 }
 
@@ -40,7 +41,7 @@ void ArcosSession::ask_rate(Step step, int baud, TimeNs now_ns) {
   queue_.push(host_baud_command(baud));
 }
 
-/// HOSTBAUD has gone out, and the robot has had time to obey.
+/// True: HOSTBAUD has been sent, and the robot has had time to change its rate.
 bool ArcosSession::rate_was_asked(TimeNs now_ns) const {
   return queue_.empty() && now_ns >= pacer_.idle_from_ns() + kSettle_ns;
 }

@@ -1,4 +1,4 @@
-// See arcos_session.h. Here: what happens as time passes, and what is sent.
+// The steps of the session that are due at a time, and the commands that they send.
 #include <algorithm>
 
 #include "arcos/command_codec.h"
@@ -17,18 +17,16 @@ constexpr TimeNs kSipSilence_ns = 2 * kNsPerS;
 constexpr TimeNs kEnableRetry_ns = 700 * kNsPerMs;
 constexpr int kEnableAttempts = 3;
 constexpr int kSyncAttemptsPerBaud = 2;
-// The longest packet takes 0.27 s at 9600 baud: what is older and still incomplete has lost bytes.
+// The longest packet takes 0.27 s at 9600 baud: an incomplete packet that is older has lost bytes.
 constexpr TimeNs kPartialPacket_ns = 300 * kNsPerMs;
 
-/// A limit of ours, no larger than the controller's own (0: not told).
+/// A configured limit, no larger than the controller's own (0: unknown).
 std::int16_t limited(int ours, int controllers_top) {
   const int limit = controllers_top > 0 ? std::min(ours, controllers_top) : ours;
   return static_cast<std::int16_t>(std::clamp(limit, 0, 32767));
 }
 
 }  // namespace
-
-// ── time passes ─────────────────────────────────────────────────────────────────────────────────
 
 void ArcosSession::advance(TimeNs now_ns) {
   if (step_ == Step::NoLine) return;
@@ -44,7 +42,7 @@ std::span<const std::uint8_t> ArcosSession::send(const VelocityCommand& command,
   flush_queue(now_ns);
   if (queue_.empty()) {
     if (step_ == Step::Running) motion_.send(command, now_ns, pacer_, out_);
-    // Zero keeps the watchdog fed while the motors are off or about to come on.
+    // Zero velocity feeds the robot's watchdog while the motors are off or about to be enabled.
     if (step_ == Step::Enabling || step_ == Step::Disabled) motion_.send_zero(now_ns, pacer_, out_);
   }
   return out_.bytes();
@@ -83,7 +81,7 @@ void ArcosSession::take_due_steps(TimeNs now_ns) {
       [[fallthrough]];
     case Step::Running:
     case Step::Disabled:
-      if (now_ns - t_sip_ns_ >= kSipSilence_ns) give_up_silent(now_ns);
+      if (now_ns - t_sip_ns_ >= kSipSilence_ns) disconnect_silent(now_ns);
       return;
     case Step::Silent:
       if (in_step_ns >= ns_from_seconds(config_.reconnect_s) && queue_.empty())
@@ -95,13 +93,13 @@ void ArcosSession::take_due_steps(TimeNs now_ns) {
 void ArcosSession::ask_sync(Step step, TimeNs now_ns, bool close_first) {
   const int attempts = attempts_;
   enter(step, now_ns);
-  attempts_ = step == Step::Sync0 ? attempts + 1 : attempts;  // a baud's attempts count through all three
+  attempts_ = step == Step::Sync0 ? attempts + 1 : attempts;  // counted over all three steps of a baud rate
   const CommandId id = step == Step::Sync0   ? CommandId::Sync0
                        : step == Step::Sync1 ? CommandId::Sync1
                                              : CommandId::Sync2;
   queue_.clear();
-  // If only the last echo was lost, the robot takes SYNC0 for a pulse and says nothing. With its argument
-  // CLOSE cannot be mistaken for SYNC2.
+  // If only the last echo was lost, the robot is open, takes SYNC0 as PULSE and does not answer: it is closed
+  // first. CLOSE has an argument, so that the robot cannot take it as SYNC2.
   if (close_first) queue_.push(arcos::encode_integer(CommandId::Close, 1));
   queue_.push(arcos::encode_plain(id));
 }
@@ -123,8 +121,8 @@ void ArcosSession::retry_sync(TimeNs now_ns) {
 
 void ArcosSession::finish_opening(TimeNs now_ns) {
   const TimeNs in_step_ns = now_ns - t_step_ns_;
-  if (!sip_seen_ || t_sip_ns_ < t_step_ns_) {  // one that came at this rate
-    if (in_step_ns >= kOpenTimeout_ns) give_up_silent(now_ns);
+  if (!sip_seen_ || t_sip_ns_ < t_step_ns_) {  // no SIP yet at this rate
+    if (in_step_ns >= kOpenTimeout_ns) disconnect_silent(now_ns);
     return;
   }
   const bool waited = in_step_ns >= ns_from_seconds(config_.config_wait_s);
@@ -153,18 +151,16 @@ void ArcosSession::retry_enable(TimeNs now_ns) {
   queue_enable();
 }
 
-void ArcosSession::give_up_silent(TimeNs now_ns) {
+void ArcosSession::disconnect_silent(TimeNs now_ns) {
   const TimeNs last_ns = sip_seen_ ? t_sip_ns_ : t_step_ns_;
   events_.push(now_ns, Kind::SipSilence, (now_ns - last_ns) / kNsPerMs);
   odometry_.interrupted();
-  // We may be deaf rather than the robot dead: it is to stand and to be closed.
+  // The robot may still receive commands: it must stop and close its session.
   queue_.clear();
   queue_.push(arcos::encode_plain(CommandId::Stop));
   queue_.push(arcos::encode_plain(CommandId::Close));
   enter(Step::Silent, now_ns);
 }
-
-// ── bytes out ───────────────────────────────────────────────────────────────────────────────────
 
 void ArcosSession::queue_limits() {
   const auto push = [this](CommandId id, std::int16_t value) {
@@ -181,7 +177,7 @@ void ArcosSession::queue_limits() {
 }
 
 void ArcosSession::queue_enable() {
-  // Zero before the motors: an old set point must not come alive with them.
+  // Zero velocity before the motors are enabled: an old set point must not become active.
   queue_.push(arcos::encode_integer(CommandId::Vel, 0));
   queue_.push(arcos::encode_integer(CommandId::RVel, 0));
   queue_.push(arcos::encode_integer(CommandId::Enable, 1));

@@ -1,4 +1,4 @@
-// Which baud rate to try next: the last good one, then every rate an ARCOS controller knows.
+// The baud rate to try next: the last good one, then every rate of an ARCOS controller.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace heel {
 
 class BaudSweep {
  public:
-  /// Over TCP there is nothing to tune: one rate, until the robot tells that of its port.
+  /// A TCP line has one rate, which cannot be set.
   explicit BaudSweep(const RobotAddress& address)
       : sweeps_(address.kind != RobotAddress::Kind::Tcp),
         good_(sweeps_ ? address.baud : kRobotBauds.back()),
@@ -18,12 +18,12 @@ class BaudSweep {
   int current() const { return current_; }
   /// The last rate at which the robot was understood.
   int good() const { return good_; }
-  /// A rate the robot was asked for: the good one stays the good one until found() is said.
+  /// Changes to a rate that the robot was asked for; good() stays the same until found().
   void attempt(int baud) { current_ = baud; }
-  /// The rate is ours to choose.
+  /// True: the rate can be set.
   bool sweeps() const { return sweeps_; }
-  /// The robot was understood; the next sweep begins from the first rate, where a robot is that was off and
-  /// on.
+  /// The robot was understood at the current rate. The next sweep starts at the first rate, which a robot has
+  /// after it was switched off and on.
   void found() {
     good_ = current_;
     next_ = 0;
@@ -32,7 +32,7 @@ class BaudSweep {
     current_ = good_;
     next_ = 0;
   }
-  /// Moves on; false when every rate has been tried, and the sweep begins again.
+  /// Changes to the next rate. False: every rate has been tried, and the sweep starts again.
   bool advance() {
     if (sweeps_) {
       while (next_ < kRobotBauds.size()) {

@@ -1,6 +1,7 @@
-// How much may be sent now: a command each 4 ms (manuals ask for 3–5), and no more bytes than the line
-// carries; of commands that are repeated anyway no more than 60 % of it, so that a new value never waits
-// behind old ones. At 9600 baud that is VEL and RVEL in turn, one in each 20 ms; from 19200 baud both.
+// Limits what is sent: one command each 4 ms (the manuals ask for 3 to 5 ms), and no more bytes than the line
+// carries. Commands that are repeated in every tick get at most 60 % of the line, so that a new value does
+// not wait behind old ones. At 9600 baud VEL and RVEL alternate, one in each 20 ms; from 19200 baud both are
+// sent.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,8 @@ class CommandPacer {
  public:
   void set_baud(int baud) { byte_ns_ = 10 * kNsPerS / baud; }
 
-  /// Another command may go: what was sent before is, or will soon be, through line and controller.
+  /// True: another command may be sent, because line and controller have, or will soon have, processed the
+  /// earlier ones.
   bool may_send(TimeNs now_ns) const { return busy_until_ns_ <= now_ns + kBurst_ns; }
 
   /// The same for a command that is repeated in every tick.
@@ -30,16 +32,17 @@ class CommandPacer {
     repeats_until_ns_ = std::max(repeats_until_ns_, now_ns) + cost_ns;
   }
 
-  /// By then everything sent is through the line.
+  /// The time at which everything sent has left the line.
   TimeNs idle_from_ns() const { return busy_until_ns_; }
 
   void reset() { busy_until_ns_ = repeats_until_ns_ = 0; }
 
  private:
   static constexpr TimeNs kSpacing_ns = 4 * kNsPerMs;
-  static constexpr TimeNs kBurst_ns = 12 * kNsPerMs;  // written in one tick, they wait their turn in buffers
+  static constexpr TimeNs kBurst_ns = 12 * kNsPerMs;  // commands of one tick may wait this long in buffers
   static constexpr TimeNs kRepeatPercent = 60;
-  static constexpr TimeNs kPair_ns = 8 * kNsPerMs;  // two at once where one takes no longer of its share
+  static constexpr TimeNs kPair_ns =
+      8 * kNsPerMs;  // two are sent at once where one uses no more of the share
 
   TimeNs byte_ns_ = 0;
   TimeNs busy_until_ns_ = 0;

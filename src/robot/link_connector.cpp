@@ -1,4 +1,3 @@
-// See link_connector.h.
 #include "robot/link_connector.h"
 
 #include <algorithm>
@@ -31,19 +30,19 @@ std::string LinkConnector::last_error() const {
 void LinkConnector::run() {
   while (!quit_.load()) {
     const Owner owner = owner_.load(std::memory_order_acquire);
-    if (owner == Owner::Nobody || owner == Owner::Caller) {
+    if (owner == Owner::None || owner == Owner::Caller) {
       owner_.wait(owner, std::memory_order_acquire);
       continue;
     }
     if (owner == Owner::Quit) return;
-    const bool retuned = owner == Owner::KeeperRetunes && line_.set_baud(baud_);
-    if (!retuned && !open_until_it_works()) return;
-    Owner expected = owner;  // unless it was told to quit meanwhile
+    const bool retuned = owner == Owner::ConnectorRetunes && line_.set_baud(baud_);
+    if (!retuned && !open_until_success()) return;
+    Owner expected = owner;  // Quit may have been set meanwhile
     owner_.compare_exchange_strong(expected, Owner::Caller, std::memory_order_acq_rel);
   }
 }
 
-bool LinkConnector::open_until_it_works() {
+bool LinkConnector::open_until_success() {
   line_.close();
   while (!quit_.load()) {
     if (tried_before_) pause();
@@ -59,7 +58,7 @@ bool LinkConnector::open_until_it_works() {
 }
 
 void LinkConnector::pause() {
-  constexpr TimeNs kStep_ns = 20 * kNsPerMs;  // quitting does not wait for the whole pause
+  constexpr TimeNs kStep_ns = 20 * kNsPerMs;  // so that quitting does not wait for the whole pause
   for (TimeNs waited_ns = 0; waited_ns < pause_ns_ && !quit_.load(); waited_ns += kStep_ns) {
     std::this_thread::sleep_for(std::chrono::nanoseconds(std::min(kStep_ns, pause_ns_ - waited_ns)));
   }

@@ -1,4 +1,3 @@
-// See motion_sender.h.
 #include "robot/motion_sender.h"
 
 #include "robot/wire_units.h"
@@ -6,7 +5,7 @@
 namespace heel {
 namespace {
 
-// Longer without a motion command than this is a gap: the robot may resume an old motion, or have stopped.
+// A longer time without a motion command is a gap: the robot may have stopped, or may resume an old motion.
 constexpr TimeNs kGap_ns = 250 * kNsPerMs;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// From a velocity command to VEL and RVEL: the last place where a command can still be refused.
-//   expired, or not a number → zero;  first after a gap → zero;  rounding error carried forward
+// Turns velocity commands into VEL and RVEL. Zero is sent for an expired command, for NaN, and first after a
+// gap; rounding errors are carried forward.
 #pragma once
 
 #include "arcos/command_codec.h"
@@ -15,12 +15,14 @@ class MotionSender {
  public:
   explicit MotionSender(const RobotConfig& config);
 
-  /// The next motion commands sent are zero, whatever is asked: a fresh connection, motors just enabled.
+  /// The next VEL and RVEL are zero whatever the command is: for a new connection, and for motors just
+  /// enabled.
   void begin_with_zero();
 
-  /// Adds VEL and RVEL to `out` as far as the pacer lets them; what did not fit goes first next time.
+  /// Adds VEL and RVEL to `out` as far as the pacer allows; one that was left out is the first at the next
+  /// call.
   void send(const VelocityCommand& command, TimeNs now_ns, CommandPacer& pacer, OutgoingBytes& out);
-  /// The same with zero; the first commands after it are zero still.
+  /// The same with zero; the first VEL and RVEL after it are zero too.
   void send_zero(TimeNs now_ns, CommandPacer& pacer, OutgoingBytes& out);
 
  private:
@@ -28,7 +30,7 @@ class MotionSender {
 
   VelocityRounding translation_;  // mm/s
   VelocityRounding rotation_;     // deg/s
-  bool rotation_next_ = false;    // VEL and RVEL take turns
+  bool rotation_next_ = false;    // VEL and RVEL alternate
   int zeros_to_send_ = 2;         // one of each
   TimeNs t_last_sent_ns_ = 0;
 };

@@ -1,4 +1,3 @@
-// See odometry.h.
 #include "robot/odometry.h"
 
 #include <algorithm>
@@ -11,14 +10,15 @@ namespace {
 
 using wire::wrapped_difference;
 
-// What a P3-AT can do, with room for late stamps; beyond it a counter has been damaged or zeroed.
+// More than a P3-AT can do, with a margin for late stamps: a larger step means that a counter is wrong or was
+// set to zero.
 constexpr double kSpeedMax_m_s = 2.0;
 constexpr double kTurnMax_rad_s = 6.0;
 constexpr double kDistanceSlack_m = 0.10;
 constexpr double kTurnSlack_rad = 0.35;
-constexpr double kReachMax_s = 2.5;  // after a longer gap the robot has stood: its watchdog saw to that
+constexpr double kReachMax_s = 2.5;  // in a longer gap the robot's watchdog has stopped it
 
-// Counters this near to zero after an interruption have been zeroed.
+// After an interruption, counters this near to zero have been set to zero.
 constexpr double kZeroedWithin_m = 0.05;
 constexpr double kZeroedWithin_rad = 0.05;
 

@@ -1,8 +1,8 @@
-// The pose of the robot in odom, from the wrapping counters of the SIPs.
+// The pose of the robot in the odometry frame (odom), from the wrapping counters of the SIPs.
 //
-// The odom frame outlives the connection: when the controller's counters begin anew (reset, reconnection),
-// the pose goes on from where it was. The counters since the last such anchor are kept as integers, so that
-// nothing accumulates but what the robot itself reports.
+// odom outlives the connection: when the controller's counters restart (reset, reconnection), the pose
+// continues from the last one, which is the new anchor. The counters since the anchor are summed as integers,
+// so that no rounding errors accumulate.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,20 @@ namespace heel {
 class OdometryTracker {
  public:
   enum class Step : std::uint8_t {
-    Moved,    ///< taken
-    Rebased,  ///< the counters began anew; the pose went on from the last one
-    Suspect,  ///< farther than a robot can go in that time: left aside until the next SIP confirms or denies
-              ///< it
+    Moved,    ///< the pose follows the counters
+    Rebased,  ///< the counters have restarted; the pose continues from the last one
+    Suspect,  ///< farther than the robot can drive in that time: ignored unless the next SIP confirms it
   };
 
   /// `dist_conv_factor`: mm per unit of XPOS and YPOS.
   explicit OdometryTracker(double dist_conv_factor);
 
-  /// Takes a SIP's position and speeds. `t_ns` is the stamp of its first byte.
+  /// Updates the pose from a SIP's position and speeds. `t_ns` is the stamp of its first byte.
   Step update(const arcos::Sip& sip, TimeNs t_ns);
 
-  /// The connection was interrupted: at the next SIP the counters may have been zeroed meanwhile.
+  /// The connection was interrupted: the counters may have been set to zero before the next SIP.
   void interrupted() { interrupted_ = true; }
-  /// The controller said it has reset: at the next SIP the counters have begun anew.
+  /// The controller has reported a reset: the counters restart with the next SIP.
   void controller_reset() { rebase_next_ = true; }
 
   const Odometry& pose() const { return pose_; }
@@ -53,7 +52,7 @@ class OdometryTracker {
   Counters last_;
   Counters suspect_;
 
-  // Counters since the anchor, and the anchor's place in odom.
+  // Counters since the anchor, and the anchor's pose in odom.
   std::int64_t units_x_ = 0, units_y_ = 0, units_heading_ = 0;
   double anchor_x_m_ = 0.0, anchor_y_m_ = 0.0, anchor_heading_rad_ = 0.0;
   double cos_odom_from_raw_ = 1.0, sin_odom_from_raw_ = 0.0;

@@ -1,4 +1,4 @@
-// The bytes of one tick, and the commands waiting for a tick with room; both in fixed memory.
+// The bytes of one tick, and the commands that wait to be sent; both in fixed memory.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,10 @@
 
 namespace heel {
 
-/// What one tick writes. Large enough for whatever the pacer lets through at once.
+/// The bytes that one tick sends. Large enough for everything that the pacer allows in one tick.
 class OutgoingBytes {
  public:
   void clear() { size_ = 0; }
-  bool has_room_for(const arcos::Frame& frame) const { return size_ + frame.size() <= bytes_.size(); }
   void append(const arcos::Frame& frame) {
     std::copy(frame.bytes().begin(), frame.bytes().end(), bytes_.begin() + size_);
     size_ += frame.size();
@@ -37,7 +36,7 @@ class FrameQueue {
     first_ = (first_ + 1) % frames_.size();
     --count_;
   }
-  /// The longest script of the session fits; what does not is a fault of the session, and is left out.
+  /// The longest sequence of the session fits; a command that does not fit, or is empty, is dropped.
   void push(const arcos::Frame& frame) {
     if (count_ == frames_.size() || frame.empty()) return;
     frames_[(first_ + count_++) % frames_.size()] = frame;

@@ -1,5 +1,6 @@
-// See robot_address.h.
 #include "robot/robot_address.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
@@ -11,10 +12,10 @@ namespace heel {
 namespace {
 
 [[noreturn]] void refuse(const std::string& address, const std::string& why) {
-  throw Error("robot address '" + address + "': " + why);
+  throw Error(fmt::format("robot address '{}': {}", address, why));
 }
 
-/// A whole, non-negative number or −1.
+/// A non-negative whole number, or −1.
 int number_of(std::string_view text) {
   int value = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -29,8 +30,8 @@ void parse_line(std::string_view rest, RobotAddress& address) {
   address.baud = number_of(rest.substr(at + 1));
   if (std::find(kRobotBauds.begin(), kRobotBauds.end(), address.baud) == kRobotBauds.end()) {
     refuse(address.text,
-           "'" + std::string(rest.substr(at + 1)) +
-               "' is not a baud rate of the robot (expected 9600, 19200, 38400, 57600 or 115200)");
+           fmt::format("'{}' is not a baud rate of the robot (expected 9600, 19200, 38400, 57600 or 115200)",
+                       rest.substr(at + 1)));
   }
 }
 
@@ -44,7 +45,7 @@ void parse_tcp(std::string_view rest, RobotAddress& address) {
   if (address.host.empty()) refuse(address.text, "no host (expected tcp:HOST:PORT)");
   const int port = number_of(rest.substr(colon + 1));
   if (port < 1 || port > 65535) {
-    refuse(address.text, "'" + std::string(rest.substr(colon + 1)) + "' is not a port (expected 1…65535)");
+    refuse(address.text, fmt::format("'{}' is not a port (expected 1…65535)", rest.substr(colon + 1)));
   }
   address.port = static_cast<std::uint16_t>(port);
 }
@@ -71,7 +72,7 @@ RobotAddress parse_robot_address(const std::string& text) {
     refuse(text, "expected serial:DEVICE@BAUD, pty:PATH@BAUD or tcp:HOST:PORT");
   }
   if (address.kind != RobotAddress::Kind::Tcp && address.path.empty()) {
-    refuse(text, "no device (expected a path after '" + std::string(scheme) + ":')");
+    refuse(text, fmt::format("no device (expected a path after '{}:')", scheme));
   }
   return address;
 }

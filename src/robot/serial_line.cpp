@@ -1,7 +1,7 @@
-// See serial_line.h.
 #include "robot/serial_line.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <libserialport.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -23,9 +23,9 @@
 namespace heel {
 namespace {
 
-constexpr TimeNs kHangUp_ns = 2 * kNsPerS;  // from the first failure of a port until the kernel hangs it up
+constexpr TimeNs kHangUp_ns = 2 * kNsPerS;  // from the first error of a port to its hang-up by the kernel
 
-/// poll with a timeout in nanoseconds. True when any of `events`, or a hang-up, is there.
+/// ppoll for one descriptor. True: one of `events`, an error or a hang-up has occurred.
 bool poll_one(int fd, short events, TimeNs timeout_ns, short* seen = nullptr) {
   pollfd entry{fd, events, 0};
   const timespec timeout{static_cast<time_t>(timeout_ns / kNsPerS), static_cast<long>(timeout_ns % kNsPerS)};
@@ -53,7 +53,7 @@ std::string last_serial_error() {
 
 bool SerialLine::fail(const std::string& why) {
   close();
-  error_ = "robot " + name_ + ": " + why;
+  error_ = fmt::format("robot {}: {}", name_, why);
   return false;
 }
 
@@ -74,12 +74,12 @@ bool SerialLine::open(const RobotAddress& address, int baud) {
 }
 
 bool SerialLine::open_serial(const RobotAddress& address, int baud) {
-  // libserialport knows devices by their kernel name only: udev's symlinks are followed for it.
+  // libserialport knows devices by their kernel names only, so udev's symlinks are resolved first.
   std::error_code missing;
   const std::string device = std::filesystem::canonical(address.path, missing).string();
   if (missing) return fail("cannot open: " + missing.message());
   if (sp_get_port_by_name(device.c_str(), &port_) != SP_OK) {
-    return fail("is not a serial port (expected a device as /dev/ttyUSB0)");
+    return fail("is not a serial port (expected a device such as /dev/ttyUSB0)");
   }
   if (sp_open(port_, SP_MODE_READ_WRITE) != SP_OK) return fail("cannot open: " + last_serial_error());
   sp_get_port_handle(port_, &fd_);
@@ -94,12 +94,12 @@ bool SerialLine::open_serial(const RobotAddress& address, int baud) {
 
 bool SerialLine::open_pty(const RobotAddress& address, int baud) {
   fd_ = ::open(address.path.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  if (fd_ < 0) return fail(std::string("cannot open: ") + std::strerror(errno));
+  if (fd_ < 0) return fail(fmt::format("cannot open: {}", std::strerror(errno)));
   if (::isatty(fd_) == 0) return fail("is not a terminal (expected the path of a pty)");
-  return configure_pty(baud) || fail(std::string("cannot configure: ") + std::strerror(errno));
+  return configure_pty(baud) || fail(fmt::format("cannot configure: {}", std::strerror(errno)));
 }
 
-/// A pty carries bytes at any speed; its rate is a note, for whoever plays the robot at the other end.
+/// A pty carries bytes at any speed; the simulated robot at its other end reads the rate from its settings.
 bool SerialLine::configure_pty(int baud) {
   termios settings{};
   if (::tcgetattr(fd_, &settings) != 0) return false;
@@ -113,7 +113,7 @@ bool SerialLine::open_tcp(const RobotAddress& address) {
   fd_ = tcp_connect(address.host, address.port, 3 * kNsPerS, why);
   if (fd_ < 0) return fail(why);
   const int on = 1;
-  ::setsockopt(fd_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));  // a command is of no use later
+  ::setsockopt(fd_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));  // commands must not wait for more data
   return true;
 }
 
@@ -122,22 +122,21 @@ bool SerialLine::set_baud(int baud) {
   if (fd_ < 0) return false;
   if (kind_ == RobotAddress::Kind::Pty) {
     ::tcflush(fd_, TCIOFLUSH);
-    return configure_pty(baud) ||
-           fail("cannot set " + std::to_string(baud) + " baud: " + std::strerror(errno));
+    return configure_pty(baud) || fail(fmt::format("cannot set {} baud: {}", baud, std::strerror(errno)));
   }
   sp_flush(port_, SP_BUF_BOTH);
   if (sp_set_baudrate(port_, baud) == SP_OK) return true;
-  return fail("cannot set " + std::to_string(baud) + " baud: " + last_serial_error());
+  return fail(fmt::format("cannot set {} baud: {}", baud, last_serial_error()));
 }
 
 void SerialLine::close() {
   if (port_ != nullptr) {
-    // Closing a port waits for its output, half a minute when nobody takes it: drop what is left.
+    // Closing a port waits up to half a minute for its output to be sent: what is left is dropped.
     if (fd_ >= 0) {
       ::tcflush(fd_, TCOFLUSH);
-      // USB adapters' drivers drop nothing. One that has been pulled out fails before the kernel hangs the
-      // port up; closed in between, it holds up the kernel as well, and plugged in again it stays unknown so
-      // long.
+      // Drivers of USB adapters drop nothing. An adapter that was unplugged gives errors before the kernel
+      // hangs up its port. If the port is closed in between, the kernel waits too, and the adapter is not
+      // found again meanwhile.
       if (unsent_bytes() > 0) poll_one(fd_, 0, kHangUp_ns);
       sp_close(port_);
     }
@@ -155,7 +154,8 @@ bool SerialLine::wait_readable(TimeNs timeout_ns) const {
 
 SerialLine::Transfer SerialLine::read(std::span<std::uint8_t> into) {
   if (fd_ < 0) return {0, Status::Lost};
-  // A terminal may answer 0 for "nothing yet"; after poll has promised something, 0 means the end.
+  // A terminal may return 0 for "nothing yet"; after poll has reported input, 0 means that the line has
+  // ended.
   short seen = 0;
   if (!poll_one(fd_, POLLIN, 0, &seen)) return {};
   if ((seen & POLLIN) == 0) return {0, Status::Lost};

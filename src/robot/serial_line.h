@@ -1,5 +1,5 @@
-// One byte line to the robot: a serial port, a pty or a TCP connection. After opening, nothing here blocks,
-// and nothing allocates but opening and closing.
+// The byte line to the robot: a serial port, a pty or a TCP connection. Only open(), wait_readable() and drain() wait; only
+// opening and closing allocate memory.
 #pragma once
 
 #include <cstddef>
@@ -27,26 +27,26 @@ class SerialLine {
   SerialLine(const SerialLine&) = delete;
   SerialLine& operator=(const SerialLine&) = delete;
 
-  /// Opens and configures: 8N1, no flow control, raw. May take long (a name to look up, a device to wake), at
-  /// most a few seconds. False with a line for people in error().
+  /// Opens and configures: 8N1, no flow control, raw. May take a few seconds (a host name to look up, a slow
+  /// device). False: error() holds one line.
   bool open(const RobotAddress& address, int baud);
-  /// Nothing to set on TCP: true. What has not gone out yet is dropped.
+  /// Output that has not been sent is dropped. On TCP this does nothing and returns true.
   bool set_baud(int baud);
-  /// At once: output still waiting in a serial driver is dropped. See drain().
+  /// Drops output that still waits in a serial driver; call drain() before to send it.
   void close();
 
   bool is_open() const { return fd_ >= 0; }
   const std::string& error() const { return error_; }
 
-  /// Waits until there is something to read, or for `timeout_ns`. True: read now.
+  /// Waits for input, at most `timeout_ns`. True: read() will return some, or Lost.
   bool wait_readable(TimeNs timeout_ns) const;
-  /// What is there, possibly nothing.
+  /// Reads what has arrived, which may be nothing.
   Transfer read(std::span<std::uint8_t> into);
-  /// What the driver takes, possibly nothing.
+  /// Writes what the driver accepts, which may be nothing.
   Transfer write(std::span<const std::uint8_t> bytes);
-  /// Bytes taken by the driver and not yet gone out.
+  /// Bytes that the driver has accepted and not yet sent.
   std::size_t unsent_bytes() const;
-  /// Waits until all has gone out, for `timeout_ns` at most.
+  /// Waits until everything has been sent, at most `timeout_ns`. False: not everything.
   bool drain(TimeNs timeout_ns) const;
 
  private:
@@ -57,9 +57,9 @@ class SerialLine {
   bool fail(const std::string& why);
 
   RobotAddress::Kind kind_ = RobotAddress::Kind::Serial;
-  std::string name_;  ///< the address, for messages
+  std::string name_;  ///< the address, for errors
   int fd_ = -1;
-  sp_port* port_ = nullptr;  ///< serial only; owns fd_ then
+  sp_port* port_ = nullptr;  ///< serial ports only; it then owns fd_
   std::string error_;
 };
 

@@ -1,4 +1,3 @@
-// See session_event.h.
 #include "robot/session_event.h"
 
 namespace heel {
@@ -8,45 +7,45 @@ const char* to_string(SessionEventKind kind) {
     case SessionEventKind::LineOpened:
       return "robot line opened";
     case SessionEventKind::LineLost:
-      return "robot line lost";
+      return "robot line lost; heeld connects again";
     case SessionEventKind::TryingBaud:
-      return "robot: trying baud";
+      return "trying the robot at {} baud";
     case SessionEventKind::FoundOpen:
-      return "robot was left open by an earlier session: closing it";
+      return "robot has a session open from earlier; closing it";
     case SessionEventKind::NoAnswer:
-      return "robot does not answer at baud";
+      return "robot does not answer at {} baud; check that it is switched on";
     case SessionEventKind::Synchronised:
       return "robot synchronised";
     case SessionEventKind::ConfigReceived:
-      return "robot sent its configuration; watchdog in ms";
+      return "robot sent its configuration; its watchdog time is {} ms";
     case SessionEventKind::ConfigMissing:
-      return "robot sent no valid configuration: going on with the configured limits";
+      return "robot sent no valid configuration; the configured limits are used";
     case SessionEventKind::FirstSip:
-      return "robot sends its information packets";
+      return "robot sends information packets (SIP)";
     case SessionEventKind::RateRaised:
-      return "robot and line changed to baud";
+      return "robot and line changed to {} baud";
     case SessionEventKind::RateRefused:
-      return "robot is not heard at the rate it was asked for, going back; baud";
+      return "robot did not change to {} baud; the old rate stays";
     case SessionEventKind::MotorsEnabled:
       return "motors enabled";
     case SessionEventKind::EnableRepeated:
-      return "motors not yet enabled: asking again, attempt";
+      return "motors are not enabled yet; attempt {} to enable them";
     case SessionEventKind::EnableFailed:
-      return "motors do not enable: is a stop button pressed, the battery low? attempts";
+      return "motors are not enabled after {} attempts; check stop button and battery";
     case SessionEventKind::StopButton:
       return "stop button or E-stall: motors stay off until heeld is restarted";
     case SessionEventKind::MotorsOff:
       return "motors went off: they stay off until heeld is restarted";
     case SessionEventKind::ControllerReset:
-      return "robot controller has reset: connecting anew";
+      return "robot controller was reset; heeld connects again";
     case SessionEventKind::SipSilence:
-      return "robot silent: connecting anew; ms without a packet";
+      return "no packet from the robot for {} ms; heeld connects again";
     case SessionEventKind::OdometryRebased:
-      return "robot's odometry began anew: the pose goes on from the last one";
+      return "robot's odometry counters restarted; the pose continues from the last one";
     case SessionEventKind::OdometrySuspect:
-      return "robot's odometry jumped farther than it can drive: left aside";
+      return "robot's odometry jumped farther than the robot can drive; packet ignored";
     case SessionEventKind::BadPacket:
-      return "packet with a valid checksum but a broken layout; id";
+      return "packet {} has a valid checksum and a wrong layout; ignored";
     case SessionEventKind::Closed:
       return "robot session closed";
   }

@@ -1,4 +1,4 @@
-// What happened on the way to and from the robot, for whoever keeps the log.
+// Events of the session with the robot, for the log.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@ enum class SessionEventKind : std::uint8_t {
   LineOpened,
   LineLost,
   TryingBaud,  ///< value: baud
-  FoundOpen,   ///< an earlier session left the robot open: closing it
+  FoundOpen,   ///< an earlier session has left the robot open: it is closed
   NoAnswer,    ///< value: baud
   Synchronised,
   ConfigReceived,  ///< value: watchdog, ms
-  ConfigMissing,   ///< going on with the configured limits
+  ConfigMissing,   ///< the configured limits are used
   FirstSip,
   RateRaised,   ///< value: baud
-  RateRefused,  ///< value: baud it did not follow to
+  RateRefused,  ///< value: the baud rate that the robot did not change to
   MotorsEnabled,
   EnableRepeated,  ///< value: attempt
   EnableFailed,    ///< value: attempts
@@ -30,7 +30,7 @@ enum class SessionEventKind : std::uint8_t {
   SipSilence,  ///< value: ms without a SIP
   OdometryRebased,
   OdometrySuspect,
-  BadPacket,  ///< value: id; its checksum is right, its content is not
+  BadPacket,  ///< value: id; its checksum is right, its layout is wrong
   Closed,
 };
 
@@ -40,19 +40,18 @@ struct SessionEvent {
   std::int64_t value = 0;
 };
 
-/// One line for people; the value stands for itself.
+/// One line for people, with "{}" in place of the value.
 const char* to_string(SessionEventKind kind);
-/// Someone should look at it.
+/// True for events that a person should know about.
 bool is_warning(SessionEventKind kind);
 
-/// The events nobody has fetched yet; the oldest give way.
+/// The events that have not been popped yet. When it is full, the oldest is dropped.
 class SessionEvents {
  public:
   void push(TimeNs t_ns, SessionEventKind kind, std::int64_t value = 0) {
     if (count_ == events_.size()) {
       first_ = (first_ + 1) % events_.size();
       --count_;
-      ++lost_;
     }
     events_[(first_ + count_++) % events_.size()] = {t_ns, kind, value};
   }
@@ -63,13 +62,11 @@ class SessionEvents {
     --count_;
     return true;
   }
-  std::uint64_t lost() const { return lost_; }
 
  private:
   std::array<SessionEvent, 64> events_{};
   std::size_t first_ = 0;
   std::size_t count_ = 0;
-  std::uint64_t lost_ = 0;
 };
 
 }  // namespace heel

@@ -1,6 +1,6 @@
-// See tcp_connect.h.
 #include "robot/tcp_connect.h"
 
+#include <fmt/format.h>
 #include <netdb.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -33,7 +33,7 @@ int tcp_connect(const std::string& host, std::uint16_t port, TimeNs timeout_ns, 
   addrinfo* found = nullptr;
   const int lookup = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found);
   if (lookup != 0) {
-    why = "cannot find host '" + host + "': " + ::gai_strerror(lookup);
+    why = fmt::format("cannot find host '{}': {}", host, ::gai_strerror(lookup));
     return -1;
   }
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> list(found, ::freeaddrinfo);
@@ -41,7 +41,7 @@ int tcp_connect(const std::string& host, std::uint16_t port, TimeNs timeout_ns, 
     const int fd = ::socket(to->ai_family, to->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, to->ai_protocol);
     const int error = fd < 0 ? errno : finish_connect(fd, *to, timeout_ns);
     if (error == 0) return fd;
-    why = std::string("cannot connect: ") + std::strerror(error);
+    why = fmt::format("cannot connect: {}", std::strerror(error));
     if (fd >= 0) ::close(fd);
   }
   return -1;

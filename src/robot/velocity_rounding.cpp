@@ -1,4 +1,3 @@
-// See velocity_rounding.h.
 #include "robot/velocity_rounding.h"
 
 #include <algorithm>
@@ -14,7 +13,7 @@ std::int16_t VelocityRounding::next(double wanted) {
   const double limit = limit_;
   const double clamped = std::clamp(wanted, -limit, limit);
   const double whole = std::clamp(std::round(clamped + carry_), -limit, limit);
-  // Within ±0.5 but at the limit, where the clamp would let it grow.
+  // Without this clamp it would grow while the command is at the limit.
   carry_ = std::clamp(carry_ + clamped - whole, -0.5, 0.5);
   return static_cast<std::int16_t>(whole);
 }

@@ -1,5 +1,6 @@
-// Whole wire units whose mean is what was asked: the rounding error of each command is carried into the next.
-// RVEL counts in whole degrees a second: without this, a robot asked for 0.6 deg/s would turn with 1 or 0.
+// Rounds velocities to whole wire units and adds the rounding error of each command to the next one, so that
+// the mean is the velocity wanted. RVEL has whole degrees per second: without this, 0.6 deg/s would become 1
+// or 0.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +12,13 @@ class VelocityRounding {
   /// Wire units; commands are clamped to ±limit.
   explicit VelocityRounding(int limit) : limit_(limit) {}
 
-  /// The next whole command for `wanted` (wire units, a fraction). Zero is zero at once, with nothing
-  /// carried: a robot told to rest must not be sent a last leftover unit. Not a number counts as zero.
+  /// The next whole command for `wanted` (wire units). Zero gives zero and discards the carried error, so
+  /// that a robot at rest gets no last unit. NaN and infinity count as zero.
   std::int16_t next(double wanted);
-
-  void reset() { carry_ = 0.0; }
 
  private:
   int limit_;
-  double carry_ = 0.0;  ///< what the commands so far fell short of the sum asked; −0.5…0.5
+  double carry_ = 0.0;  ///< wanted minus sent, summed over the commands so far; −0.5…0.5
 };
 
 }  // namespace heel

@@ -14,6 +14,13 @@ std::string_view text_of(const Event& event) {
   return {event.text.data(), static_cast<std::size_t>(end - event.text.begin())};
 }
 
+/// The text with `number` in place of "{}".
+std::string with_number(std::string_view text, std::int64_t number) {
+  const std::size_t place = text.find("{}");
+  if (place == std::string_view::npos) return std::string(text);
+  return fmt::format("{}{}{}", text.substr(0, place), number, text.substr(place + 2));
+}
+
 }  // namespace
 
 std::string event_text(const Event& event) {
@@ -30,7 +37,7 @@ std::string event_text(const Event& event) {
                          static_cast<double>(event.b) * 1e-6, event.a);
     case EventKind::Note:
     case EventKind::Warning:
-      return event.a == 0 ? std::string(text) : fmt::format("{} ({})", text, event.a);
+      return with_number(text, event.a);
     case EventKind::CameraOpened:
     case EventKind::CameraUnavailable:
     case EventKind::CameraLost:

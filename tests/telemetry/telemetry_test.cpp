@@ -130,6 +130,9 @@ TEST(EventText, SaysWhatHappenedWithItsNumbers) {
   late.b = 45'500'000;
   EXPECT_EQ(event_text(late), "deadline missed: 45.500 ms late, 3 periods missed so far");
   EXPECT_EQ(event_text(event_of(EventKind::Note, 0, "just so")), "just so");
+  Event numbered = event_of(EventKind::Warning, 0, "attempt {} failed");
+  numbered.a = 2;
+  EXPECT_EQ(event_text(numbered), "attempt 2 failed");
   Event full = event_of(EventKind::Note, 0);
   full.text.fill('x');  // no zero at the end
   EXPECT_EQ(event_text(full).size(), full.text.size());

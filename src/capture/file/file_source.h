@@ -1,11 +1,13 @@
 // Frames from files: a video that OpenCV can decode, one image, or a folder of images in natural order.
 //
-// Rate:  that of a video, or camera.rate_hz for images, times `file_speed`; 0: each frame as soon as
-// requested. Times: file_speed > 0: CLOCK_MONOTONIC; each frame is given at its due time and stamped with it;
-//        file_speed = 0: time in the file, the first frame at 0, so that runs repeat to the bit.
-// `sequence` is the frame's index in the file or folder, from 0. No frame is skipped: a slow reader delays
-// the due times of the frames that follow. OpenCV's decoders allocate memory for each frame: this source is
-// for experiments, not for use on the robot.
+// Rate: that of a video, or camera.rate_hz for images, times `file_speed`. With `file_speed` 0 each frame is
+// given as soon as it is requested.
+// Times: with `file_speed` > 0 those of CLOCK_MONOTONIC: each frame is given at its due time and stamped with
+// it. With `file_speed` 0 the time in the file, from 0, so that runs repeat to the bit.
+// Sequence: the frame's index in the file or folder, from 0. No frame is skipped: a slow reader delays the
+// due times of the frames that follow.
+//
+// OpenCV's decoders allocate memory for each frame: this source is for experiments, not for use on the robot.
 #pragma once
 
 #include <cstdint>

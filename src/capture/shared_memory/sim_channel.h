@@ -8,8 +8,10 @@
 // Layout: one SimChannelHeader, then kSimSlots slots of `slot_bytes` each: a SimSlotHeader and the pixels.
 // Frame number n (from 1) is written to slot n mod kSimSlots under the sequence lock of that slot, which is
 // odd during the writing and 2n after it. Readers copy a slot and keep the copy only if the lock has not
-// changed meanwhile. The writer holds flock(LOCK_EX) on its segment, so a reader can tell whether the writer
-// is alive. Each writer creates a new segment.
+// changed meanwhile.
+//
+// The writer holds flock(LOCK_EX) on its segment, so a reader can tell whether the writer is alive. Each
+// writer creates a new segment.
 #pragma once
 
 #include <atomic>
