@@ -1,4 +1,3 @@
-// See arcos/checksum.h.
 #include "arcos/checksum.h"
 
 #include <cstddef>

@@ -1,4 +1,3 @@
-// See arcos/command_codec.h.
 #include "arcos/command_codec.h"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ PacketWriter writer_for(CommandId id) {
 }
 
 Frame encode_signed_word(CommandId id, std::int16_t value) {
-  const std::int32_t wide = value;  // −(−32768) needs more than 16 bits
+  const std::int32_t wide = value;  // the magnitude of −32768 needs more than 16 bits
   PacketWriter writer = writer_for(id);
   writer.u8(static_cast<std::uint8_t>(wide < 0 ? ArgumentType::Negative : ArgumentType::Positive));
   writer.u16(static_cast<std::uint16_t>(wide < 0 ? -wide : wide));
@@ -87,7 +86,7 @@ DecodeResult decode_command(std::span<const std::uint8_t> body, Command& out) {
   switch (type) {
     case ArgumentType::Positive:
     case ArgumentType::Negative:
-      if (reader.left() == 0) return DecodeResult::Ok;  // p2os sends SETO so
+      if (reader.left() == 0) return DecodeResult::Ok;  // as p2os sends SETO
       out.value = type == ArgumentType::Positive ? reader.u16() : -static_cast<std::int32_t>(reader.u16());
       break;
     case ArgumentType::Text:

@@ -1,4 +1,3 @@
-// See arcos/commands.h.
 #include "arcos/commands.h"
 
 #include <algorithm>
@@ -10,9 +9,10 @@ namespace {
 using enum ArgumentKind;
 
 constexpr CommandInfo kCommands[] = {
-    {CommandId::Pulse, "PULSE", None, true, "feed the watchdog; SYNC0 before the connection stands"},
-    {CommandId::Open, "OPEN", OptionalInteger, true, "start the packets; SYNC1 before the connection stands"},
-    {CommandId::Close, "CLOSE", OptionalInteger, true, "stop and close; SYNC2 before the connection stands"},
+    {CommandId::Pulse, "PULSE", None, true, "feed the watchdog; SYNC0 before the connection is open"},
+    {CommandId::Open, "OPEN", OptionalInteger, true,
+     "start the packets (SIP); SYNC1 before the connection is open"},
+    {CommandId::Close, "CLOSE", OptionalInteger, true, "stop and close; SYNC2 before the connection is open"},
     {CommandId::Polling, "POLLING", Text, true, "order of the sonars, numbers from 1"},
     {CommandId::Enable, "ENABLE", Integer, true, "motors 1 on, 0 off"},
     {CommandId::SetA, "SETA", SignedInteger, true, "+ acceleration, - deceleration, mm/s^2"},
@@ -56,7 +56,7 @@ constexpr CommandInfo kCommands[] = {
     {CommandId::DriftFactor, "DRIFTFACTOR", SignedInteger, true, "difference of the tyres, 1/8192"},
     {CommandId::SoundTog, "SOUNDTOG", Integer, true, "sound: 1 on, 0 off"},
     {CommandId::TicksMm, "TICKSMM", Integer, true, "encoder ticks per mm"},
-    {CommandId::BatTest, "BATTEST", OptionalInteger, true, "pretend a battery voltage"},
+    {CommandId::BatTest, "BATTEST", OptionalInteger, true, "simulate a battery voltage"},
     {CommandId::Reset, "RESET", None, false, "reset the controller"},
     {CommandId::Maintenance, "MAINTENANCE", None, false, "enter the firmware loader"},
 };

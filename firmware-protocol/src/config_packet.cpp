@@ -1,4 +1,3 @@
-// See arcos/config_packet.h.
 #include "arcos/config_packet.h"
 
 #include "field_order.h"

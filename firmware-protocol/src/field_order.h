@@ -1,4 +1,4 @@
-// Two visitors with one interface, so that a packet's field order is written once and serves both ways:
+// Two visitors with one interface, so that the field order of a packet is written once, for reading and writing:
 //   template <class Visitor, class P> void visit_fields(Visitor& v, P& packet) { v.field(packet.a); … }
 // `field` is required, `tail` may be missing at the end.
 #pragma once
@@ -21,7 +21,7 @@ class FieldReader {
 
   template <typename T>
   void tail(std::optional<T>& value) {
-    // A field cut in half ends the tail: what follows would be read from the wrong place.
+    // A partial field ends the tail, because the fields after it would be read from the wrong place.
     ended_ = ended_ || reader_.left() < sizeof(T);
     value.reset();
     if (!ended_) field(value.emplace());

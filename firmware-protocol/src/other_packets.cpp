@@ -1,4 +1,3 @@
-// See arcos/other_packets.h.
 #include "arcos/other_packets.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// See arcos/packet.h.
 #include "arcos/packet.h"
 
 #include <algorithm>
@@ -74,7 +73,7 @@ Frame PacketWriter::finish() {
   frame_.bytes_[2] = static_cast<std::uint8_t>(frame_.size_ - kHeaderSize + kChecksumSize);
   const std::uint16_t sum =
       checksum(std::span(frame_.bytes_).subspan(kHeaderSize, frame_.size_ - kHeaderSize));
-  frame_.bytes_[frame_.size_++] = static_cast<std::uint8_t>(sum >> 8);  // the one big-endian field
+  frame_.bytes_[frame_.size_++] = static_cast<std::uint8_t>(sum >> 8);  // the only big-endian field
   frame_.bytes_[frame_.size_++] = static_cast<std::uint8_t>(sum & 0xFF);
   return frame_;
 }

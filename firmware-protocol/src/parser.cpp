@@ -1,4 +1,3 @@
-// See arcos/parser.h.
 #include "arcos/parser.h"
 
 #include <algorithm>
@@ -9,7 +8,7 @@ namespace arcos {
 
 void Parser::push(std::uint8_t byte, std::int64_t t_ns) {
   if (end_ == bytes_.size()) {
-    // Cannot be full from 0: drain() leaves less than a packet, and the buffer holds the longest.
+    // Not full from 0: drain() leaves less than one packet, and the buffer holds the longest packet.
     std::copy(bytes_.begin() + begin_, bytes_.begin() + end_, bytes_.begin());
     std::copy(t_ns_.begin() + begin_, t_ns_.begin() + end_, t_ns_.begin());
     end_ -= begin_;

@@ -1,4 +1,3 @@
-// See arcos/sip.h.
 #include "arcos/sip.h"
 
 #include "field_order.h"
@@ -51,7 +50,7 @@ DecodeResult decode_sip(std::span<const std::uint8_t> body, Sip& out) {
   if (!reader.truncated() && !is_sip(out.id)) return DecodeResult::WrongId;
   detail::FieldReader fields(reader);
   visit_fixed_fields(fields, out);
-  if (out.sonar_count > kMaxSonarReadings) {  // no packet is long enough for them
+  if (out.sonar_count > kMaxSonarReadings) {  // more than the longest packet can hold
     out.sonar_count = 0;
     return DecodeResult::Truncated;
   }

@@ -11,7 +11,7 @@
 
 namespace arcos {
 
-/// Ids 0…2 mean SYNC0…SYNC2 before the connection stands, PULSE, OPEN and CLOSE after it.
+/// Ids 0…2 mean SYNC0…SYNC2 before the connection is open, PULSE, OPEN and CLOSE after it.
 enum class CommandId : std::uint8_t {
   Sync0 = 0,
   Sync1 = 1,

@@ -95,7 +95,6 @@ class PacketReader {
   std::size_t left() const { return rest_.size(); }
   bool holds_text() const;  ///< a NUL is still to come
   bool truncated() const { return truncated_; }
-  bool text_too_long() const { return text_too_long_; }
   std::uint8_t u8();
   std::uint16_t u16();
   std::int16_t i16() { return static_cast<std::int16_t>(u16()); }

@@ -29,7 +29,7 @@
 
 namespace heel::sim {
 
-/// Where the connection stands; it decides what ids 0, 1 and 2 mean.
+/// Where the connection is open; it decides what ids 0, 1 and 2 mean.
 enum class Session : std::uint8_t {
   Waiting,      ///< SYNC0 awaited
   Synced0,      ///< SYNC0 echoed
