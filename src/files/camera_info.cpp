@@ -88,7 +88,7 @@ std::vector<double> read_matrix(const YAML::Node& root, const std::string& path,
   for (std::size_t i = 0; i < data.size(); ++i) {
     double value = 0.0;
     if (!data[i].IsScalar() || !YAML::convert<double>::decode(data[i], value) || !std::isfinite(value)) {
-      throw key_error(path, key + ".data[" + std::to_string(i) + "]",
+      throw key_error(path, fmt::format("{}.data[{}]", key, i),
                       data[i].IsScalar() ? "'" + data[i].Scalar() + "'" : "not a number", "a finite number");
     }
     values.push_back(value);
@@ -99,7 +99,7 @@ std::vector<double> read_matrix(const YAML::Node& root, const std::string& path,
     if (!YAML::convert<long>::decode(matrix["rows"], rows) ||
         !YAML::convert<long>::decode(matrix["cols"], cols) ||
         rows * cols != static_cast<long>(values.size())) {
-      throw key_error(path, key, std::to_string(values.size()) + " numbers", "rows × cols of them");
+      throw key_error(path, key, fmt::format("{} numbers", values.size()), "rows × cols of them");
     }
   }
   return values;
@@ -109,15 +109,15 @@ void read_intrinsics(const YAML::Node& root, const std::string& path, CameraMode
   const std::string key = "camera_matrix";
   const std::vector<double> k = read_matrix(root, path, key, "3 × 3: fx 0 cx, 0 fy cy, 0 0 1");
   if (k.size() != 9) {
-    throw key_error(path, key + ".data", std::to_string(k.size()) + " numbers", "9: fx 0 cx, 0 fy cy, 0 0 1");
+    throw key_error(path, key + ".data", fmt::format("{} numbers", k.size()), "9: fx 0 cx, 0 fy cy, 0 0 1");
   }
-  if (k[1] != 0.0) throw key_error(path, key + ".data[1]", "skew " + std::to_string(k[1]), "0: no skew");
+  if (k[1] != 0.0) throw key_error(path, key + ".data[1]", fmt::format("skew {}", k[1]), "0: no skew");
   if (k[3] != 0.0 || k[6] != 0.0 || k[7] != 0.0 || k[8] != 1.0) {
     throw key_error(path, key + ".data", "not a pinhole camera's matrix",
                     "fx 0 cx, 0 fy cy, 0 0 1, row by row");
   }
   if (k[0] <= 0.0 || k[4] <= 0.0) {
-    throw key_error(path, key + ".data", "fx " + std::to_string(k[0]) + ", fy " + std::to_string(k[4]),
+    throw key_error(path, key + ".data", fmt::format("fx {}, fy {}", k[0], k[4]),
                     "focal lengths above 0, px");
   }
   camera.fx = k[0];
@@ -149,7 +149,7 @@ void read_distortion(const YAML::Node& root, const std::string& path, CameraMode
   const std::vector<double> d = read_matrix(root, path, key, "k1 k2 p1 p2 [k3]");
   if (d.size() != 4 && d.size() != 5) {
     throw key_error(path, key + ".data",
-                    std::to_string(d.size()) + " numbers: " + model_with_coefficients(d.size()),
+                    fmt::format("{} numbers: {}", d.size(), model_with_coefficients(d.size())),
                     "4 or 5, plumb_bob: k1 k2 p1 p2 [k3]");
   }
   camera.k1 = d[0];
