@@ -79,7 +79,7 @@ Lockstep::Lockstep(const LockstepSettings& settings, LockstepObserver& observer)
       session_(settings.config.robot),
       robot_(robot_settings(settings.scenario), derived_seed(settings.scenario.seed, 0x60)) {
   if (settings.errors) {
-    world_ = std::make_unique<World>(scenario_, 1, Detail::TruthOnly);
+    world_ = std::make_unique<World>(scenario_, 1, WorldUse::TruthOnly);
     contact_.emplace(*world_, robot_);
     drawn_.emplace(*settings.errors, scenario_, settings.shirt.distance_m,
                    derived_seed(scenario_.seed, 0xe0));

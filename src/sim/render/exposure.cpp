@@ -17,10 +17,10 @@ ExposureControl::ExposureControl(const ExposureSettings& settings, double exposu
   const double longest_ms = std::max(settings.longest_ms, exposure_ms);
   const double stops_down = std::log2(kShortest_ms / exposure_ms);
   const double stops_up = std::log2(longest_ms / exposure_ms * settings.most_gain);
-  double stops = 0.0;  // brighter than at light 1
+  double stops = 0.0;  // exposure relative to that at light 1
   const int count = static_cast<int>(std::ceil(duration_s / lag_s_)) + 1;
   for (int i = 0; i < count; ++i) {
-    // What it does now answers the light of one step ago.
+    // Each step answers the light of one step before.
     const double wanted = -std::log2(light_at((i - 1) * lag_s_));
     if (std::abs(wanted - stops) >= 0.6 * settings.step_stops)
       stops = std::clamp(stops + std::copysign(settings.step_stops, wanted - stops), stops_down, stops_up);

@@ -1,4 +1,4 @@
-// The part of the picture in which a flat face can show.
+// The part of the picture in which a flat face can be visible.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace heel::sim {
 
-/// Nothing nearer is drawn.
+/// Distance of the near plane: nothing nearer is drawn.
 inline constexpr float kNear_m = 0.05f;
 
 /// Bounds in distorted pixels; empty until something is added.
@@ -21,8 +21,8 @@ struct PixelBounds {
 /// Distorted pixel of a point in front of the camera.
 Eigen::Vector2d distorted_px(const CameraModel& camera, const Eigen::Vector3f& point_m);
 
-/// Adds what a polygon (camera frame) can cover of the picture: distortion is only meaningful inside it, so
-/// the polygon is cut by the pyramid of the picture's rays first.
+/// Adds the pixels that a polygon (camera frame) can cover. Distortion is only defined inside the picture, so
+/// that the polygon is clipped to the pyramid of the picture's rays first.
 void add_polygon(const RayTable& rays, std::vector<Eigen::Vector3f> polygon, PixelBounds& bounds);
 
 }  // namespace heel::sim

@@ -1,5 +1,7 @@
 #include "sim/render/ray_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,9 +11,9 @@ namespace heel::sim {
 
 RayTable::RayTable(const CameraModel& camera_in) : camera(camera_in) {
   if (camera.width_px < 16 || camera.height_px < 16 || camera.fx <= 0 || camera.fy <= 0)
-    throw Error("simulated camera: " + std::to_string(camera.width_px) + " x " +
-                std::to_string(camera.height_px) +
-                " px (expected at least 16 x 16 and positive focal lengths)");
+    throw Error(
+        fmt::format("simulated camera: {} x {} px (expected at least 16 x 16 and positive focal lengths)",
+                    camera.width_px, camera.height_px));
   const std::size_t pixels = static_cast<std::size_t>(camera.width_px) * camera.height_px;
   x.reserve(pixels);
   y.reserve(pixels);

@@ -1,4 +1,4 @@
-// The lens as a table: for every pixel the undistorted ray (x, y, 1) in the camera frame.
+// The lens as a table: the undistorted ray (x, y, 1) of every pixel, in the camera frame.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace heel::sim {
 
-/// The largest |x| and |y| of any ray through the border of the picture: what lies outside is not seen.
+/// The largest |x| and |y| of the rays through the picture's border: a ray outside meets no pixel.
 struct RayBounds {
   float x_max = 0.f;
   float y_max = 0.f;
@@ -20,7 +20,7 @@ struct RayTable {
   CameraModel camera;
   std::vector<float> x;  ///< row-major, one entry a pixel
   std::vector<float> y;
-  /// The largest |x| and |y| of any ray: what lies outside is not seen.
+  /// The largest |x| and |y| of all rays: a ray outside meets no pixel.
   float x_max = 0.f;
   float y_max = 0.f;
 };

@@ -9,11 +9,11 @@
 namespace heel::sim {
 namespace {
 
-constexpr int kPad = 8;                ///< pixels repeated around the picture
-constexpr float kMotionMax_px = 10.f;  ///< longest blur drawn: kernel radius 7 < kPad
-constexpr int kMotionSteps_px = 4;     ///< quantisation of blur vectors, per pixel
+constexpr int kPad = 8;                ///< width of the border that repeats the outermost pixels
+constexpr float kMotionMax_px = 10.f;  ///< longest blur: its kernel radius 7 is below kPad
+constexpr int kMotionSteps_px = 4;     ///< quantisation steps of blur vectors per pixel
 constexpr int kMotionBins = 2 * static_cast<int>(kMotionMax_px) * kMotionSteps_px + 1;
-constexpr int kBandBlocks = 3;  ///< rows of blocks a thread takes at a time
+constexpr int kBandBlocks = 3;  ///< rows of blocks that a thread processes at a time
 constexpr std::size_t kNoiseSamples = 1 << 16;
 
 int motion_bin(float d_px) {
@@ -37,7 +37,7 @@ Sensor::Sensor(const RayTable& rays, const SensorSettings& settings, std::uint64
       padded_(static_cast<std::size_t>(padded_stride_) * (height_ + 2 * kPad)),
       blurred_(rays.x.size()),
       kernels_(static_cast<std::size_t>(kMotionBins) * kMotionBins) {
-  // cos⁴-like fall-off, scaled so that the corner loses the stated share.
+  // The light falls with the square of the radius, so that the corner loses the stated share.
   const double corner2 =
       0.25 * (static_cast<double>(width_) * width_ + static_cast<double>(height_) * height_);
   vignette_.reserve(rays.x.size());
@@ -66,7 +66,7 @@ void Sensor::pad(const std::vector<float>& radiance) {
   }
 }
 
-/// The lens's Gaussian swept along the motion vector, sampled at whole pixels, weights summing to one.
+/// The lens's Gaussian moved along the motion vector, sampled at whole pixels; the weights add up to one.
 const std::vector<Sensor::Tap>& Sensor::kernel(float dx_px, float dy_px) {
   const int bin_x = motion_bin(dx_px);
   const int bin_y = motion_bin(dy_px);
@@ -103,7 +103,7 @@ void Sensor::blur_block(int block_x, int block_y, const std::vector<Tap>& taps) 
   const int count = std::min(kMotionBlock_px, width_ - x0);
   for (int y = block_y * kMotionBlock_px; y < y_end; ++y) {
     std::array<float, kMotionBlock_px> sum{};
-    // The padding makes reading a whole block safe at the right edge too.
+    // Because of the padding, a whole block can be read at the right edge too.
     const float* from = padded_.data() + static_cast<std::size_t>(y + kPad) * padded_stride_ + kPad + x0;
     for (const Tap& tap : taps)
       for (int i = 0; i < kMotionBlock_px; ++i)
@@ -112,8 +112,8 @@ void Sensor::blur_block(int block_x, int block_y, const std::vector<Tap>& taps) 
   }
 }
 
-/// Bright places shine over their surroundings: two exponential tails, a near and a far one, over the blocks.
-void Sensor::scatter(int blocks_x, int blocks_y, float brightness) {
+/// Light of bright places scattered over the picture: a sum of two exponential tails, a short and a long one.
+void Sensor::compute_glare(int blocks_x, int blocks_y, float brightness) {
   glare_columns_ = blocks_x;
   const auto blocks = static_cast<std::size_t>(blocks_x) * blocks_y;
   std::vector<float> bright(blocks, 0.f);
@@ -126,13 +126,13 @@ void Sensor::scatter(int blocks_x, int blocks_y, float brightness) {
           brightness * 0.5f * (row[x] + row[std::max(0, x - kMotionBlock_px / 2)]);
     }
   glare_.assign(blocks, 0.f);
-  // A first-order filter forwards and backwards, along rows and columns, is an exponential tail.
-  const auto tail = [&](std::vector<float> light, float keep, float share) {
+  // A first-order filter forwards and backwards, along rows and columns, makes an exponential tail.
+  const auto add_tail = [&](std::vector<float> light, float decay, float share) {
     const auto run = [&](std::size_t first, std::size_t step, int count) {
       for (int i = 1; i < count; ++i)
-        light[first + i * step] += keep * (light[first + (i - 1) * step] - light[first + i * step]);
+        light[first + i * step] += decay * (light[first + (i - 1) * step] - light[first + i * step]);
       for (int i = count - 2; i >= 0; --i)
-        light[first + i * step] += keep * (light[first + (i + 1) * step] - light[first + i * step]);
+        light[first + i * step] += decay * (light[first + (i + 1) * step] - light[first + i * step]);
     };
     for (int by = 0; by < blocks_y; ++by) run(static_cast<std::size_t>(by) * blocks_x, 1, blocks_x);
     for (int bx = 0; bx < blocks_x; ++bx)
@@ -140,12 +140,12 @@ void Sensor::scatter(int blocks_x, int blocks_y, float brightness) {
     for (std::size_t i = 0; i < blocks; ++i) glare_[i] += share * light[i];
   };
   const auto glare = static_cast<float>(settings_.glare);
-  tail(bright, 0.5f, 0.5f * glare);
-  tail(bright, 0.87f, 0.5f * glare);
+  add_tail(bright, 0.5f, 0.5f * glare);
+  add_tail(bright, 0.87f, 0.5f * glare);
 }
 
-/// Interpolated between the middles of the blocks.
-float Sensor::scattered(int x, int y) const {
+/// The glare at a pixel, interpolated between the centres of the blocks.
+float Sensor::glare_at(int x, int y) const {
   const int rows = static_cast<int>(glare_.size()) / glare_columns_;
   const float u = (static_cast<float>(x) - 0.5f * (kMotionBlock_px - 1)) / kMotionBlock_px;
   const float v = (static_cast<float>(y) - 0.5f * (kMotionBlock_px - 1)) / kMotionBlock_px;
@@ -160,10 +160,10 @@ float Sensor::scattered(int x, int y) const {
 
 void Sensor::quantise_row(int y, float brightness, const float* noise, std::uint8_t* grey) const {
   const std::size_t row = static_cast<std::size_t>(y) * width_;
-  const bool glares = settings_.glare > 0.0;
+  const bool has_glare = settings_.glare > 0.0;
   for (int x = 0; x < width_; ++x) {
-    const float veil = glares ? scattered(x, y) : 0.f;
-    const float light = std::clamp((blurred_[row + x] * brightness + veil) * vignette_[row + x], 0.f, 255.f);
+    const float glare = has_glare ? glare_at(x, y) : 0.f;
+    const float light = std::clamp((blurred_[row + x] * brightness + glare) * vignette_[row + x], 0.f, 255.f);
     const float value = light + noise[x] * sigma_grey_[static_cast<std::size_t>(static_cast<int>(light))];
     grey[x] = static_cast<std::uint8_t>(std::clamp(value + 0.5f, 0.f, 255.f));
   }
@@ -172,20 +172,21 @@ void Sensor::quantise_row(int y, float brightness, const float* noise, std::uint
 void Sensor::expose(const std::vector<float>& radiance, const MotionField& motion, const Exposure& exposure,
                     std::uint64_t frame, std::vector<std::uint8_t>& grey) {
   pad(radiance);
-  // Kernels are made here, before the threads use them.
-  of_block_.resize(motion.dx_px.size());
-  for (std::size_t i = 0; i < of_block_.size(); ++i) of_block_[i] = &kernel(motion.dx_px[i], motion.dy_px[i]);
+  // The kernels are computed here, before several threads read them.
+  kernel_of_block_.resize(motion.dx_px.size());
+  for (std::size_t i = 0; i < kernel_of_block_.size(); ++i)
+    kernel_of_block_[i] = &kernel(motion.dx_px[i], motion.dy_px[i]);
   workers_.parallel_for(motion.blocks_y, kBandBlocks, [&](int begin, int end) {
     for (int by = begin; by < end; ++by)
       for (int bx = 0; bx < motion.blocks_x; ++bx)
-        blur_block(bx, by, *of_block_[static_cast<std::size_t>(by) * motion.blocks_x + bx]);
+        blur_block(bx, by, *kernel_of_block_[static_cast<std::size_t>(by) * motion.blocks_x + bx]);
   });
 
   double brightness = exposure.light * exposure.gain;
   if (settings_.exposure_ms > 0.0) brightness *= exposure.exposure_ms / settings_.exposure_ms;
   const auto brightness_f = static_cast<float>(brightness);
-  if (settings_.glare > 0.0) scatter(motion.blocks_x, motion.blocks_y, brightness_f);
-  // Gain lifts the noise with the signal: fewer photons make the same grey.
+  if (settings_.glare > 0.0) compute_glare(motion.blocks_x, motion.blocks_y, brightness_f);
+  // Gain amplifies the noise with the signal: fewer photons give the same grey level.
   for (int level = 0; level < 256; ++level) {
     const double read = settings_.read_noise_grey * exposure.gain;
     const double shot2 =

@@ -1,5 +1,7 @@
-// Mip-map construction by 2 × 2 box averages, kept in float until each level is stored.
+// Mip-maps by averages of 2 × 2 texels, in float until each level is stored.
 #include "sim/render/texture.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
@@ -39,8 +41,7 @@ Canvas::Canvas(int width, int height, float grey)
     : width_(width), height_(height), grey_(static_cast<std::size_t>(width) * height, grey) {
   if (!std::has_single_bit(static_cast<unsigned>(width)) ||
       !std::has_single_bit(static_cast<unsigned>(height)))
-    throw Error("texture: " + std::to_string(width) + " x " + std::to_string(height) +
-                " texels (expected powers of two)");
+    throw Error(fmt::format("texture: {} x {} texels (expected powers of two)", width, height));
 }
 
 void Canvas::blend(int x, int y, float grey, float coverage) {

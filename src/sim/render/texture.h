@@ -1,4 +1,4 @@
-// Grey textures with mip-maps. Texel (0,0) is the centre of the first texel; both axes wrap around.
+// Grey textures with mip-maps. Coordinate (0, 0) is the centre of the first texel; both axes wrap around.
 #pragma once
 
 #include <cstdint>
@@ -6,10 +6,10 @@
 
 namespace heel::sim {
 
-/// An image being drawn: reflectance in grey levels, 0 black … 255 white.
+/// An image to draw on: reflectance in grey levels, 0 black … 255 white.
 class Canvas {
  public:
-  /// Sides must be powers of two (wrapping is a mask).
+  /// The sides must be powers of two, because wrapping is done with a bit mask.
   Canvas(int width, int height, float grey);
 
   int width() const { return width_; }
@@ -17,7 +17,7 @@ class Canvas {
   float& at(int x, int y) { return grey_[static_cast<std::size_t>(y) * width_ + x]; }
   float at(int x, int y) const { return grey_[static_cast<std::size_t>(y) * width_ + x]; }
 
-  /// Lays `grey` over the texel with the given coverage (0…1); texels outside are ignored.
+  /// Blends `grey` over the texel with the given coverage (0…1). Does nothing outside the canvas.
   void blend(int x, int y, float grey, float coverage);
 
  private:

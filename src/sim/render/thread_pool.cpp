@@ -5,10 +5,10 @@
 namespace heel::sim {
 
 ThreadPool::ThreadPool(int threads) {
-  constexpr int kMost = 4;  // beyond, the parts that are not shared decide
+  constexpr int kMaxThreads = 4;  // with more, the parts that are not parallel take most of the time
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int wanted = threads > 0 ? threads : std::min(cores, kMost);
-  for (int i = 1; i < wanted; ++i) helpers_.emplace_back([this] { help(); });
+  const int wanted = threads > 0 ? threads : std::min(cores, kMaxThreads);
+  for (int i = 1; i < wanted; ++i) helpers_.emplace_back([this] { run_helper(); });
 }
 
 ThreadPool::~ThreadPool() {
@@ -16,11 +16,11 @@ ThreadPool::~ThreadPool() {
     const std::scoped_lock lock(mutex_);
     stop_ = true;
   }
-  begin_.notify_all();
+  job_started_.notify_all();
   for (std::thread& helper : helpers_) helper.join();
 }
 
-void ThreadPool::parallel_for(int count, int piece, const std::function<void(int begin, int end)>& work) {
+void ThreadPool::parallel_for(int count, int chunk, const std::function<void(int begin, int end)>& work) {
   if (helpers_.empty()) {
     work(0, count);
     return;
@@ -29,41 +29,42 @@ void ThreadPool::parallel_for(int count, int piece, const std::function<void(int
     const std::scoped_lock lock(mutex_);
     work_ = &work;
     count_ = count;
-    piece_ = std::max(1, piece);
+    chunk_ = std::max(1, chunk);
     next_ = 0;
-    open_ = true;
-    ++round_;
+    accepts_helpers_ = true;
+    ++job_;
   }
-  begin_.notify_all();
-  take_pieces();
+  job_started_.notify_all();
+  process_chunks();
   std::unique_lock lock(mutex_);
-  // Who has not come by now is not waited for: on a busy machine that could take longer than the work did.
-  open_ = false;
-  done_.wait(lock, [this] { return busy_ == 0; });
+  // A helper that has not joined by now is not waited for: on a loaded machine it might take longer to start
+  // than the work took.
+  accepts_helpers_ = false;
+  helpers_finished_.wait(lock, [this] { return busy_helpers_ == 0; });
 }
 
-void ThreadPool::help() {
-  std::uint64_t seen = 0;
+void ThreadPool::run_helper() {
+  std::uint64_t last_job = 0;
   while (true) {
     {
       std::unique_lock lock(mutex_);
-      begin_.wait(lock, [&] { return stop_ || round_ != seen; });
+      job_started_.wait(lock, [&] { return stop_ || job_ != last_job; });
       if (stop_) return;
-      seen = round_;
-      if (!open_) continue;
-      ++busy_;
+      last_job = job_;
+      if (!accepts_helpers_) continue;
+      ++busy_helpers_;
     }
-    take_pieces();
+    process_chunks();
     const std::scoped_lock lock(mutex_);
-    if (--busy_ == 0) done_.notify_one();
+    if (--busy_helpers_ == 0) helpers_finished_.notify_one();
   }
 }
 
-void ThreadPool::take_pieces() {
+void ThreadPool::process_chunks() {
   while (true) {
-    const int begin = next_.fetch_add(piece_);
+    const int begin = next_.fetch_add(chunk_);
     if (begin >= count_) return;
-    (*work_)(begin, std::min(begin + piece_, count_));
+    (*work_)(begin, std::min(begin + chunk_, count_));
   }
 }
 

@@ -1,5 +1,5 @@
-// A few threads that share the rows of one picture among them. Every row is worked out by itself, so that the
-// result does not depend on how many there are, nor on which does what.
+// A few threads that process the rows of one picture in parallel. Every row is computed by itself, so that
+// the result does not depend on the number of threads or on which thread computes which row.
 #pragma once
 
 #include <atomic>
@@ -14,34 +14,34 @@ namespace heel::sim {
 
 class ThreadPool {
  public:
-  /// `threads` in all, the caller among them; 0: one a core, four at most.
+  /// `threads`: their number, the calling thread included; 0: one for each core, but at most four.
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
   int threads() const { return static_cast<int>(helpers_.size()) + 1; }
-  /// Calls work(begin, end) for pieces of [0, count) of at most `piece`, and returns when all are done.
-  /// `work` must not throw.
-  void parallel_for(int count, int piece, const std::function<void(int begin, int end)>& work);
+  /// Calls work(begin, end) for chunks of [0, count) of at most `chunk`, in several threads, and returns when
+  /// all are done. `work` must not throw.
+  void parallel_for(int count, int chunk, const std::function<void(int begin, int end)>& work);
 
  private:
-  void help();
-  void take_pieces();
+  void run_helper();
+  void process_chunks();
 
   std::mutex mutex_;
-  std::condition_variable begin_;
-  std::condition_variable done_;
-  std::uint64_t round_ = 0;  ///< of work; helpers wait for the next
-  bool open_ = false;        ///< helpers may still join this round
-  int busy_ = 0;             ///< helpers that have joined and are not yet through
+  std::condition_variable job_started_;
+  std::condition_variable helpers_finished_;
+  std::uint64_t job_ = 0;         ///< number of the current or last job
+  bool accepts_helpers_ = false;  ///< helpers may still join the current job
+  int busy_helpers_ = 0;          ///< helpers that have joined the current job and are not finished
   bool stop_ = false;
-  // This round's work.
+  // The current job.
   const std::function<void(int, int)>* work_ = nullptr;
   int count_ = 0;
-  int piece_ = 1;
+  int chunk_ = 1;
   std::atomic<int> next_{0};
-  std::vector<std::thread> helpers_;  ///< last: begin when all else stands
+  std::vector<std::thread> helpers_;  ///< last: they start when every other member is ready
 };
 
 }  // namespace heel::sim

@@ -13,7 +13,7 @@
 namespace heel::sim {
 namespace {
 
-/// One level of a rounded part of the body: an ellipse about (x_m, 0).
+/// A horizontal section of a rounded part of the body: an ellipse with its centre at (x_m, 0).
 struct Ellipse {
   double z_m, x_m, half_depth_m, half_width_m;
 };
@@ -45,7 +45,7 @@ constexpr Ellipse kShinProfile[] = {{0.030, 0.005, 0.052, 0.050}, {-0.05, 0.0, 0
                                     {-0.47, 0.06, 0.130, 0.048},  {-0.472, 0.06, 0.01, 0.01}};
 constexpr double kShoeTop_m = -0.395;
 
-// Hanging hair, from kHairRootZM: a bundle, or a curtain over the shoulder blades.
+// Hanging hair, from kHairRootZ_m: a bundle, or a curtain over the shoulder blades.
 constexpr Ellipse kShortHairProfile[] = {
     {0.0, -0.05, 0.030, 0.040}, {-0.02, -0.05, 0.034, 0.044}, {-0.05, -0.045, 0.02, 0.03}};
 constexpr Ellipse kPonytailProfile[] = {{0.02, -0.085, 0.012, 0.012},  {0.00, -0.105, 0.026, 0.024},
@@ -59,7 +59,7 @@ constexpr Ellipse kLongHairProfile[] = {
 constexpr int kPartTexels = 256;
 constexpr double kPartTexelsDown = 250.0;  ///< from the first ellipse to the last
 
-/// The surface through the ellipses; its texture goes once around and once down.
+/// The surface through the ellipses; the texture covers it once around and once down.
 Mesh rounded(std::span<const Ellipse> profile) {
   constexpr int kSegments = 12;
   const double height_m = profile.front().z_m - profile.back().z_m;
@@ -88,12 +88,12 @@ double part_z_m(std::span<const Ellipse> profile, int y_texel) {
   return profile.front().z_m - (profile.front().z_m - profile.back().z_m) * y_texel / kPartTexelsDown;
 }
 
-/// One tone with some irregularity.
+/// `grey` with random roughness.
 float uneven(float grey, double roughness, Random& random) {
   return std::clamp(grey + static_cast<float>(roughness * random.normal()), 2.f, 250.f);
 }
 
-/// Every texel of a part's surface by `grey(x, y)`, in rows.
+/// A texture with grey(x, y) at every texel, computed row by row.
 template <typename Grey>
 Texture surface(const Grey& grey) {
   Canvas canvas(kPartTexels, kPartTexels, 0.f);
@@ -108,7 +108,7 @@ Hair hair_style(const std::string& name) {
   if (name == "short") return Hair::Short;
   if (name == "ponytail") return Hair::Ponytail;
   if (name == "long") return Hair::Long;
-  throw Error("'" + name + "' is not a hair style (expected short, ponytail or long)");
+  throw Error("'" + name + "' (expected a hair style: short, ponytail or long)");
 }
 
 Mesh head_mesh() {
@@ -135,55 +135,55 @@ Mesh shin_mesh() {
   return rounded(kShinProfile);
 }
 
-Tones draw_tones(std::uint64_t seed) {
+PersonGreys random_greys(std::uint64_t seed) {
   Random random(seed);
-  Tones tones{};
-  tones.skin = static_cast<float>(random.uniform(85, 165));
-  tones.hair = static_cast<float>(random.uniform(30, 95));
-  tones.trousers = static_cast<float>(random.uniform(40, 100));
-  tones.shoes = static_cast<float>(random.uniform(20, 60));
-  return tones;
+  PersonGreys greys{};
+  greys.skin = static_cast<float>(random.uniform(85, 165));
+  greys.hair = static_cast<float>(random.uniform(30, 95));
+  greys.trousers = static_cast<float>(random.uniform(40, 100));
+  greys.shoes = static_cast<float>(random.uniform(20, 60));
+  return greys;
 }
 
-Texture head_surface(const Tones& tones, std::uint64_t seed) {
+Texture head_surface(const PersonGreys& greys, std::uint64_t seed) {
   Random random(seed);
   return surface([&](int x, int y) {
     const double hairline_m =
         0.735 + 0.06 * std::cos(2.0 * std::numbers::pi * x / kPartTexels) + 0.003 * random.normal();
     const double z_m = part_z_m(kHeadProfile, y);
-    if (z_m > hairline_m) return uneven(tones.hair, 12.0, random);
-    // Eyes and mouth, so that one sees at a glance who looks this way: the front is at x = 0.
+    if (z_m > hairline_m) return uneven(greys.hair, 12.0, random);
+    // Eyes and mouth show which way the person faces: the front is at x = 0.
     const int from_front = std::min(x, kPartTexels - x);
     const bool eye = std::abs(from_front - 15) < 5 && std::abs(z_m - 0.745) < 0.007;
     const bool mouth = from_front < 12 && std::abs(z_m - 0.685) < 0.005;
-    return uneven(eye || mouth ? 0.4f * tones.skin : tones.skin, 2.0, random);
+    return uneven(eye || mouth ? 0.4f * greys.skin : greys.skin, 2.0, random);
   });
 }
 
-Texture hair_surface(const Tones& tones, std::uint64_t seed) {
+Texture hair_surface(const PersonGreys& greys, std::uint64_t seed) {
   Random random(seed);
-  // Strands: the same across all rows, but for a little noise.
+  // Strands: each column has one grey level, with a little noise.
   std::array<float, kPartTexels> strand{};
-  for (float& grey : strand) grey = uneven(tones.hair, 10.0, random);
+  for (float& grey : strand) grey = uneven(greys.hair, 10.0, random);
   return surface([&](int x, int /*y*/) { return uneven(strand[static_cast<std::size_t>(x)], 4.0, random); });
 }
 
-Texture arm_surface(const Tones& tones, const Canvas& shirt, std::uint64_t seed) {
+Texture arm_surface(const PersonGreys& greys, const Canvas& shirt, std::uint64_t seed) {
   Random random(seed);
   // The sleeve is cut from the cloth beside the back: about 1000 texels a metre both ways.
   constexpr double kTexelsAround = 320.0 / kPartTexels;
   const double texels_down = kShirtTexelsPerM * (part_z_m(kArmProfile, 0) - part_z_m(kArmProfile, 1));
   return surface([&](int x, int y) {
-    if (part_z_m(kArmProfile, y) <= kSleeveEnd_m) return uneven(tones.skin, 2.0, random);
+    if (part_z_m(kArmProfile, y) <= kSleeveEnd_m) return uneven(greys.skin, 2.0, random);
     return shirt.at(static_cast<int>(x * kTexelsAround), 600 + static_cast<int>(y * texels_down));
   });
 }
 
-Texture leg_surface(const Tones& tones, std::uint64_t seed) {
+Texture leg_surface(const PersonGreys& greys, std::uint64_t seed) {
   Random random(seed);
   return surface([&](int /*x*/, int y) {
-    return part_z_m(kShinProfile, y) > kShoeTop_m ? uneven(tones.trousers, 6.0, random)
-                                                  : uneven(tones.shoes, 3.0, random);
+    return part_z_m(kShinProfile, y) > kShoeTop_m ? uneven(greys.trousers, 6.0, random)
+                                                  : uneven(greys.shoes, 3.0, random);
   });
 }
 

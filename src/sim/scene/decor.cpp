@@ -17,25 +17,25 @@ void fill_box(Canvas& canvas, double x, double y, double width, double height, f
   });
 }
 
-float any_grey(Random& random) {
+float random_grey(Random& random) {
   return static_cast<float>(random.uniform(25, 235));
 }
 
-/// A sheet with a frame, some lines of "text" and a few figures on it.
-void sheet(Canvas& canvas, double x, double y, double width, double height, Random& random) {
+/// A sheet of paper with a frame, a few shapes and some lines of "text".
+void draw_sheet(Canvas& canvas, double x, double y, double width, double height, Random& random) {
   const bool dark = random.uniform() < 0.35;
   const float paper = static_cast<float>(dark ? random.uniform(30, 90) : random.uniform(170, 240));
   const float ink = static_cast<float>(dark ? random.uniform(170, 230) : random.uniform(20, 90));
   fill_box(canvas, x, y, width, height, ink);
   const double edge = 0.03 * std::min(width, height) + 1;
   fill_box(canvas, x + edge, y + edge, width - 2 * edge, height - 2 * edge, paper);
-  const int figures = 2 + random.index(5);
-  for (int i = 0; i < figures; ++i) {
+  const int shapes = 2 + random.index(5);
+  for (int i = 0; i < shapes; ++i) {
     const double radius = random.uniform(0.05, 0.2) * std::min(width, height);
     const double cx = random.uniform(x + radius + edge, x + width - radius - edge);
     const double cy = random.uniform(y + radius + edge, y + 0.6 * height);
     const bool ring = random.uniform() < 0.4;
-    paint(canvas, box_around(cx, cy, radius), random.uniform() < 0.5 ? ink : any_grey(random),
+    paint(canvas, box_around(cx, cy, radius), random.uniform() < 0.5 ? ink : random_grey(random),
           [&](int px, int py) {
             const double r = length(px - cx, py - cy);
             return ring ? std::abs(r - 0.75 * radius) - 0.25 * radius : r - radius;
@@ -52,17 +52,17 @@ void sheet(Canvas& canvas, double x, double y, double width, double height, Rand
   }
 }
 
-/// Rows of spines of uneven width, height and grey.
-void spines(Canvas& canvas, double x, double y, double width, double height, double row, Random& random) {
+/// Rows of book spines of random width, height and grey.
+void draw_books(Canvas& canvas, double x, double y, double width, double height, double row, Random& random) {
   fill_box(canvas, x, y, width, height, 40.f);
   for (double ty = y + 2; ty + row <= y + height; ty += row) {
     double tx = x + 3;
     while (tx < x + width - 14) {
       const double spine = random.uniform(4, 13);
       const double tall = row * random.uniform(0.6, 0.92);
-      fill_box(canvas, tx, ty + row - tall, spine - 1, tall - 3, any_grey(random));
+      fill_box(canvas, tx, ty + row - tall, spine - 1, tall - 3, random_grey(random));
       if (random.uniform() < 0.6)
-        fill_box(canvas, tx + 1, ty + row - 0.8 * tall, spine - 3, 3, any_grey(random));
+        fill_box(canvas, tx + 1, ty + row - 0.8 * tall, spine - 3, 3, random_grey(random));
       tx += spine;
     }
   }
@@ -105,13 +105,14 @@ Canvas draw_wall(std::uint64_t seed) {
       x += 190;
     } else if (kind < 0.45) {  // a shelf
       const double width = random.uniform(150, 350);
-      spines(canvas, x, 140, width, 350, random.uniform(40, 60), random);
+      draw_books(canvas, x, 140, width, 350, random.uniform(40, 60), random);
       x += width + 25;
-    } else if (kind < 0.9) {  // a poster or two
+    } else if (kind < 0.9) {  // one or two posters
       const double width = random.uniform(60, 170);
       const double height = random.uniform(80, 190);
-      sheet(canvas, x, random.uniform(90, 200), width, height, random);
-      if (random.uniform() < 0.5) sheet(canvas, x + 5, random.uniform(395, 410), width * 0.7, 70, random);
+      draw_sheet(canvas, x, random.uniform(90, 200), width, height, random);
+      if (random.uniform() < 0.5)
+        draw_sheet(canvas, x + 5, random.uniform(395, 410), width * 0.7, 70, random);
       x += width + random.uniform(10, 50);
     } else {
       x += random.uniform(30, 120);
@@ -141,8 +142,8 @@ Canvas draw_crate(std::uint64_t seed) {
     y += board;
   }
   for (int i = 0; i < 7; ++i)
-    sheet(canvas, random.uniform(0, 400), random.uniform(0, 400), random.uniform(50, 110),
-          random.uniform(50, 110), random);
+    draw_sheet(canvas, random.uniform(0, 400), random.uniform(0, 400), random.uniform(50, 110),
+               random.uniform(50, 110), random);
   for (int i = 0; i < 120; ++i) {
     const double x = random.uniform(0, 512);
     const double y = random.uniform(0, 512);
@@ -155,7 +156,7 @@ Canvas draw_crate(std::uint64_t seed) {
 Canvas draw_shelf(std::uint64_t seed) {
   Random random(seed);
   Canvas canvas(512, 512, 60.f);
-  spines(canvas, 0, 0, 512, 512, 64, random);
+  draw_books(canvas, 0, 0, 512, 512, 64, random);
   add_grain(canvas, 4.0, random);
   return canvas;
 }
@@ -164,8 +165,8 @@ Canvas draw_screen(std::uint64_t seed) {
   Random random(seed);
   Canvas canvas(512, 512, static_cast<float>(random.uniform(90, 150)));
   for (int i = 0; i < 22; ++i)
-    sheet(canvas, random.uniform(0, 420), random.uniform(0, 400), random.uniform(50, 120),
-          random.uniform(60, 140), random);
+    draw_sheet(canvas, random.uniform(0, 420), random.uniform(0, 400), random.uniform(50, 120),
+               random.uniform(60, 140), random);
   add_grain(canvas, 4.0, random);
   return canvas;
 }

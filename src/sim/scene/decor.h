@@ -1,4 +1,4 @@
-// Pictures for floors, walls, boxes and screens, drawn by formula.
+// Procedural textures for floors, walls, boxes and screens.
 #pragma once
 
 #include <cstdint>

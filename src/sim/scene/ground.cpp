@@ -8,7 +8,7 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kHalfBase_m = 0.125;  ///< P3-AT: wheels 0.25 m apart along, 0.40 m across
+constexpr double kHalfBase_m = 0.125;  ///< P3-AT: axles 0.25 m apart, wheels of one axle 0.40 m
 constexpr double kHalfTrack_m = 0.20;
 
 }  // namespace
@@ -32,7 +32,7 @@ double Ground::height_m(double x_m, double y_m) const {
   return sum;
 }
 
-Stand Ground::stand(double x_m, double y_m, double heading_rad) const {
+GroundPose Ground::pose_at(double x_m, double y_m, double heading_rad) const {
   if (level_) return {};
   const double c = std::cos(heading_rad);
   const double s = std::sin(heading_rad);

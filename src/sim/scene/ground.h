@@ -1,4 +1,4 @@
-// Uneven ground under the wheels: a height for every place, and how the robot stands on it.
+// Uneven ground: its height at every place, and the pose of the robot on it.
 #pragma once
 
 #include <array>
@@ -6,8 +6,8 @@
 
 namespace heel::sim {
 
-/// How a robot on uneven ground stands, from level.
-struct Stand {
+/// The robot's deviation from a level floor.
+struct GroundPose {
   double lift_m = 0.0;
   double pitch_rad = 0.0;  ///< + nose up
   double roll_rad = 0.0;   ///< + left side up
@@ -15,12 +15,12 @@ struct Stand {
 
 class Ground {
  public:
-  /// `bump_m`: one standard deviation of the height; 0 is a level floor.
+  /// `bump_m`: standard deviation of the height; 0: a level floor.
   Ground(double bump_m, std::uint64_t seed);
 
   double height_m(double x_m, double y_m) const;
-  /// A robot on four wheels with its middle at (x, y).
-  Stand stand(double x_m, double y_m, double heading_rad) const;
+  /// Of a robot on four wheels with its centre at (x, y).
+  GroundPose pose_at(double x_m, double y_m, double heading_rad) const;
 
  private:
   struct Wave {

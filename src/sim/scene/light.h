@@ -1,4 +1,4 @@
-// Uneven indoor light: brighter and darker places, light from above and from a row of windows.
+// Uneven indoor light: bright and dark places, light from above and from a row of windows.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,16 +10,16 @@
 namespace heel::sim {
 
 struct LightSettings {
-  double level = 1.0;                ///< brightness of the picture; noise stays, so less is noisier
-  double unevenness = 0.35;          ///< 0: the same everywhere; 0.5: places half as bright again
-  double window_azimuth_rad = 0.9;   ///< where the windows are, seen from the middle of the room
-  std::vector<LightChange> changes;  ///< lamps that go out or on, for the whole room; in order of time
+  double level = 1.0;        ///< brightness; the noise does not change, so that a lower level is noisier
+  double unevenness = 0.35;  ///< 0: the same light everywhere; 0.5: from half the light to 1.5 times
+  double window_azimuth_rad = 0.9;   ///< direction of the windows from the middle of the room
+  std::vector<LightChange> changes;  ///< lamps switched off or on, for the whole room; in order of time
 };
 
 class Light {
  public:
   Light(const LightSettings& settings, std::uint64_t seed);
-  /// Irradiance of a surface: about `level` for a wall, more where the windows shine.
+  /// Irradiance of a surface: about `level` for a wall, more towards the windows.
   float at(const Eigen::Vector3f& position_m, const Eigen::Vector3f& normal) const;
 
  private:

@@ -1,4 +1,5 @@
-// Surfaces of the world: rigid bodies of textured triangles, and lit parallelograms that do not move.
+// Surfaces of the world: rigid bodies of textured triangles, and parallelograms that do not move, with their
+// light.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,7 +28,7 @@ struct Mesh {
   float texels_per_m = 1.f;
 };
 
-/// A flat piece of the room, in the world frame, lit once.
+/// A flat piece of the room in the world frame; its light is computed once.
 struct StaticFace {
   FaceShape shape = FaceShape::Parallelogram;
   std::array<Eigen::Vector3f, 3> corners_m;
@@ -38,8 +39,8 @@ struct StaticFace {
   float texels_per_m = 1.f;
 };
 
-/// A closed tube of rings × segments about the z axis with its ends left open.
-/// `ring(k, j)` gives the vertex of ring k (from the top) at segment j.
+/// A tube around the z axis with open ends. `ring(k, j)` gives the vertex of ring k (from the top) at segment
+/// j.
 template <typename Ring>
 Mesh tube(int rings, int segments, const Ring& ring) {
   Mesh mesh;

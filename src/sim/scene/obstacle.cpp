@@ -10,10 +10,9 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNoHit_m = std::numeric_limits<double>::infinity();
 
-/// Into the rectangle's own axes.
-Eigen::Vector2d turned(const Eigen::Vector2d& v, double angle_rad) {
+Eigen::Vector2d rotated(const Eigen::Vector2d& v, double angle_rad) {
   const double c = std::cos(angle_rad);
   const double s = std::sin(angle_rad);
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
@@ -23,9 +22,9 @@ double disc_ray_m(const Eigen::Vector2d& from, const Eigen::Vector2d& direction,
   const double ahead = -from.dot(direction);
   const double off2 = from.squaredNorm() - ahead * ahead;
   const double half2 = radius_m * radius_m - off2;
-  if (half2 < 0.0) return kNever;
+  if (half2 < 0.0) return kNoHit_m;
   const double exit = ahead + std::sqrt(half2);
-  return exit < 0.0 ? kNever : std::max(0.0, ahead - std::sqrt(half2));
+  return exit < 0.0 ? kNoHit_m : std::max(0.0, ahead - std::sqrt(half2));
 }
 
 }  // namespace
@@ -55,14 +54,14 @@ double Footprint::reach_m() const {
 
 double Footprint::ray_m(const Eigen::Vector2d& from_m, const Eigen::Vector2d& direction) const {
   if (radius_m > 0.0) return disc_ray_m(from_m - centre_m, direction, radius_m);
-  const Eigen::Vector2d from = turned(from_m - centre_m, -heading_rad);
-  const Eigen::Vector2d along = turned(direction, -heading_rad);
+  const Eigen::Vector2d from = rotated(from_m - centre_m, -heading_rad);
+  const Eigen::Vector2d along = rotated(direction, -heading_rad);
   const Eigen::Vector2d half(0.5 * length_m, 0.5 * width_m);
   double enter = 0.0;
-  double leave = kNever;
+  double leave = kNoHit_m;
   for (int axis = 0; axis < 2; ++axis) {
     if (std::abs(along[axis]) < 1e-12) {
-      if (std::abs(from[axis]) > half[axis]) return kNever;
+      if (std::abs(from[axis]) > half[axis]) return kNoHit_m;
       continue;
     }
     const double a = (-half[axis] - from[axis]) / along[axis];
@@ -70,7 +69,7 @@ double Footprint::ray_m(const Eigen::Vector2d& from_m, const Eigen::Vector2d& di
     enter = std::max(enter, std::min(a, b));
     leave = std::min(leave, std::max(a, b));
   }
-  return enter <= leave ? enter : kNever;
+  return enter <= leave ? enter : kNoHit_m;
 }
 
 Eigen::Vector2d Footprint::nearest_m(const Eigen::Vector2d& point_m) const {
@@ -80,12 +79,12 @@ Eigen::Vector2d Footprint::nearest_m(const Eigen::Vector2d& point_m) const {
     return distance <= radius_m ? point_m : Eigen::Vector2d(centre_m + off * (radius_m / distance));
   }
   const Eigen::Vector2d half(0.5 * length_m, 0.5 * width_m);
-  const Eigen::Vector2d inside = turned(off, -heading_rad).cwiseMax(-half).cwiseMin(half);
-  return centre_m + turned(inside, heading_rad);
+  const Eigen::Vector2d inside = rotated(off, -heading_rad).cwiseMax(-half).cwiseMin(half);
+  return centre_m + rotated(inside, heading_rad);
 }
 
 double Footprint::in_cone_m(const Eigen::Vector2d& from_m, double axis_rad, double half_angle_rad) const {
-  // It is convex: its nearest part in the cone is its nearest of all or lies on an edge of the cone.
+  // The shape is convex: its nearest part in the cone is its nearest part of all, or on an edge of the cone.
   const Eigen::Vector2d to_nearest_m = nearest_m(from_m) - from_m;
   const double off_rad = wrap_angle_rad(std::atan2(to_nearest_m.y(), to_nearest_m.x()) - axis_rad);
   if (std::abs(off_rad) <= half_angle_rad) return to_nearest_m.norm();

@@ -1,4 +1,5 @@
-// Anti-aliased shapes on a canvas: each is a signed distance in texels, negative inside.
+// Draws anti-aliased shapes on a canvas. A shape is a function that gives the signed distance in texels,
+// negative inside.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@ struct Box2 {
   int x0, y0, x1, y1;  ///< [x0, x1) × [y0, y1)
 };
 
-/// Lays `grey` over every texel of `box` by the coverage of `distance(x, y)`, at the given opacity.
+/// Blends `grey` over the texels of `box` that the shape `distance(x, y)` covers, with the given opacity.
 template <typename Distance>
 void paint(Canvas& canvas, const Box2& box, float grey, const Distance& distance, float opacity = 1.f) {
   for (int y = box.y0; y < box.y1; ++y)
@@ -22,8 +23,9 @@ void paint(Canvas& canvas, const Box2& box, float grey, const Distance& distance
       canvas.blend(x, y, grey, opacity * static_cast<float>(0.5 - distance(x, y)));
 }
 
-/// Adds `strength` × a standard normal to every texel. The normals come from a table, read from a new place
-/// every row: drawing them one by one would take most of a world's start.
+/// Adds normally distributed noise of standard deviation `strength` to every texel. Each row reads the noise
+/// from another place of a table, because computing it for every texel would take most of the time to make a
+/// world.
 inline void add_grain(Canvas& canvas, double strength, Random& random) {
   constexpr std::size_t kSamples = 1 << 14;
   std::vector<float> normals(kSamples);
@@ -44,12 +46,12 @@ inline Box2 box_around(double x, double y, double radius) {
   return {cx - r, cy - r, cx + r + 1, cy + r + 1};
 }
 
-/// std::hypot without its care for overflow, which costs most of the drawing.
+/// std::hypot without its protection against overflow, which would take most of the drawing time.
 inline double length(double x, double y) {
   return std::sqrt(x * x + y * y);
 }
 
-/// Signed distance of a rectangle of half sides (hx, hy) about the origin, in its own axes.
+/// Signed distance to a rectangle with half sides (hx, hy) around the origin.
 inline double rectangle_distance(double x, double y, double hx, double hy) {
   const double dx = std::abs(x) - hx;
   const double dy = std::abs(y) - hy;

@@ -11,27 +11,27 @@ namespace {
 
 constexpr double kHipHeight_m = 0.92;
 constexpr double kSeatedHipHeight_m = 0.54;
-constexpr double kShoulderZM = 0.515;  ///< above the hips
-constexpr double kArmPivotYM = 0.213;
-constexpr double kHipJointYM = 0.095;
-constexpr double kHipJointZM = -0.02;
-constexpr double kSwing_rad = 0.38;       ///< arms and thighs, either way
-constexpr double kKnee_rad = 0.75;        ///< of the leg that swings forwards
+constexpr double kShoulderZ_m = 0.515;  ///< above the hips
+constexpr double kArmPivotY_m = 0.213;
+constexpr double kHipJointY_m = 0.095;
+constexpr double kHipJointZ_m = -0.02;
+constexpr double kSwing_rad = 0.38;       ///< of arms and thighs, to each side
+constexpr double kKnee_rad = 0.75;        ///< bend of the knee that swings forwards
 constexpr double kSeatedThigh_rad = 1.5;  ///< nearly level
-constexpr double kRisingLean_rad = 0.45;  ///< half way down to the seat or up from it
-constexpr double kBreathsPerS = 0.25;
+constexpr double kRisingLean_rad = 0.45;  ///< when half seated
+constexpr double kBreathRate_hz = 0.25;
 
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// A limb's frame: hanging from (0, y, z) of its parent, swung forwards and outwards (to +y).
+/// The frame of a limb that hangs from (0, y, z) of its parent, swung forwards and outwards (to +y).
 Isometry3d hanging(const Isometry3d& parent, double y_m, double z_m, double forward_rad, double outward_rad) {
   return parent * Eigen::Translation3d(0.0, y_m, z_m) * AngleAxisd(-forward_rad, Vector3d::UnitY()) *
          AngleAxisd(outward_rad, Vector3d::UnitX());
 }
 
-/// The leg of one side; `phase` is where it stands in its stride: it swings forwards over the first half.
+/// Poses the leg of one side; `phase` is that of its stride: the leg swings forwards during the first half.
 void set_leg(PersonPose& pose, const Isometry3d& hips, bool left, double phase, double ahead, double aside) {
   const double seat = pose.walk.seat;
   const double side = left ? 1.0 : -1.0;
@@ -42,17 +42,17 @@ void set_leg(PersonPose& pose, const Isometry3d& hips, bool left, double phase, 
       ahead * swing + 0.35 * kKnee_rad * lift * std::abs(ahead) + seat * kSeatedThigh_rad;
   const double knee_rad =
       kKnee_rad * lift * (std::abs(ahead) + 0.5 * std::abs(aside)) + seat * kSeatedThigh_rad;
-  const Isometry3d thigh = hanging(hips, side * kHipJointYM, kHipJointZM, thigh_rad, side * 0.02 + spread);
+  const Isometry3d thigh = hanging(hips, side * kHipJointY_m, kHipJointZ_m, thigh_rad, side * 0.02 + spread);
   pose.world_from_part[left ? kLeftThigh : kRightThigh] = thigh;
   pose.world_from_part[left ? kLeftShin : kRightShin] = hanging(thigh, 0.0, -kThighLength_m, -knee_rad, 0.0);
 }
 
 }  // namespace
 
-Person::Person(const PersonSettings& settings, std::uint64_t seed, std::uint64_t shirt_seed, Detail detail)
+Person::Person(const PersonSettings& settings, std::uint64_t seed, std::uint64_t shirt_seed, WorldUse use)
     : settings_(settings), torso_(settings.depth) {
-  if (detail == Detail::TruthOnly) return;  // poses and the middle of the back need no surface
-  const Tones tones = draw_tones(derived_seed(seed, 0x50));
+  if (use == WorldUse::TruthOnly) return;
+  const PersonGreys greys = random_greys(derived_seed(seed, 0x50));
   const Canvas shirt = draw_shirt(settings.shirt, shirt_seed);
   textures_.reserve(5);
   const auto surface = [this](Texture texture) {
@@ -60,10 +60,10 @@ Person::Person(const PersonSettings& settings, std::uint64_t seed, std::uint64_t
     return &textures_.back();
   };
   const Texture* print = surface(Texture(shirt));
-  const Texture* head = surface(head_surface(tones, derived_seed(seed, 0x52)));
-  const Texture* hair = surface(hair_surface(tones, derived_seed(seed, 0x55)));
-  const Texture* arm = surface(arm_surface(tones, shirt, derived_seed(seed, 0x53)));
-  const Texture* legs = surface(leg_surface(tones, derived_seed(seed, 0x54)));
+  const Texture* head = surface(head_surface(greys, derived_seed(seed, 0x52)));
+  const Texture* hair = surface(hair_surface(greys, derived_seed(seed, 0x55)));
+  const Texture* arm = surface(arm_surface(greys, shirt, derived_seed(seed, 0x53)));
+  const Texture* legs = surface(leg_surface(greys, derived_seed(seed, 0x54)));
   torso_.set_texture(*print);
   meshes_[kTorso] = torso_.at_rest();
   const auto set = [this](PersonPart part, Mesh mesh, const Texture* texture) {
@@ -82,27 +82,27 @@ Person::Person(const PersonSettings& settings, std::uint64_t seed, std::uint64_t
 }
 
 PersonPose Person::pose(const WalkState& walk, double clock_s) const {
-  // The gait fades in with speed, so that a standing person stands.
-  const double vigour = std::clamp(walk.speed_m_s / 0.35, 0.0, 1.0);
-  const double ahead = vigour * std::cos(walk.travel_rad);
-  const double aside = vigour * std::sin(walk.travel_rad);
+  // The gait grows with the speed, so that a standing person does not move.
+  const double gait = std::clamp(walk.speed_m_s / 0.35, 0.0, 1.0);
+  const double ahead = gait * std::cos(walk.travel_rad);
+  const double aside = gait * std::sin(walk.travel_rad);
   const double stride = walk.stride_rad;
-  const double side_m = vigour * settings_.sway_side_m * std::sin(stride);
-  const double bob_m = vigour * settings_.bob_m * std::cos(2.0 * stride);
-  const double yaw = walk.heading_rad + vigour * settings_.sway_yaw_rad * std::sin(stride + 0.6);
-  const double roll = vigour * settings_.sway_roll_rad * std::cos(stride);
+  const double side_m = gait * settings_.sway_side_m * std::sin(stride);
+  const double bob_m = gait * settings_.bob_m * std::cos(2.0 * stride);
+  const double yaw = walk.heading_rad + gait * settings_.sway_yaw_rad * std::sin(stride + 0.6);
+  const double roll = gait * settings_.sway_roll_rad * std::cos(stride);
   const double lean = ahead * settings_.lean_rad * (1.0 + 0.3 * std::sin(2.0 * stride)) +
                       kRisingLean_rad * std::sin(std::numbers::pi * walk.seat);
   const double swing = ahead * kSwing_rad * std::sin(stride);
-  const double breathing = 2.0 * std::numbers::pi * kBreathsPerS * clock_s;
+  const double breathing = 2.0 * std::numbers::pi * kBreathRate_hz * clock_s;
 
   PersonPose pose;
   pose.walk = walk;
   pose.cloth.ripple_m = settings_.cloth_ripple_m;
   pose.cloth.ripple_rad = stride + breathing;
   pose.cloth.breath_m = settings_.breath_m * (0.5 - 0.5 * std::cos(breathing));
-  pose.cloth.slide_around_m = vigour * settings_.cloth_slide_m * std::sin(stride - 0.4);
-  pose.cloth.slide_up_m = 0.6 * vigour * settings_.cloth_slide_m * std::cos(2.0 * stride);
+  pose.cloth.slide_around_m = gait * settings_.cloth_slide_m * std::sin(stride - 0.4);
+  pose.cloth.slide_up_m = 0.6 * gait * settings_.cloth_slide_m * std::cos(2.0 * stride);
 
   const double back_m = kSeatBehindFeet_m * walk.seat;
   const double c = std::cos(walk.heading_rad);
@@ -114,11 +114,11 @@ PersonPose Person::pose(const WalkState& walk, double clock_s) const {
       upright * AngleAxisd(lean, Vector3d::UnitY()) * AngleAxisd(roll, Vector3d::UnitX());
   pose.world_from_part[kTorso] = torso;
   pose.world_from_part[kHead] = torso;
-  // Hair hangs from the back of the head and lags behind the sway.
-  pose.world_from_part[kHair] = hanging(torso, 0.0, kHairRootZM, 0.0, 0.12 * vigour * std::sin(stride - 0.5));
+  // The hair hangs from the back of the head and follows the sway with a delay.
+  pose.world_from_part[kHair] = hanging(torso, 0.0, kHairRootZ_m, 0.0, 0.12 * gait * std::sin(stride - 0.5));
   const double rest = 0.7 * walk.seat;  // hands on the knees
-  pose.world_from_part[kLeftArm] = hanging(torso, kArmPivotYM, kShoulderZM, swing + rest, 0.07);
-  pose.world_from_part[kRightArm] = hanging(torso, -kArmPivotYM, kShoulderZM, rest - swing, -0.07);
+  pose.world_from_part[kLeftArm] = hanging(torso, kArmPivotY_m, kShoulderZ_m, swing + rest, 0.07);
+  pose.world_from_part[kRightArm] = hanging(torso, -kArmPivotY_m, kShoulderZ_m, rest - swing, -0.07);
   // The left leg is foremost when the left arm is rearmost.
   const double phase = stride - 0.5 * std::numbers::pi;
   set_leg(pose, upright, true, phase + std::numbers::pi, ahead, aside);

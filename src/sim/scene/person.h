@@ -1,4 +1,4 @@
-// A person: a torso in a printed shirt, head, hair, swinging arms and legs, moved by the gait.
+// A person: torso in a printed shirt, head, hair, arms and legs, all moved by the gait.
 #pragma once
 
 #include <array>
@@ -6,29 +6,30 @@
 #include <vector>
 
 #include "sim/scene/body_parts.h"
-#include "sim/scene/detail.h"
 #include "sim/scene/mesh.h"
 #include "sim/scene/shirts.h"
 #include "sim/scene/torso.h"
 #include "sim/scene/walk.h"
+#include "sim/scene/world_use.h"
 
 namespace heel::sim {
 
 struct PersonSettings {
   ShirtDesign shirt = ShirtDesign::Bold;
   Hair hair = Hair::Short;
-  double depth = 1.0;  ///< from chest to back, beside the usual body: a flat back 0.75, a round one 1.3
-  double sway_yaw_rad = 0.09;  ///< the back turns this far either way with each stride (paper: within 10°)
+  double depth =
+      1.0;  ///< from chest to back, relative to the average body: 0.75 has a flat back, 1.3 a round one
+  double sway_yaw_rad = 0.09;  ///< the back turns this far to each side with each stride (paper: within 10°)
   double sway_side_m = 0.02;
   double sway_roll_rad = 0.025;
   double bob_m = 0.012;
   double lean_rad = 0.03;         ///< forwards while walking
-  double cloth_ripple_m = 0.003;  ///< folds that run over the shirt with the gait
+  double cloth_ripple_m = 0.003;  ///< height of the folds that move over the shirt with the gait
   double cloth_slide_m = 0.003;   ///< how far the cloth slides over the back with each stride
-  double breath_m = 0.002;        ///< how far the back comes out with each breath
+  double breath_m = 0.002;        ///< how far the back moves outwards with each breath
 };
 
-/// Bodies move rigidly, but for the cloth of the torso.
+/// The parts are rigid bodies, except for the cloth of the torso.
 enum PersonPart : int {
   kTorso,
   kHead,
@@ -50,23 +51,23 @@ struct PersonPose {
 
 class Person {
  public:
-  /// `seed` is of the body, `shirt_seed` of the print: two with the same print wear the same shirt.
-  /// Without pictures the surfaces bear no texture.
+  /// `seed` determines the body, `shirt_seed` the print of the shirt. With WorldUse::TruthOnly there are no
+  /// textures and no meshes but the torso's.
   Person(const PersonSettings& settings, std::uint64_t seed, std::uint64_t shirt_seed,
-         Detail detail = Detail::Pictures);
+         WorldUse use = WorldUse::Rendering);
   Person(const Person&) = delete;  // meshes point at the textures
   Person(Person&&) = default;
 
-  /// `clock_s` runs always (breathing), the walk only while walking.
+  /// `clock_s` is the world's time, for breathing.
   PersonPose pose(const WalkState& walk, double clock_s) const;
 
   /// A part's surface in its own frame; the torso's with its cloth at rest.
   const Mesh& mesh(PersonPart part) const { return meshes_[static_cast<std::size_t>(part)]; }
   const Torso& torso() const { return torso_; }
 
-  /// Middle of the back on the bare surface, torso frame: the point the truth speaks of.
+  /// Middle of the back on the surface without cloth, torso frame: the point whose place is the truth.
   Eigen::Vector3d back_centre_m() const { return torso_.back_centre_m(); }
-  /// A point of the shirt by its cloth coordinates (texels), on the tessellated surface, torso frame.
+  /// The point of the shirt at texture coordinates (s, t), on the triangles of the surface, torso frame.
   Eigen::Vector3d shirt_point_m(double s_texel, double t_texel, const ClothState& cloth = {}) const {
     return torso_.shirt_point_m(s_texel, t_texel, cloth);
   }
@@ -78,10 +79,10 @@ class Person {
   std::array<Mesh, kPersonParts> meshes_;
 };
 
-/// Nothing of a person is farther from the axis through their feet than this, nor higher.
-inline constexpr double kPersonReachM = 0.75;
-inline constexpr double kPersonHeightM = 1.85;
-/// What a sonar hears and a bumper meets of a person.
-inline constexpr double kPersonRadiusM = 0.22;
+/// Bounds of a person: the largest distance from the vertical axis through the feet, and the height.
+inline constexpr double kPersonReach_m = 0.75;
+inline constexpr double kPersonHeight_m = 1.85;
+/// The person's radius for sonars and bumpers.
+inline constexpr double kPersonRadius_m = 0.22;
 
 }  // namespace heel::sim

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "core/random.h"
-#include "sim/render/jpeg_channel.h"
+#include "sim/render/jpeg_round_trip.h"
 #include "sim/scene/world.h"
 
 namespace heel::sim {
@@ -14,10 +13,11 @@ namespace {
 
 constexpr int kRoomBody = 0;
 constexpr int kFirstPersonBody = 1;
-constexpr float kNothingGrey = 120.f;  ///< where no surface is: only possible outside the room
+constexpr float kBackgroundGrey =
+    120.f;  ///< where there is no surface, which is only possible outside the room
 
-int body_of(std::size_t figure, int part) {
-  return kFirstPersonBody + static_cast<int>(figure) * kPersonParts + part;
+int body_of(std::size_t person, int part) {
+  return kFirstPersonBody + static_cast<int>(person) * kPersonParts + part;
 }
 
 }  // namespace
@@ -36,8 +36,8 @@ Renderer::Renderer(const World& world, int threads)
 
 Renderer::Moment Renderer::moment(const RobotMotion& robot, double t_s, double offset_s) const {
   Moment out{world_.world_from_camera(moved(robot, offset_s)).inverse(), {}};
-  for (std::size_t i = 0; i < world_.figures().size(); ++i)
-    out.people.push_back(world_.figure_pose(i, t_s + offset_s));
+  for (std::size_t i = 0; i < world_.people().size(); ++i)
+    out.people.push_back(world_.pose_of(i, t_s + offset_s));
   return out;
 }
 
@@ -61,21 +61,21 @@ void Renderer::draw_still(const PersonPose& target, const Eigen::Isometry3d& vie
   const Moment still{view_from_world, {target}};
   Exposure exposure;
   exposure.exposure_ms = world_.scenario().camera.sensor.exposure_ms;
-  // A frame number no run reaches: the noise of the reference is not that of a frame.
+  // A frame number that no run reaches, so that no frame has the same noise as the reference view.
   draw({still, still, still, still, still}, exposure, std::numeric_limits<std::uint32_t>::max(), grey);
 }
 
 void Renderer::draw(const Moments& moments, const Exposure& exposure, std::uint64_t frame,
                     std::vector<std::uint8_t>& grey) {
   rasteriser_.clear();
-  // Near things first: what lies behind them is then found hidden at once.
+  // The nearest things first: the depth test then rejects most of what is behind them.
   for (std::size_t i = 0; i < moments.now.people.size(); ++i) add_person(moments, i);
   add_room(moments);
-  rasteriser_.draw(kNothingGrey, radiance_);
+  rasteriser_.draw(kBackgroundGrey, radiance_);
   measure_motion(moments);
   sensor_.expose(radiance_, motion_, exposure, frame, grey);
   if (const int quality = world_.scenario().camera.jpeg_quality; quality > 0)
-    pass_through_jpeg(grey, rays_.camera.width_px, rays_.camera.height_px, quality);
+    jpeg_round_trip(grey, rays_.camera.width_px, rays_.camera.height_px, quality);
 }
 
 void Renderer::add_room(const Moments& moments) {
@@ -94,28 +94,28 @@ void Renderer::add_room(const Moments& moments) {
   }
 }
 
-/// Whether a tall ball about them reaches into the pyramid of rays.
-bool Renderer::may_be_seen(const PersonPose& person, const Eigen::Isometry3d& camera_from_world) const {
-  constexpr double kReach_m = 1.2;  // from the hips to whatever is farthest, and a little
+/// Whether a ball around the person reaches into the pyramid of the picture's rays.
+bool Renderer::may_be_visible(const PersonPose& person, const Eigen::Isometry3d& camera_from_world) const {
+  constexpr double kReach_m = 1.2;  // a little more than from the hips to the farthest part
   const Eigen::Vector3d hips = camera_from_world * person.world_from_part[kTorso].translation();
   const double x_max = static_cast<double>(rays_.x_max);
   return hips.z() > -kReach_m && std::abs(hips.x()) < x_max * hips.z() + kReach_m * std::hypot(1.0, x_max);
 }
 
-void Renderer::add_person(const Moments& moments, std::size_t figure) {
-  const PersonPose& pose = moments.now.people[figure];
-  if (!may_be_seen(pose, moments.now.camera_from_world)) return;
-  const Person& person = world_.figures()[figure].person;
-  add_part(person.torso().mesh(pose.cloth), kTorso, moments, figure);
+void Renderer::add_person(const Moments& moments, std::size_t index) {
+  const PersonPose& pose = moments.now.people[index];
+  if (!may_be_visible(pose, moments.now.camera_from_world)) return;
+  const Person& person = world_.people()[index].person;
+  add_part(person.torso().mesh(pose.cloth), kTorso, moments, index);
   for (int part = kTorso + 1; part < kPersonParts; ++part)
-    add_part(person.mesh(static_cast<PersonPart>(part)), static_cast<PersonPart>(part), moments, figure);
+    add_part(person.mesh(static_cast<PersonPart>(part)), static_cast<PersonPart>(part), moments, index);
 }
 
-void Renderer::add_part(const Mesh& mesh, PersonPart part, const Moments& moments, std::size_t figure) {
+void Renderer::add_part(const Mesh& mesh, PersonPart part, const Moments& moments, std::size_t index) {
   const auto camera_from_part = [&](const Moment& moment) -> Eigen::Isometry3d {
-    return moment.camera_from_world * moment.people[figure].world_from_part[part];
+    return moment.camera_from_world * moment.people[index].world_from_part[part];
   };
-  const Eigen::Isometry3f to_world = moments.now.people[figure].world_from_part[part].cast<float>();
+  const Eigen::Isometry3f to_world = moments.now.people[index].world_from_part[part].cast<float>();
   const Eigen::Isometry3f to_camera = camera_from_part(moments.now).cast<float>();
   const Eigen::Matrix4f shift =
       (camera_from_part(moments.last_row).matrix() - camera_from_part(moments.first_row).matrix())
@@ -127,28 +127,32 @@ void Renderer::add_part(const Mesh& mesh, PersonPart part, const Moments& moment
                         world_.light().at(to_world * vertex.position_m, to_world.linear() * vertex.normal)});
     if (rolls) corners_.back().shift_m = (shift * vertex.position_m.homogeneous()).head<3>();
   }
-  rasteriser_.add_mesh(corners_, mesh.triangles, {mesh.texture, mesh.texels_per_m, body_of(figure, part)});
+  rasteriser_.add_mesh(corners_, mesh.triangles, {mesh.texture, mesh.texels_per_m, body_of(index, part)});
 }
 
-/// Image motion of what each block shows: the surface point at its middle, carried along with its body.
-void Renderer::measure_motion(const Moments& moments) {
-  // To where it is when the shutter opens and closes, from the camera frame in the middle.
-  std::vector<std::pair<Eigen::Isometry3f, Eigen::Isometry3f>> carried;
+/// For each body, the camera frames when the shutter opens and closes, from the camera frame in the middle.
+std::vector<Renderer::ShutterMotion> Renderer::body_motions(const Moments& moments) {
+  std::vector<ShutterMotion> motions;
   const Eigen::Isometry3d world_from_camera = moments.now.camera_from_world.inverse();
-  const auto carry = [&](const Eigen::Isometry3d& to_opening, const Eigen::Isometry3d& to_closing) {
-    carried.emplace_back(to_opening.cast<float>(), to_closing.cast<float>());
+  const auto add = [&](const Eigen::Isometry3d& to_opening, const Eigen::Isometry3d& to_closing) {
+    motions.push_back({to_opening.cast<float>(), to_closing.cast<float>()});
   };
-  carry(moments.opens.camera_from_world * world_from_camera,
-        moments.closes.camera_from_world * world_from_camera);
+  add(moments.opens.camera_from_world * world_from_camera,
+      moments.closes.camera_from_world * world_from_camera);
   for (std::size_t i = 0; i < moments.now.people.size(); ++i)
     for (std::size_t part = 0; part < kPersonParts; ++part) {
       const Eigen::Isometry3d part_from_camera =
           moments.now.people[i].world_from_part[part].inverse() * world_from_camera;
-      carry(
-          moments.opens.camera_from_world * moments.opens.people[i].world_from_part[part] * part_from_camera,
+      add(moments.opens.camera_from_world * moments.opens.people[i].world_from_part[part] * part_from_camera,
           moments.closes.camera_from_world * moments.closes.people[i].world_from_part[part] *
               part_from_camera);
     }
+  return motions;
+}
+
+/// Image motion of each block: that of the surface point in its middle, which moves with its body.
+void Renderer::measure_motion(const Moments& moments) {
+  const std::vector<ShutterMotion> motions = body_motions(moments);
   const auto fx = static_cast<float>(rays_.camera.fx);
   const auto fy = static_cast<float>(rays_.camera.fy);
   for (int by = 0; by < motion_.blocks_y; ++by) {
@@ -163,7 +167,7 @@ void Renderer::measure_motion(const Moments& moments) {
       const auto pixel = static_cast<std::size_t>(y) * rays_.camera.width_px + x;
       const float z = 1.f / inverse_depth;
       const Eigen::Vector3f point(rays_.x[pixel] * z, rays_.y[pixel] * z, z);
-      const auto& [to_opening, to_closing] = carried[static_cast<std::size_t>(rasteriser_.body(x, y))];
+      const auto& [to_opening, to_closing] = motions[static_cast<std::size_t>(rasteriser_.body(x, y))];
       const Eigen::Vector3f a = to_opening * point;
       const Eigen::Vector3f b = to_closing * point;
       if (a.z() < 0.05f || b.z() < 0.05f) continue;

@@ -23,8 +23,8 @@ double distance_to_walk(const FloorPlan& plan, const Eigen::Vector2d& point) {
 }  // namespace
 
 Room::Room(const RoomSettings& settings, const FloorPlan& plan, const Light& light, double window_azimuth_rad,
-           std::uint64_t seed, Detail detail)
-    : light_(light), detail_(detail) {
+           std::uint64_t seed, WorldUse use)
+    : light_(light), use_(use) {
   Eigen::Vector2d low = plan.walked_m.front();
   Eigen::Vector2d high = low;
   for (const Eigen::Vector2d& point : plan.walked_m) {
@@ -40,7 +40,7 @@ Room::Room(const RoomSettings& settings, const FloorPlan& plan, const Light& lig
   high.array() += settings.margin_m;
   add_shell(low, high, derived_seed(seed, 0x21));
   add_windows(settings, low, high, window_azimuth_rad);
-  add_placed(plan, derived_seed(seed, 0x23));
+  add_obstacles(plan, derived_seed(seed, 0x23));
   add_objects(settings, plan, low, high, derived_seed(seed, 0x22));
 }
 
@@ -70,8 +70,8 @@ void Room::add_rectangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& r
   }
 }
 
-const Texture& Room::surface(const std::function<Canvas()>& drawn) {
-  return textures_.emplace_back(detail_ == Detail::TruthOnly ? Canvas(1, 1, 0.f) : drawn());
+const Texture& Room::add_texture(const std::function<Canvas()>& draw) {
+  return textures_.emplace_back(use_ == WorldUse::TruthOnly ? Canvas(1, 1, 0.f) : draw());
 }
 
 void Room::add_block(const Block& block, const Texture& texture) {
@@ -82,7 +82,7 @@ void Room::add_block(const Block& block, const Texture& texture) {
   const Eigen::Vector3d down(0.0, 0.0, block.bottom_m - block.top_m);
   const Eigen::Vector3d half_along = 0.5 * block.length_m * along;
   const Eigen::Vector3d half_left = 0.5 * block.width_m * left;
-  // Seen from outside, `right` runs counter-clockwise about the block.
+  // Seen from above, `right` goes counter-clockwise around the block.
   add_rectangle(top - half_along - half_left, 2.0 * half_along, down, texture, kTexelsPerM, {0, 0}, kPatch_m);
   add_rectangle(top + half_along - half_left, 2.0 * half_left, down, texture, kTexelsPerM, {170, 60},
                 kPatch_m);
@@ -100,7 +100,7 @@ void Room::add_block(const Block& block, const Texture& texture) {
         {block.centre_m, block.heading_rad, block.length_m, block.width_m, 0.0, block.top_m});
 }
 
-/// A prism of twelve sides.
+/// A prism with twelve sides.
 void Room::add_pole(const ObstacleSettings& pole, const Texture& texture) {
   constexpr int kSides = 12;
   constexpr double kTexelsPerM = 350.0;
@@ -118,9 +118,9 @@ void Room::add_pole(const ObstacleSettings& pole, const Texture& texture) {
   footprints_.push_back({{pole.x_m, pole.y_m}, 0.0, 0.0, 0.0, pole.radius_m, pole.height_m});
 }
 
-void Room::add_placed(const FloorPlan& plan, std::uint64_t seed) {
-  const Texture& plaster = surface([&] { return draw_plaster(derived_seed(seed, 1)); });
-  const Texture& crate = surface([&] { return draw_crate(derived_seed(seed, 2)); });
+void Room::add_obstacles(const FloorPlan& plan, std::uint64_t seed) {
+  const Texture& plaster = add_texture([&] { return draw_plaster(derived_seed(seed, 1)); });
+  const Texture& crate = add_texture([&] { return draw_crate(derived_seed(seed, 2)); });
   for (const ObstacleSettings& obstacle : plan.obstacles) {
     if (obstacle.kind == ObstacleKind::Pole) add_pole(obstacle, plaster);
     for (const Block& block : blocks_of(obstacle))
@@ -131,20 +131,20 @@ void Room::add_placed(const FloorPlan& plan, std::uint64_t seed) {
               crate);
 }
 
-/// A row of windows, evenly along the wall that faces the azimuth.
+/// A row of windows, evenly spaced along the wall in the direction of the azimuth.
 void Room::add_windows(const RoomSettings& settings, const Eigen::Vector2d& low, const Eigen::Vector2d& high,
                        double azimuth_rad) {
   if (settings.windows <= 0) return;
   constexpr double kWidth_m = 1.6, kHeight_m = 1.3, kTop_m = 2.4, kBeforeWall_m = 0.02;
-  const Texture& texture = surface([&] { return draw_window(); });
+  const Texture& texture = add_texture([&] { return draw_window(); });
   const double c = std::cos(azimuth_rad);
   const double s = std::sin(azimuth_rad);
-  const bool along_y = std::abs(c) >= std::abs(s);  // the wall runs along y
+  const bool along_y = std::abs(c) >= std::abs(s);  // the wall's direction
   const double wall = along_y ? (c > 0 ? high.x() - kBeforeWall_m : low.x() + kBeforeWall_m)
                               : (s > 0 ? high.y() - kBeforeWall_m : low.y() + kBeforeWall_m);
   const double from = along_y ? low.y() : low.x();
   const double to = along_y ? high.y() : high.x();
-  // Seen from the room, to the right.
+  // To the right as seen from inside.
   const Eigen::Vector3d right =
       along_y ? Eigen::Vector3d(0, c > 0 ? -1 : 1, 0) : Eigen::Vector3d(s > 0 ? 1 : -1, 0, 0);
   const std::size_t first = faces_.size();
@@ -161,20 +161,20 @@ void Room::add_windows(const RoomSettings& settings, const Eigen::Vector2d& low,
 
 void Room::add_shell(const Eigen::Vector2d& low, const Eigen::Vector2d& high, std::uint64_t seed) {
   const Eigen::Vector2d size = high - low;
-  const Texture& floor = surface([&] { return draw_floor(derived_seed(seed, 1)); });
-  const Texture& ceiling = surface([&] { return draw_ceiling(derived_seed(seed, 2)); });
+  const Texture& floor = add_texture([&] { return draw_floor(derived_seed(seed, 1)); });
+  const Texture& ceiling = add_texture([&] { return draw_ceiling(derived_seed(seed, 2)); });
   add_rectangle({low.x(), high.y(), 0.0}, {size.x(), 0, 0}, {0, -size.y(), 0}, floor, 256.0, {0, 0},
                 kPatch_m);
   add_rectangle({low.x(), low.y(), kCeiling_m}, {size.x(), 0, 0}, {0, size.y(), 0}, ceiling, 100.0, {0, 0},
                 kPatch_m);
-  // The walls face inwards: `right` runs clockwise about the room.
+  // The walls face inwards: `right` goes clockwise around the room.
   const Eigen::Vector3d down(0, 0, -kCeiling_m);
   const std::array<Eigen::Vector3d, 4> corners{{{low.x(), low.y(), kCeiling_m},
                                                 {low.x(), high.y(), kCeiling_m},
                                                 {high.x(), high.y(), kCeiling_m},
                                                 {high.x(), low.y(), kCeiling_m}}};
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Texture& wall = surface([&] { return draw_wall(derived_seed(seed, 10 + i)); });
+    const Texture& wall = add_texture([&] { return draw_wall(derived_seed(seed, 10 + i)); });
     add_rectangle(corners[i], corners[(i + 1) % 4] - corners[i], down, wall, 512.0 / kCeiling_m, {0, 0},
                   kPatch_m);
   }
@@ -192,12 +192,12 @@ void Room::add_objects(const RoomSettings& settings, const FloorPlan& plan, cons
   Random random(seed);
   std::vector<const Texture*> crates, shelves, screens;
   for (int i = 0; i < 3; ++i) {
-    crates.push_back(&surface([&] { return draw_crate(derived_seed(seed, 20 + i)); }));
-    shelves.push_back(&surface([&] { return draw_shelf(derived_seed(seed, 30 + i)); }));
-    screens.push_back(&surface([&] { return draw_screen(derived_seed(seed, 40 + i)); }));
+    crates.push_back(&add_texture([&] { return draw_crate(derived_seed(seed, 20 + i)); }));
+    shelves.push_back(&add_texture([&] { return draw_shelf(derived_seed(seed, 30 + i)); }));
+    screens.push_back(&add_texture([&] { return draw_screen(derived_seed(seed, 40 + i)); }));
   }
   int placed = 0;
-  // A crowded plan may have no room for all of them: the tries are bounded.
+  // The number of tries is limited: a crowded room may not have space for all objects.
   for (int tries = 0; tries < 50 * settings.objects && placed < settings.objects; ++tries) {
     const Eigen::Vector2d centre(random.uniform(low.x() + 0.6, high.x() - 0.6),
                                  random.uniform(low.y() + 0.6, high.y() - 0.6));

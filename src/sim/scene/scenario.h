@@ -1,5 +1,6 @@
-// A scenario file (TOML): who walks where, in what, in what light, before which camera on which robot.
-// tools/heel-sim/scenarios/README.md lists every key. Same file, same seed: same run, to the bit.
+// Scenario files (TOML): the walks of all people, their clothes, the room, its light, the camera and the
+// robot. tools/heel-sim/scenarios/README.md lists every key. The same file and seed give the same run to the
+// bit.
 #pragma once
 
 #include <cstdint>
@@ -19,25 +20,27 @@
 namespace heel::sim {
 
 struct ScenarioCamera {
-  std::string source = "sim";  ///< "sim", or "file:VIDEO": frames come from there and no world is drawn
+  std::string source = "sim";  ///< "sim", or "file:VIDEO": frames come from a file and there is no world
   CameraModel model;
   double rate_hz = 30.0;
-  // The optical centre in the robot frame.
+  // Place of the optical centre in the robot frame, and the camera's attitude.
   double mount_x_m = 0.15;
   double mount_y_m = 0.0;
   double mount_z_m = 1.1;
-  double mount_pitch_rad = 0.0;  ///< + looks up
-  double mount_roll_rad = 0.0;   ///< + lowers the right side: an error of mounting, heel does not know of it
-  double readout_ms = 0.0;       ///< rolling shutter: from the first row's exposure to the last's; 0: global
-  int jpeg_quality = 0;  ///< 1…100: frames go through JPEG, as a Motion-JPEG camera's do; 0: they do not
+  double mount_pitch_rad = 0.0;  ///< positive: the camera looks up
+  double mount_roll_rad =
+      0.0;  ///< positive: the right side is lower; a mounting error, not in heel's configuration
+  double readout_ms =
+      0.0;               ///< rolling shutter: from the first row's exposure to the last's; 0: global shutter
+  int jpeg_quality = 0;  ///< 1…100: frames are compressed as by a Motion-JPEG camera; 0: they are not
   SensorSettings sensor;
   ExposureSettings exposure;
   FrameTimingSettings timing;
 };
 
-/// A patch of floor on which the robot turns with another track: slip by surface.
+/// A rectangle of floor with another slip: there the robot turns with another track.
 struct FloorPatch {
-  double x_m = 0.0;  ///< its middle
+  double x_m = 0.0;  ///< its centre
   double y_m = 0.0;
   double length_m = 0.0;  ///< along x
   double width_m = 0.0;   ///< along y
@@ -48,36 +51,36 @@ struct ScenarioRobot {
   double x_m = 0.0;
   double y_m = 0.0;
   double heading_rad = 0.0;
-  double true_track_m = 0.62;  ///< what it truly turns with on this floor; the firmware believes 0.588
+  double true_track_m = 0.62;  ///< track with which the robot turns on this floor; the firmware assumes 0.588
   double left_scale_error = -0.002;
   double right_scale_error = 0.002;
-  std::vector<FloorPatch> patches;  ///< the first that holds the robot's centre counts
+  std::vector<FloorPatch> patches;  ///< the first that contains the robot's centre is used
   std::vector<std::string> faults;  ///< "KIND@START[+DURATION][=AMOUNT]", as for heel-sim --fault
 };
 
-/// Where a passer-by's shirt comes from.
+/// Which shirt a passer-by wears.
 enum class ShirtOrigin : std::uint8_t {
-  Own,          ///< `person.shirt`, printed for them alone
-  Same,         ///< the very shirt the target wears
-  SameColours,  ///< the target's design and greys, another print
+  Own,          ///< design `person.shirt`, with a print of its own
+  Same,         ///< the target's shirt
+  SameColours,  ///< the target's design and grey levels, with another print
 };
 
-/// Somebody else.
+/// A person who is not the target.
 struct PasserbySettings {
   PersonSettings person;
   ShirtOrigin shirt_origin = ShirtOrigin::Own;
   WalkState start;
   std::vector<WalkItem> path;
-  double walk_after_s = 0.0;  ///< after the target set off
+  double walk_after_s = 0.0;  ///< start of the walk, after that of the target
 };
 
 struct Scenario {
   std::string name;
-  std::string shows;  ///< one line: what this scenario is hard by
+  std::string shows;  ///< one line: what makes this scenario difficult
   std::uint64_t seed = 1;
   double duration_s = 60.0;
-  double walk_after_s = 2.0;        ///< the person sets off this long after the robot's motors came on
-  double vision_latency_ms = 25.0;  ///< lock step: from the end of the exposure to the pose
+  double walk_after_s = 2.0;        ///< start of the target's walk, after the robot's motors are switched on
+  double vision_latency_ms = 25.0;  ///< in lock step: from the end of the exposure to the pose
   WalkState person_start;
   std::vector<WalkItem> path;
   PersonSettings person;
@@ -89,7 +92,7 @@ struct Scenario {
   ScenarioRobot robot;
 };
 
-/// The simulator's camera when a scenario names no other: 640 × 480, 60° across, moderate barrel distortion.
+/// The camera of scenarios that name no other: 640 × 480, 60° wide, moderate barrel distortion.
 CameraModel default_camera_model();
 
 /// Throws heel::Error: "FILE:LINE:COLUMN: KEY: what was found (what was expected)".

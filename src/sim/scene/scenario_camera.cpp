@@ -1,4 +1,4 @@
-// The camera of a scenario: lens, mount, shutter, sensor, and the way of its frames.
+// The section [camera]: lens, mount, shutter, sensor and frame timing.
 #include <filesystem>
 
 #include "files/camera_info.h"
@@ -7,8 +7,8 @@
 namespace heel::sim {
 namespace {
 
-/// A name in a scenario is relative to the scenario's own folder.
-std::string beside(const std::string& scenario_path, const std::string& name) {
+/// A relative path in a scenario starts at the scenario's folder.
+std::string resolved_path(const std::string& scenario_path, const std::string& name) {
   const std::filesystem::path path(name);
   return path.is_absolute() ? name : (std::filesystem::path(scenario_path).parent_path() / path).string();
 }
@@ -16,8 +16,8 @@ std::string beside(const std::string& scenario_path, const std::string& name) {
 CameraModel read_model(TomlSection& camera, const std::string& path) {
   if (camera.has("info")) {
     for (const char* key : {"width_px", "height_px", "focal_px", "centre_px", "distortion"})
-      if (camera.has(key)) camera.fail(key, "given beside camera.info (expected one or the other)");
-    return read_camera_model(beside(path, camera.text("info", "")));
+      if (camera.has(key)) camera.fail(key, "given together with camera.info (expected one of the two)");
+    return read_camera_model(resolved_path(path, camera.text("info", "")));
   }
   CameraModel model = default_camera_model();
   model.width_px = static_cast<int>(camera.integer("width_px", model.width_px, 16, 4096));
@@ -71,9 +71,9 @@ void read_timing(TomlSection& camera, FrameTimingSettings& t) {
 void read_camera(TomlSection camera, const std::string& path, ScenarioCamera& out) {
   out.source = camera.text("source", out.source);
   if (out.source.starts_with("file:"))
-    out.source = "file:" + beside(path, out.source.substr(5));
+    out.source = "file:" + resolved_path(path, out.source.substr(5));
   else if (out.source != "sim")
-    camera.fail("source", "'" + out.source + "' is not a source (expected sim or file:VIDEO)");
+    camera.fail("source", "'" + out.source + "' (expected sim or file:VIDEO)");
   out.model = read_model(camera, path);
   out.rate_hz = camera.number("rate_hz", out.rate_hz, {1, 240, "Hz"});
   out.mount_x_m = camera.number("mount_x_m", out.mount_x_m, {-2, 2, "m"});

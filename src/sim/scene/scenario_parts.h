@@ -1,15 +1,14 @@
-// The parts of a scenario file, a reader for each. All throw heel::Error placed in the file.
+// Readers for the sections of a scenario file. All throw heel::Error with the place in the file.
 #pragma once
 
-#include <numbers>
 #include <string>
 
+#include "core/angles.h"
 #include "sim/scene/scenario.h"
 #include "toml/toml_section.h"
 
 namespace heel::sim {
 
-inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 inline constexpr NumberRange kMetres{-1000, 1000, "m"};
 inline constexpr NumberRange kTurn_deg{-720, 720, "deg"};
 inline constexpr NumberRange kShare{0, 1, ""};

@@ -1,4 +1,4 @@
-// Who walks where, in what: the target and the passers-by.
+// The sections [person] and [[passerby]]: walks and clothes.
 #include <cmath>
 
 #include "heel/error.h"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr NumberRange kLength{0, 1000, "m"};
 
-/// What each kind of step needs. False: there is no such step.
+/// Reads the keys of one kind of step; false when there is no such kind.
 bool read_step(const std::string& step, TomlSection& item, WalkItem& out) {
   if (step == "straight" || step == "back") {
     out.step = step == "back" ? WalkStep::Back : WalkStep::Straight;
@@ -46,8 +46,7 @@ WalkItem read_walk_item(TomlSection& item) {
   WalkItem out;
   const std::string step = item.text("step", "");
   if (!read_step(step, item, out))
-    item.fail("step",
-              "'" + step + "' is not a step (expected straight, arc, to, pause, turn, aside, back or sit)");
+    item.fail("step", "'" + step + "' (expected straight, arc, to, pause, turn, aside, back or sit)");
   const bool moves = out.step != WalkStep::Pause && out.step != WalkStep::Turn && out.step != WalkStep::Sit;
   if (moves) out.speed_m_s = item.number("speed_m_s", out.speed_m_s, {0.05, 3, "m/s"});
   item.reject_unknown_keys();

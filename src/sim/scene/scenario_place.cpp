@@ -1,4 +1,4 @@
-// Where it happens: room, light, obstacles, the robot and its floor.
+// The sections [room], [light], [[obstacle]] and [robot].
 #include "sim/scene/scenario_parts.h"
 
 namespace heel::sim {
@@ -49,7 +49,7 @@ void read_light(TomlSection light, LightSettings& out) {
     const LightChange next{change.required_number("at_s", {0, 86400, "s"}),
                            change.required_number("level", {0.01, 10, ""})};
     if (!out.changes.empty() && next.t_s <= out.changes.back().t_s)
-      change.fail("at_s", "not after the change before (expected them in order of time)");
+      change.fail("at_s", "not after the change before it (expected an order by time)");
     change.reject_unknown_keys();
     out.changes.push_back(next);
   }
@@ -76,7 +76,7 @@ ObstacleSettings read_obstacle(TomlSection obstacle) {
     out.width_m = obstacle.number("width_m", box ? out.width_m : 0.12, kSize);
     out.height_m = obstacle.number("height_m", box ? out.height_m : 2.99, kSize);
   } else {
-    obstacle.fail("kind", "'" + kind + "' is not an obstacle (expected pole, box, wall or doorway)");
+    obstacle.fail("kind", "'" + kind + "' (expected pole, box, wall or doorway)");
   }
   if (out.kind == ObstacleKind::Doorway) {
     out.opening_m = obstacle.number("opening_m", out.opening_m, {0.5, 100, "m"});

@@ -13,7 +13,7 @@
 namespace heel::sim {
 namespace {
 
-/// Fine irregularity of woven cloth: no print is perfectly even.
+/// The fine texture of woven cloth.
 void weave(Canvas& canvas, double strength, Random& random) {
   for (int y = 0; y < canvas.height(); ++y)
     for (int x = 0; x < canvas.width(); ++x)
@@ -21,7 +21,7 @@ void weave(Canvas& canvas, double strength, Random& random) {
   add_grain(canvas, strength, random);
 }
 
-/// One printed shape: disc, ring, bar, cross, triangle or angle, turned by `angle`.
+/// One printed shape: disc, ring, bar, cross, triangle or L, rotated by `angle`.
 void print_shape(Canvas& canvas, int kind, double cx, double cy, double radius, double angle, float grey) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
@@ -51,7 +51,7 @@ void print_shape(Canvas& canvas, int kind, double cx, double cy, double radius, 
   paint(canvas, box_around(cx, cy, 1.1 * radius), grey, distance);
 }
 
-/// Patches: each texel takes the grey of the nearest of a set of random centres.
+/// Patches: each texel has the grey level of the nearest of a set of random centres.
 void draw_patches(Canvas& canvas, int cell, double grey_low, double grey_high, Random& random) {
   struct Patch {
     double x, y;
@@ -78,7 +78,7 @@ void draw_patches(Canvas& canvas, int cell, double grey_low, double grey_high, R
     }
 }
 
-/// Shapes from large to small, dark on light and light on dark, over patches of two tones.
+/// Shapes from large to small, mostly dark on light and light on dark, over patches of grey.
 void draw_bold(Canvas& canvas, Random& random) {
   draw_patches(canvas, 150, 70, 175, random);
   constexpr struct {
@@ -90,7 +90,7 @@ void draw_bold(Canvas& canvas, Random& random) {
       const double radius = random.uniform(layer.radius_low, layer.radius_high);
       const double x = random.uniform(0, canvas.width());
       const double y = random.uniform(0, canvas.height());
-      // Against what is there already, so that few shapes vanish.
+      // Mostly in contrast to the grey below, so that few shapes are invisible.
       const int ground_x = std::clamp(static_cast<int>(x), 0, canvas.width() - 1);
       const int ground_y = std::clamp(static_cast<int>(y), 0, canvas.height() - 1);
       const bool light =
@@ -100,7 +100,7 @@ void draw_bold(Canvas& canvas, Random& random) {
     }
 }
 
-/// A sum of smooth waves, cut into three tones with edges a centimetre soft.
+/// A sum of smooth waves, quantised to three grey levels with edges a centimetre wide.
 void draw_blobs(Canvas& canvas, Random& random) {
   struct Wave {
     double kx, ky, phase;
@@ -122,9 +122,9 @@ void draw_blobs(Canvas& canvas, Random& random) {
     }
 }
 
-/// Two figures of seven bars each, as on a clock, and a bar over them, in the middle of the back.
+/// Two seven-segment digits and a bar above them, in the middle of the back.
 void draw_jersey(Canvas& canvas, Random& random) {
-  constexpr double kBar = 14, kHalfWidth = 45, kHalfHeight = 50;  // a figure of two squares
+  constexpr double kBar = 14, kHalfWidth = 45, kHalfHeight = 50;  // a digit consists of two squares
   const auto bar = [&](double x, double y, double half_x, double half_y) {
     paint(canvas, box_around(x, y, std::max(half_x, half_y) + 4), 225.f,
           [&](int px, int py) { return rectangle_distance(px - x, py - y, half_x, half_y); });
@@ -185,9 +185,10 @@ ShirtDesign shirt_design(const std::string& name) {
   if (name == "fine_check") return ShirtDesign::FineCheck;
   if (name == "plain") return ShirtDesign::Plain;
   if (name == "marked") return ShirtDesign::Marked;
-  throw Error("'" + name +
-              "' is not a shirt design (expected bold, mosaic, blobs, jersey, dotted, striped, "
-              "fine_check, plain or marked)");
+  throw Error(
+      "'" + name +
+      "' (expected a shirt design: bold, mosaic, blobs, jersey, dotted, striped, fine_check, plain or "
+      "marked)");
 }
 
 ShirtMark shirt_mark(int index) {

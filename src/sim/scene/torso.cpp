@@ -10,8 +10,8 @@
 namespace heel::sim {
 namespace {
 
-// Half width (y) and half depth (x) by height over the hips: collar, slope of the shoulders, shoulder blades,
-// waist, hips.
+// Half width (y) and half depth (x) by height above the hips: collar, shoulders, shoulder blades, waist,
+// hips.
 struct Profile {
   double z_m, half_width_m, half_depth_m;
 };
@@ -22,13 +22,13 @@ constexpr Profile kProfile[] = {{0.620, 0.062, 0.060}, {0.595, 0.098, 0.072}, {0
 constexpr int kProfileCount = static_cast<int>(std::size(kProfile));
 constexpr double kTop_m = kProfile[0].z_m;
 constexpr double kBottom_m = kProfile[kProfileCount - 1].z_m;
-constexpr double kBackCentreZM = 0.28;
+constexpr double kBackCentreZ_m = 0.28;
 constexpr int kRings = 26;
 constexpr int kSegments = 48;
 /// A back is flatter than an ellipse: |x/a|^n + |y/b|^n = 1.
 constexpr double kExponent = 2.3;
 
-/// Cubic through four values at even steps, between the second and the third (Catmull–Rom).
+/// Catmull–Rom interpolation of four values at equal steps, between the second and the third.
 double between(double p0, double p1, double p2, double p3, double f) {
   return p1 + 0.5 * f * (p2 - p0 + f * (2 * p0 - 5 * p1 + 4 * p2 - p3 + f * (3 * (p1 - p2) + p3 - p0)));
 }
@@ -45,8 +45,8 @@ Profile profile_at(double z_m) {
           between(a.half_depth_m, b.half_depth_m, c.half_depth_m, d.half_depth_m, f)};
 }
 
-/// Point of the surface; `around` 0…1 from the middle of the chest over the person's left, the middle of the
-/// back (0.5), and the right; of a body so many times as deep as the usual one.
+/// A point of the surface. `around` goes from the middle of the chest (0) over the person's left to the
+/// middle of the back (0.5), and over the right to 1.
 Eigen::Vector3d surface_point(double around, double z_m, double depth) {
   const Profile profile = profile_at(z_m);
   const double angle = 2.0 * std::numbers::pi * around;
@@ -57,14 +57,16 @@ Eigen::Vector3d surface_point(double around, double z_m, double depth) {
           profile.half_width_m * power(std::sin(angle)), z_m};
 }
 
-/// Segment edges at equal steps along the outline, so that the print is not stretched at the sides.
+/// `around` of the segments' edges at equal steps along the outline, so that the print is not stretched at
+/// the sides.
 std::vector<double> equal_steps_around(double depth) {
   constexpr int kFine = 4096;
   std::vector<double> length{0.0};
   for (int i = 1; i <= kFine; ++i)
-    length.push_back(length.back() + (surface_point(static_cast<double>(i) / kFine, kBackCentreZM, depth) -
-                                      surface_point(static_cast<double>(i - 1) / kFine, kBackCentreZM, depth))
-                                         .norm());
+    length.push_back(length.back() +
+                     (surface_point(static_cast<double>(i) / kFine, kBackCentreZ_m, depth) -
+                      surface_point(static_cast<double>(i - 1) / kFine, kBackCentreZ_m, depth))
+                         .norm());
   std::vector<double> around;
   std::size_t at = 0;
   for (int j = 0; j <= kSegments; ++j) {
@@ -75,18 +77,18 @@ std::vector<double> equal_steps_around(double depth) {
   return around;
 }
 
-/// 0 at the collar, which holds the cloth, 1 from the shoulder blades down.
-float freedom(float z_m) {
+/// How freely the cloth moves: 0 at the collar, which holds it, 1 from the shoulder blades down.
+float cloth_freedom(float z_m) {
   return std::clamp((0.60f - z_m) / 0.15f, 0.f, 1.f);
 }
 
 void deform(MeshVertex& vertex, const ClothState& cloth) {
   const float z = vertex.position_m.z();
   const float y = vertex.position_m.y();
-  const float free = freedom(z);
+  const float free = cloth_freedom(z);
   const auto ripple = static_cast<float>(cloth.ripple_m) * free;
   const auto phase = static_cast<float>(cloth.ripple_rad);
-  // Folds run aslant.
+  // The folds are diagonal.
   const float fold =
       std::sin(22.f * z + 9.f * y + phase) + 0.6f * std::sin(14.f * z - 17.f * y - 0.7f * phase);
   const float slope = std::cos(22.f * z + 9.f * y + phase);
@@ -99,14 +101,14 @@ void deform(MeshVertex& vertex, const ClothState& cloth) {
   vertex.t_texel += static_cast<float>(kShirtTexelsPerM * cloth.slide_up_m) * free;
 }
 
-/// Three vertices of a mesh and the weights of a point among them.
-struct Place {
+/// A point of a mesh: three vertices and their weights.
+struct MeshPoint {
   std::array<std::size_t, 3> vertices;
   std::array<double, 3> weights;
 };
 
-/// `column` and `row` count segments and rings. A cell is two triangles: upper left and lower right.
-Place place_at(double column, double row) {
+/// `column` and `row` count segments and rings. A cell consists of two triangles: upper left and lower right.
+MeshPoint mesh_point_at(double column, double row) {
   const double c = std::clamp(column, 0.0, kSegments - 1e-9);
   const double r = std::clamp(row, 0.0, kRings - 1 - 1e-9);
   const int j = static_cast<int>(c);
@@ -146,7 +148,7 @@ Mesh Torso::mesh(const ClothState& cloth) const {
 }
 
 Eigen::Vector3d Torso::back_centre_m() const {
-  return surface_point(0.5, kBackCentreZM, depth_);
+  return surface_point(0.5, kBackCentreZ_m, depth_);
 }
 
 Eigen::Vector3d Torso::shirt_point_m(double s_texel, double t_texel, const ClothState& cloth) const {
@@ -155,18 +157,19 @@ Eigen::Vector3d Torso::shirt_point_m(double s_texel, double t_texel, const Cloth
   double column = s_texel * columns_per_texel;
   double row = t_texel * rows_per_texel;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  // Where the slid cloth shows this texel: the slide is small and even, so that a few steps are exact.
+  // Searches the place where the moved cloth has this texel: the movement is small and smooth, so that a few
+  // steps are exact.
   for (int i = 0; i < 8; ++i) {
-    const Place place = place_at(column, row);
+    const MeshPoint at = mesh_point_at(column, row);
     double s = 0.0;
     double t = 0.0;
     point.setZero();
     for (std::size_t n = 0; n < 3; ++n) {
-      MeshVertex vertex = mesh_.vertices[place.vertices[n]];
+      MeshVertex vertex = mesh_.vertices[at.vertices[n]];
       deform(vertex, cloth);
-      point += place.weights[n] * vertex.position_m.cast<double>();
-      s += place.weights[n] * static_cast<double>(vertex.s_texel);
-      t += place.weights[n] * static_cast<double>(vertex.t_texel);
+      point += at.weights[n] * vertex.position_m.cast<double>();
+      s += at.weights[n] * static_cast<double>(vertex.s_texel);
+      t += at.weights[n] * static_cast<double>(vertex.t_texel);
     }
     column += (s_texel - s) * columns_per_texel;
     row += (t_texel - t) * rows_per_texel;

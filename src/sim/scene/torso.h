@@ -1,5 +1,5 @@
-// The torso in its shirt: a curved surface with shoulders that breathes, and cloth that ripples and slides on
-// it. Torso frame: x forwards, y to the person's left, z up; origin at the hips.
+// The torso in its shirt: a curved surface that breathes, and cloth that ripples and slides on it.
+// Torso frame: x forwards, y to the person's left, z up; origin at the hips.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,28 +8,29 @@
 
 namespace heel::sim {
 
-/// The shirt on the body at one moment.
+/// The state of the shirt at one moment.
 struct ClothState {
   double ripple_m = 0.0;        ///< height of the folds
   double ripple_rad = 0.0;      ///< their phase
-  double breath_m = 0.0;        ///< how far the ribs stand out
+  double breath_m = 0.0;        ///< how far the ribs are moved outwards
   double slide_around_m = 0.0;  ///< how far the cloth has slid on the body, towards the person's right
   double slide_up_m = 0.0;
 };
 
 class Torso {
  public:
-  /// Of a body so many times as deep, from chest to back, as the usual one.
+  /// `depth`: from chest to back, relative to the average body.
   explicit Torso(double depth);
 
-  /// The bare surface with the cloth at rest.
+  /// The surface with the cloth at rest.
   const Mesh& at_rest() const { return mesh_; }
   void set_texture(const Texture& texture) { mesh_.texture = &texture; }
   Mesh mesh(const ClothState& cloth) const;
 
-  /// Middle of the back on the bare surface.
+  /// Middle of the back on the surface without cloth.
   Eigen::Vector3d back_centre_m() const;
-  /// A point of the cloth by its texels, on the tessellated surface as `cloth` shapes it.
+  /// The point of the cloth at texture coordinates (s, t), on the triangles of the surface deformed by
+  /// `cloth`.
   Eigen::Vector3d shirt_point_m(double s_texel, double t_texel, const ClothState& cloth) const;
 
  private:

@@ -1,4 +1,4 @@
-// The columns of truth.csv that tell of person, camera and target; one table for real time and lock step.
+// Columns of the world's truth in CSV files, shared by runs in real time and in lock step.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ struct TruthColumn {
   double (*value)(const Truth& truth);
 };
 
-/// person_*, back_* and camera_* in the world frame; target_* as a perfect vision stage would report it.
+/// person_*, back_* and camera_*: world frame; target_*: as a perfect vision stage would report them.
 std::span<const TruthColumn> world_truth_columns();
 
 }  // namespace heel::sim

@@ -1,9 +1,10 @@
 #include "sim/scene/walk.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "heel/error.h"
 
@@ -11,11 +12,11 @@ namespace heel::sim {
 namespace {
 
 constexpr double kStep_s = 0.01;
-constexpr double kAccelerationM_S2 = 0.6;
+constexpr double kAcceleration_m_s2 = 0.6;
 
-constexpr double kSittingDown_s = 1.4;  ///< and as long to get up
+constexpr double kSittingDown_s = 1.4;  ///< the same time for standing up
 
-/// Where a leg ends when it begins at `from`.
+/// The state after `length_m` of a leg that begins at `from`.
 WalkState after(const WalkState& from, double length_m, double curvature_1_m, double travel_rad) {
   WalkState to = from;
   const double turn = length_m * curvature_1_m;
@@ -31,12 +32,12 @@ WalkState after(const WalkState& from, double length_m, double curvature_1_m, do
   return to;
 }
 
-/// From 0 to 1 with rest at both ends.
+/// From 0 to 1 with zero slope at both ends.
 double smooth(double share) {
   return 0.5 - 0.5 * std::cos(std::numbers::pi * share);
 }
 
-/// Steps come faster with speed, from about one a second at a stroll.
+/// The step rate grows with the speed, from about one step a second.
 double stride_rate_rad_s(double speed_m_s) {
   if (speed_m_s < 0.02) return 0.0;
   const double steps_per_s = 0.9 + 0.75 * speed_m_s;
@@ -45,7 +46,7 @@ double stride_rate_rad_s(double speed_m_s) {
 
 }  // namespace
 
-/// A run of constant curvature at one speed, or a stop.
+/// A part of the walk with constant curvature and target speed, or a stop.
 struct Walk::Leg {
   double length_m = 0.0;
   double curvature_1_m = 0.0;
@@ -57,7 +58,7 @@ struct Walk::Leg {
   bool moving() const { return length_m > 0.0; }
 };
 
-/// An arc towards the waypoint's side, then the tangent to it.
+/// Adds an arc to the side of the waypoint, then a straight line along its tangent.
 void Walk::legs_to(const WalkState& from, const WalkItem& item, std::vector<Leg>& legs) {
   const double dx = item.x_m - from.x_m;
   const double dy = item.y_m - from.y_m;
@@ -71,9 +72,10 @@ void Walk::legs_to(const WalkState& from, const WalkItem& item, std::vector<Leg>
   const double lateral = std::abs(left);
   const double to_centre = std::hypot(ahead, lateral - item.radius_m);
   if (to_centre < item.radius_m)
-    throw Error("waypoint (" + std::to_string(item.x_m) + ", " + std::to_string(item.y_m) +
-                ") lies inside its own turning circle (expected a smaller radius_m)");
-  // Tangent point on the circle about (0, radius): the angle turned so far.
+    throw Error(
+        fmt::format("waypoint ({}, {}) is inside the circle of its own turn (expected a smaller radius_m)",
+                    item.x_m, item.y_m));
+  // The angle of the arc up to the tangent point, on the circle around (0, radius).
   const double centre_bearing = std::atan2(lateral - item.radius_m, ahead);
   const double turn = centre_bearing + std::asin(std::min(1.0, item.radius_m / to_centre));
   const double turned = turn < -1e-9 ? turn + 2.0 * std::numbers::pi : std::max(turn, 0.0);
@@ -131,7 +133,7 @@ Walk::Walk(const WalkState& start, const std::vector<WalkItem>& items) {
   samples_.push_back(start);
   const std::vector<Leg> legs = legs_of(start, items);
   for (std::size_t i = 0; i < legs.size(); ++i) {
-    // Who changes between ahead, aside and back stops in between.
+    // The person stops between walking ahead, aside and back.
     const bool goes_on =
         i + 1 < legs.size() && legs[i + 1].moving() && legs[i + 1].travel_rad == legs[i].travel_rad;
     const double end_speed = goes_on ? std::min(legs[i].speed_m_s, legs[i + 1].speed_m_s) : 0.0;
@@ -150,8 +152,8 @@ void Walk::move(const Leg& leg, double end_speed_m_s) {
   const double phase_sign = std::cos(leg.travel_rad) < -0.5 ? -1.0 : 1.0;
   while (leg.length_m - gone_m > 1e-9) {
     const double remaining = leg.length_m - gone_m;
-    const double braking = std::sqrt(end_speed_m_s * end_speed_m_s + 2.0 * kAccelerationM_S2 * remaining);
-    speed = std::min({speed + kAccelerationM_S2 * kStep_s, leg.speed_m_s, braking});
+    const double braking = std::sqrt(end_speed_m_s * end_speed_m_s + 2.0 * kAcceleration_m_s2 * remaining);
+    speed = std::min({speed + kAcceleration_m_s2 * kStep_s, leg.speed_m_s, braking});
     gone_m = std::min(leg.length_m, gone_m + std::max(speed, 0.01) * kStep_s);
     stride += phase_sign * stride_rate_rad_s(speed) * kStep_s;
     WalkState state = after(from, gone_m, leg.curvature_1_m, leg.travel_rad);

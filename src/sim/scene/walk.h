@@ -1,4 +1,4 @@
-// The path a person walks, as a table over time, and the gait that goes with it.
+// The walk of a person: place, heading and gait over time.
 // World frame: x, y on the floor, z up; headings counter-clockwise from +x.
 #pragma once
 
@@ -13,12 +13,12 @@ enum class WalkStep : std::uint8_t {
   To,
   Pause,
   Turn,
-  Aside,  ///< sideways, the back keeping its direction
+  Aside,  ///< sideways, without turning
   Back,   ///< backwards
-  Sit,    ///< down on a stool behind them, and up again at the end
+  Sit,    ///< sit down on a stool behind the person, and stand up at the end
 };
 
-/// One entry of a scenario's path. Only the fields of its kind are used.
+/// One step of a scenario's path. Only the fields of its kind are used.
 struct WalkItem {
   WalkStep step = WalkStep::Straight;
   double speed_m_s = 0.5;  ///< Straight, Arc, To, Aside, Back
@@ -33,36 +33,37 @@ struct WalkItem {
 struct WalkState {
   double x_m = 0.0;
   double y_m = 0.0;
-  double heading_rad = 0.0;  ///< continuous
-  double speed_m_s = 0.0;    ///< ≥ 0, in whatever direction
-  double stride_rad = 0.0;   ///< gait phase: 2π is two steps; runs back when walking backwards
-  double travel_rad = 0.0;   ///< direction of travel from the heading: 0 ahead, π/2 to the left, π back
-  double seat = 0.0;         ///< 0 standing … 1 seated
+  double heading_rad = 0.0;  ///< without jumps of 2π
+  double speed_m_s = 0.0;    ///< ≥ 0
+  double stride_rad = 0.0;   ///< phase of the gait: 2π is two steps; decreases when walking backwards
+  double travel_rad = 0.0;  ///< direction of travel relative to the heading: 0 ahead, π/2 to the left, π back
+  double seat = 0.0;        ///< 0 standing … 1 seated
 };
 
-/// Hips of a seated person stand this far behind their feet, over the middle of the stool.
+/// The hips of a seated person are this far behind the feet, above the middle of the stool.
 inline constexpr double kSeatBehindFeet_m = 0.40;
 inline constexpr double kStoolSide_m = 0.36;
 inline constexpr double kStoolHeight_m = 0.44;
 
-/// The floor under the middle of a stool, and the way its sitter faces.
+/// The place of a stool's centre, and the heading of the person who sits on it.
 struct StoolPlace {
   double x_m = 0.0;
   double y_m = 0.0;
   double heading_rad = 0.0;
 };
 
-/// Walks the items one after the other with bounded acceleration, braking in time for the next one's speed.
+/// Walks the items one after the other with limited acceleration, and brakes in time for the next one's
+/// speed.
 class Walk {
  public:
   /// Throws heel::Error when a waypoint lies inside its own turning circle.
   Walk(const WalkState& start, const std::vector<WalkItem>& items);
 
-  /// The state `t_s` after the walk began; before that the start, after the end the last.
+  /// The state `t_s` after the start of the walk; the first state before that, the last one after the end.
   WalkState at(double t_s) const;
   double duration_s() const;
   const std::vector<WalkState>& samples() const { return samples_; }
-  /// One for each Sit, in order.
+  /// One for each Sit item, in order.
   const std::vector<StoolPlace>& stools() const { return stools_; }
 
  private:

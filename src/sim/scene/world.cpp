@@ -1,6 +1,8 @@
-// What is true: who is where, what the camera model makes of it, what stands in between. Pictures are in
+// The truth: where everybody is, where the camera sees it, and what hides it. Pictures are drawn in
 // renderer.cpp.
 #include "sim/scene/world.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,38 +16,38 @@
 namespace heel::sim {
 namespace {
 
-FloorPlan plan_of(const Scenario& scenario, const std::deque<Figure>& figures) {
+FloorPlan plan_of(const Scenario& scenario, const std::deque<WalkingPerson>& people) {
   FloorPlan plan;
   plan.walked_m.emplace_back(scenario.robot.x_m, scenario.robot.y_m);
-  for (const Figure& figure : figures) {
-    const std::vector<WalkState>& samples = figure.walk.samples();
+  for (const WalkingPerson& person : people) {
+    const std::vector<WalkState>& samples = person.walk.samples();
     // Every tenth sample: some centimetres apart.
     for (std::size_t i = 0; i < samples.size(); i += 10)
       plan.walked_m.emplace_back(samples[i].x_m, samples[i].y_m);
-    const std::vector<StoolPlace>& stools = figure.walk.stools();
+    const std::vector<StoolPlace>& stools = person.walk.stools();
     plan.stools.insert(plan.stools.end(), stools.begin(), stools.end());
   }
   plan.obstacles = scenario.obstacles;
   return plan;
 }
 
-/// The target, then the passers-by. A part's seed depends on its place in the file only.
-std::deque<Figure> figures_of(const Scenario& scenario, Detail detail) {
+/// The target, then the passers-by. A passer-by's seed depends on the place in the file only.
+std::deque<WalkingPerson> people_of(const Scenario& scenario, WorldUse use) {
   const std::uint64_t target_seed = derived_seed(scenario.seed, 0x50);
   const std::uint64_t shirt_seed = derived_seed(target_seed, 0x51);
-  std::deque<Figure> figures;
-  figures.push_back({Person(scenario.person, target_seed, shirt_seed, detail),
-                     Walk(scenario.person_start, scenario.path), 0.0});
+  std::deque<WalkingPerson> people;
+  people.push_back({Person(scenario.person, target_seed, shirt_seed, use),
+                    Walk(scenario.person_start, scenario.path), 0.0});
   for (std::size_t i = 0; i < scenario.passers_by.size(); ++i) {
     const PasserbySettings& passerby = scenario.passers_by[i];
     const std::uint64_t seed = derived_seed(scenario.seed, 0x1000 + i);
     PersonSettings settings = passerby.person;
     if (passerby.shirt_origin != ShirtOrigin::Own) settings.shirt = scenario.person.shirt;
     const bool same = passerby.shirt_origin == ShirtOrigin::Same;
-    figures.push_back({Person(settings, seed, same ? shirt_seed : derived_seed(seed, 0x51), detail),
-                       Walk(passerby.start, passerby.path), passerby.walk_after_s});
+    people.push_back({Person(settings, seed, same ? shirt_seed : derived_seed(seed, 0x51), use),
+                      Walk(passerby.start, passerby.path), passerby.walk_after_s});
   }
-  return figures;
+  return people;
 }
 
 /// Columns are the camera's axes in the robot frame: x right, y down, z forwards.
@@ -66,40 +68,40 @@ RobotMotion moved(const RobotMotion& robot, double dt_s) {
   return out;
 }
 
-World::World(const Scenario& scenario, int threads, Detail detail)
+World::World(const Scenario& scenario, int threads, WorldUse use)
     : scenario_(scenario),
-      figures_(figures_of(scenario, detail)),
+      people_(people_of(scenario, use)),
       light_(scenario.light, scenario.seed),
-      room_(scenario.room, plan_of(scenario, figures_), light_, scenario.light.window_azimuth_rad,
-            derived_seed(scenario.seed, 0x20), detail),
+      room_(scenario.room, plan_of(scenario, people_), light_, scenario.light.window_azimuth_rad,
+            derived_seed(scenario.seed, 0x20), use),
       ground_(scenario.room.bump_m, derived_seed(scenario.seed, 0x30)),
       exposure_(scenario.camera.exposure, scenario.camera.sensor.exposure_ms, scenario.light.changes,
                 scenario.duration_s),
       view_(ray_bounds(scenario.camera.model)) {
-  if (detail == Detail::Pictures) renderer_ = std::make_unique<Renderer>(*this, threads);
+  if (use == WorldUse::Rendering) renderer_ = std::make_unique<Renderer>(*this, threads);
 }
 
 World::~World() = default;
 
 Eigen::Isometry3d World::world_from_camera(const RobotMotion& robot) const {
   const ScenarioCamera& camera = scenario_.camera;
-  const Stand stand = ground_.stand(robot.x_m, robot.y_m, robot.heading_rad);
+  const GroundPose ground_pose = ground_.pose_at(robot.x_m, robot.y_m, robot.heading_rad);
   Eigen::Isometry3d robot_from_camera = Eigen::Isometry3d::Identity();
   robot_from_camera.translation() << camera.mount_x_m, camera.mount_y_m, camera.mount_z_m;
-  // The camera's x axis points right: a positive turn about it lifts the view.
+  // The camera's x axis points right: a positive rotation about it turns the view upwards.
   robot_from_camera.linear() =
       robot_from_level_camera() * (Eigen::AngleAxisd(camera.mount_pitch_rad, Eigen::Vector3d::UnitX()) *
                                    Eigen::AngleAxisd(camera.mount_roll_rad, Eigen::Vector3d::UnitZ()))
                                       .toRotationMatrix();
-  return Eigen::Translation3d(robot.x_m, robot.y_m, stand.lift_m) *
+  return Eigen::Translation3d(robot.x_m, robot.y_m, ground_pose.lift_m) *
          Eigen::AngleAxisd(robot.heading_rad, Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(-stand.pitch_rad, Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(stand.roll_rad, Eigen::Vector3d::UnitX()) * robot_from_camera;
+         Eigen::AngleAxisd(-ground_pose.pitch_rad, Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(ground_pose.roll_rad, Eigen::Vector3d::UnitX()) * robot_from_camera;
 }
 
-PersonPose World::figure_pose(std::size_t figure, double t_s) const {
-  const Figure& who = figures_[figure];
-  return who.person.pose(who.walk.at(t_s - walk_start_s_ - who.walk_after_s), t_s);
+PersonPose World::pose_of(std::size_t index, double t_s) const {
+  const WalkingPerson& walker = people_[index];
+  return walker.person.pose(walker.walk.at(t_s - walk_start_s_ - walker.walk_after_s), t_s);
 }
 
 Eigen::Vector2d World::project_px(const Eigen::Vector3d& point_in_camera_m) const {
@@ -109,16 +111,18 @@ Eigen::Vector2d World::project_px(const Eigen::Vector3d& point_in_camera_m) cons
   return camera.distort_px(ideal);
 }
 
-bool World::seen_px(const RobotMotion& robot, double t_s,
-                    const std::function<Eigen::Vector3d(double t_s)>& point_m, Eigen::Vector2d& px) const {
+bool World::pixel_of_moving_point(const RobotMotion& robot, double t_s,
+                                  const std::function<Eigen::Vector3d(double t_s)>& point_m,
+                                  Eigen::Vector2d& px) const {
   const double readout_s = 1e-3 * scenario_.camera.readout_ms;
   const int rows = scenario_.camera.model.height_px - 1;
   double offset_s = 0.0;
-  // The row decides the time and the time the row; image motion over the readout is a few rows at most.
+  // The row depends on the time of its exposure, and the time on the row. The image moves by a few rows at
+  // most during the readout, so that a few steps find both.
   for (int i = 0; i < 6; ++i) {
     const Eigen::Vector3d in_camera =
         world_from_camera(moved(robot, offset_s)).inverse() * point_m(t_s + offset_s);
-    // Beyond the picture distortion means nothing.
+    // Distortion is not defined far outside the picture.
     if (in_camera.z() < 0.1 || std::abs(in_camera.x()) > view_.x_max * 1.2 * in_camera.z() ||
         std::abs(in_camera.y()) > view_.y_max * 1.2 * in_camera.z())
       return false;
@@ -141,7 +145,7 @@ Truth World::truth(const RobotMotion& robot, double t_s) const {
   const Eigen::Vector3d back_in_torso = this->person().back_centre_m();
   truth.back_m = world_from_torso * back_in_torso;
   truth.world_from_camera = world_from_camera(robot);
-  truth.stand = ground_.stand(robot.x_m, robot.y_m, robot.heading_rad);
+  truth.ground_pose = ground_.pose_at(robot.x_m, robot.y_m, robot.heading_rad);
   truth.exposure = exposure_.at(t_s);
   const Eigen::Isometry3d camera_from_world = truth.world_from_camera.inverse();
   truth.back_in_camera_m = camera_from_world * truth.back_m;
@@ -152,7 +156,7 @@ Truth World::truth(const RobotMotion& robot, double t_s) const {
     return at_s == t_s ? truth.back_m : person_pose(at_s).world_from_part[kTorso] * back_in_torso;
   };
   Eigen::Vector2d px;
-  if (seen_px(robot, t_s, back_at, px)) {
+  if (pixel_of_moving_point(robot, t_s, back_at, px)) {
     truth.back_px = px;
     const CameraModel& camera = scenario_.camera.model;
     truth.in_view = px.x() >= 0 && px.y() >= 0 && px.x() <= camera.width_px - 1 &&
@@ -163,9 +167,9 @@ Truth World::truth(const RobotMotion& robot, double t_s) const {
 
 std::vector<Footprint> World::people_footprints(double t_s) const {
   std::vector<Footprint> people;
-  for (std::size_t i = 0; i < figures_.size(); ++i) {
-    const Eigen::Vector3d at = figure_pose(i, t_s).world_from_part[kTorso].translation();
-    people.push_back({at.head<2>(), 0.0, 0.0, 0.0, kPersonRadiusM, kPersonHeightM});
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    const Eigen::Vector3d at = pose_of(i, t_s).world_from_part[kTorso].translation();
+    people.push_back({at.head<2>(), 0.0, 0.0, 0.0, kPersonRadius_m, kPersonHeight_m});
   }
   return people;
 }
@@ -173,14 +177,14 @@ std::vector<Footprint> World::people_footprints(double t_s) const {
 double World::range_m(double x_m, double y_m, double heading_rad, double t_s) const {
   const Eigen::Vector2d from(x_m, y_m);
   double nearest = std::numeric_limits<double>::infinity();
-  const auto hear = [&](const std::vector<Footprint>& things) {
+  const auto search = [&](const std::vector<Footprint>& things) {
     for (const Footprint& thing : things) {
       if ((thing.centre_m - from).norm() - thing.reach_m() > kSonarReach_m) continue;
       nearest = std::min(nearest, thing.in_cone_m(from, heading_rad, kSonarHalfBeam_rad));
     }
   };
-  hear(room_.footprints());
-  hear(people_footprints(t_s));
+  search(room_.footprints());
+  search(people_footprints(t_s));
   return nearest;
 }
 
@@ -191,12 +195,26 @@ bool World::occluded(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& point_
   const Eigen::Vector2d direction = (point_m.head<2>() - from) / distance;
   const auto hides = [&](const Footprint& thing) {
     const double at = thing.ray_m(from, direction);
-    // Where the line of sight comes in, it must be below the top.
+    // The line of sight must enter it below its top.
     return at < distance && eye_m.z() + (point_m.z() - eye_m.z()) * at / distance < thing.top_m;
   };
   if (std::any_of(room_.footprints().begin(), room_.footprints().end(), hides)) return true;
   const std::vector<Footprint> people = people_footprints(t_s);
-  return std::any_of(people.begin() + 1, people.end(), hides);  // not by themselves
+  return std::any_of(people.begin() + 1, people.end(), hides);  // the target does not hide itself
+}
+
+/// The part of the back to make a template of: between the outer edges of the shoulder blades, from below the
+/// collar to the waist.
+World::PixelBox World::back_region_px(const Eigen::Isometry3d& view_from_torso) const {
+  PixelBox box{Eigen::Vector2d(1e9, 1e9), Eigen::Vector2d(-1e9, -1e9)};
+  for (const double s : {-160.0, 0.0, 160.0})
+    for (const double t : {110.0, 340.0, 600.0}) {
+      const Eigen::Vector3d point = person().shirt_point_m(0.5 * kShirtWidthTexels + s, t);
+      const Eigen::Vector2d px = project_px(view_from_torso * point);
+      box.low = box.low.cwiseMin(px);
+      box.high = box.high.cwiseMax(px);
+    }
+  return box;
 }
 
 ReferenceView World::reference_view(double distance_m) {
@@ -210,26 +228,19 @@ ReferenceView World::reference_view(double distance_m) {
   world_from_view.translation().z() = scenario_.camera.mount_z_m;
   const Eigen::Isometry3d view_from_world = world_from_view.inverse();
 
-  // The region: the back between the shoulder blades' outer edges, from below the collar to the waist.
-  Eigen::Vector2d low(1e9, 1e9);
-  Eigen::Vector2d high(-1e9, -1e9);
-  for (const double s : {-160.0, 0.0, 160.0})
-    for (const double t : {110.0, 340.0, 600.0}) {
-      const Eigen::Vector3d point = person().shirt_point_m(0.5 * kShirtWidthTexels + s, t);
-      const Eigen::Vector2d px = project_px(view_from_world * world_from_torso * point);
-      low = low.cwiseMin(px);
-      high = high.cwiseMax(px);
-    }
+  const PixelBox back = back_region_px(view_from_world * world_from_torso);
   const CameraModel& model = scenario_.camera.model;
-  if (distance_m < 0.3 || low.x() < 0 || low.y() < 0 || high.x() > model.width_px - 1 ||
-      high.y() > model.height_px - 1)
-    throw Error("reference view at " + std::to_string(distance_m) +
-                " m: the back does not fit into the picture (expected a larger distance)");
+  if (distance_m < 0.3 || back.low.x() < 0 || back.low.y() < 0 || back.high.x() > model.width_px - 1 ||
+      back.high.y() > model.height_px - 1)
+    throw Error(
+        fmt::format("reference view at {} m: the back does not fit into the picture (expected a larger "
+                    "distance)",
+                    distance_m));
   ReferenceView view;
-  view.roi.x_px = static_cast<int>(std::ceil(low.x()));
-  view.roi.y_px = static_cast<int>(std::ceil(low.y()));
-  view.roi.width_px = static_cast<int>(std::floor(high.x())) - view.roi.x_px + 1;
-  view.roi.height_px = static_cast<int>(std::floor(high.y())) - view.roi.y_px + 1;
+  view.roi.x_px = static_cast<int>(std::ceil(back.low.x()));
+  view.roi.y_px = static_cast<int>(std::ceil(back.low.y()));
+  view.roi.width_px = static_cast<int>(std::floor(back.high.x())) - view.roi.x_px + 1;
+  view.roi.height_px = static_cast<int>(std::floor(back.high.y())) - view.roi.y_px + 1;
   view.distance_m = distance_m;
   renderer_->draw_still(still, view_from_world, view.grey);
   return view;

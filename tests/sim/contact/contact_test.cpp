@@ -87,7 +87,7 @@ TEST(Contact, ThePersonIsMetToo) {
   P3At robot(driving(scenario));
   Contact contact(world, robot);
   EXPECT_NE(drive(robot, contact, 8.0), 0);
-  EXPECT_LT(robot.true_pose().x_m, -kPersonRadiusM - 0.25);
+  EXPECT_LT(robot.true_pose().x_m, -kPersonRadius_m - 0.25);
 }
 
 TEST(Contact, APatchOfFloorChangesTheTurn) {

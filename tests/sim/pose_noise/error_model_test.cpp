@@ -153,7 +153,7 @@ class DrawnFromMadeUp : public ::testing::Test {
  protected:
   DrawnFromMadeUp() {
     scenario_.camera.model = sim::default_camera_model();
-    world_ = std::make_unique<sim::World>(scenario_, 1, sim::Detail::TruthOnly);
+    world_ = std::make_unique<sim::World>(scenario_, 1, sim::WorldUse::TruthOnly);
   }
 
   /// Frames a tenth of a second apart.

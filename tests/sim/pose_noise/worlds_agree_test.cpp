@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(OnSharedScenarios, BothWorlds,
 
 TEST(TruthWithoutPictures, IsThePicturedWorldsToTheBit) {
   Scenario scenario = settings_for(kBends, 10.0).scenario;
-  World pictured(scenario), bare(scenario, 1, Detail::TruthOnly);
+  World pictured(scenario), bare(scenario, 1, WorldUse::TruthOnly);
   pictured.start_walk(1.0);
   bare.start_walk(1.0);
   for (double t_s = 0.0; t_s < 10.0; t_s += 0.37) {

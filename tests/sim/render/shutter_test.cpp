@@ -66,21 +66,21 @@ TEST(Ground, BumpsPitchAndRollTheCamera) {
   constexpr int kPlaces = 4000;
   for (int i = 0; i < kPlaces; ++i) {
     const double x = 0.037 * i, y = 0.011 * i;
-    const Stand stand = ground.stand(x, y, 0.3);
+    const GroundPose ground_pose = ground.pose_at(x, y, 0.3);
     height2 += std::pow(ground.height_m(x, y), 2) / kPlaces;
-    pitch2 += stand.pitch_rad * stand.pitch_rad / kPlaces;
-    roll2 += stand.roll_rad * stand.roll_rad / kPlaces;
+    pitch2 += ground_pose.pitch_rad * ground_pose.pitch_rad / kPlaces;
+    roll2 += ground_pose.roll_rad * ground_pose.roll_rad / kPlaces;
   }
   EXPECT_NEAR(std::sqrt(height2), 0.004, 0.0004);
   EXPECT_GT(std::sqrt(pitch2), 0.003);
   EXPECT_LT(std::sqrt(pitch2), 0.03);
   EXPECT_GT(std::sqrt(roll2), 0.003);
   // A slope to the front lifts the nose: the plane through four wheels.
-  const Stand stand = ground.stand(1.0, 2.0, 0.0);
+  const GroundPose ground_pose = ground.pose_at(1.0, 2.0, 0.0);
   const double front = ground.height_m(1.125, 2.2) + ground.height_m(1.125, 1.8);
   const double rear = ground.height_m(0.875, 2.2) + ground.height_m(0.875, 1.8);
-  EXPECT_NEAR(std::tan(stand.pitch_rad), (front - rear) / 2 / 0.25, 1e-12);
-  EXPECT_EQ(Ground(0.0, 7).stand(1.0, 2.0, 0.0).pitch_rad, 0.0);
+  EXPECT_NEAR(std::tan(ground_pose.pitch_rad), (front - rear) / 2 / 0.25, 1e-12);
+  EXPECT_EQ(Ground(0.0, 7).pose_at(1.0, 2.0, 0.0).pitch_rad, 0.0);
 }
 
 TEST(Compression, LosesLittleAtHighQualityAndMoreAtLow) {

@@ -48,7 +48,7 @@ struct View {
 /// Where the picture must show a dot of the shirt, by the world's own truth of it.
 inline bool mark_px(const World& world, const View& view, int mark, Eigen::Vector2d& px) {
   const ShirtMark at = shirt_mark(mark);
-  return world.seen_px(
+  return world.pixel_of_moving_point(
       view.robot, view.t_s,
       [&](double t_s) -> Eigen::Vector3d {
         const PersonPose person = world.person_pose(t_s);

@@ -32,7 +32,7 @@ TEST(Person, StandsOnTheFloorUpToTheirHeight) {
   EXPECT_NEAR(heights(person, pose, kLeftShin).first, 0.0, 0.01);
   EXPECT_NEAR(heights(person, pose, kRightShin).first, 0.0, 0.01);
   EXPECT_NEAR(heights(person, pose, kHead).second, 1.775, 0.02);
-  EXPECT_LT(heights(person, pose, kHead).second, kPersonHeightM);
+  EXPECT_LT(heights(person, pose, kHead).second, kPersonHeight_m);
   // Shoulders are wider than the waist.
   double shoulders = 0, waist = 0;
   for (const MeshVertex& vertex : person.mesh(kTorso).vertices) {

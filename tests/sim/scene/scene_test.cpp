@@ -103,7 +103,7 @@ TEST(Scene, APoleHidesTheBackFromTheCameraAndIsHeard) {
   EXPECT_TRUE(hidden.truth(robot, 0.0).occluded);
   EXPECT_TRUE(hidden.truth(robot, 0.0).in_view);  // it would be, but for the pole
   EXPECT_NEAR(hidden.range_m(-2, 0, 0, 0.0), 0.85, 1e-9);
-  EXPECT_NEAR(clear.range_m(-2, 0, 0, 0.0), 2.0 - kPersonRadiusM, 1e-9);  // the person
+  EXPECT_NEAR(clear.range_m(-2, 0, 0, 0.0), 2.0 - kPersonRadius_m, 1e-9);  // the person
   // The picture shows it: the two differ in the middle.
   std::vector<std::uint8_t> with, without;
   clear.render(robot, 0.0, 1, without);
@@ -135,9 +135,9 @@ TEST(Scene, PassersByWearWhatTheScenarioSays) {
   alike.shirt_origin = ShirtOrigin::SameColours;
   scenario.passers_by = {twin, alike};
   const World world(scenario);
-  ASSERT_EQ(world.figures().size(), 3U);
+  ASSERT_EQ(world.people().size(), 3U);
   const auto shirt = [&](std::size_t i) {
-    return world.figures()[i].person.mesh(kTorso).texture->level(2).texels;
+    return world.people()[i].person.mesh(kTorso).texture->level(2).texels;
   };
   EXPECT_EQ(shirt(0), shirt(1));
   EXPECT_NE(shirt(0), shirt(2));
@@ -160,12 +160,12 @@ TEST(Scene, PassersByWalkAfterTheTargetAndHideThem) {
   scenario.passers_by = {crossing};
   World world(scenario);
   world.start_walk(5.0);
-  EXPECT_EQ(world.figure_pose(1, 6.0).walk.y_m, -2.0);
-  EXPECT_GT(world.figure_pose(1, 8.0).walk.y_m, -1.5);
+  EXPECT_EQ(world.pose_of(1, 6.0).walk.y_m, -2.0);
+  EXPECT_GT(world.pose_of(1, 8.0).walk.y_m, -1.5);
   const RobotMotion robot{-2.15, 0, 0, 0, 0};
   double hidden_s = 0;
   for (double t = 5; t < 18; t += 0.05) hidden_s += world.truth(robot, t).occluded ? 0.05 : 0.0;
-  EXPECT_NEAR(hidden_s, 2 * kPersonRadiusM / 0.5, 0.25);  // half a metre a second
+  EXPECT_NEAR(hidden_s, 2 * kPersonRadius_m / 0.5, 0.25);  // half a metre a second
 }
 
 TEST(Scene, WindowsAreInTheWallTheLightComesFrom) {

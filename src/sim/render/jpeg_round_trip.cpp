@@ -1,4 +1,4 @@
-#include "sim/render/jpeg_channel.h"
+#include "sim/render/jpeg_round_trip.h"
 
 #include <csetjmp>
 #include <cstdio>
@@ -12,17 +12,17 @@
 namespace heel::sim {
 namespace {
 
-/// libjpeg reports failure through a function that must not return.
+/// libjpeg reports an error through a function that must not return.
 struct Failure {
   jpeg_error_mgr manager{};
-  std::jmp_buf back{};
-  char words[JMSG_LENGTH_MAX] = {};
+  std::jmp_buf return_point{};
+  char message[JMSG_LENGTH_MAX] = {};
 };
 
 [[noreturn]] void fail(j_common_ptr codec) {
   auto* failure = reinterpret_cast<Failure*>(codec->err);
-  codec->err->format_message(codec, failure->words);
-  std::longjmp(failure->back, 1);
+  codec->err->format_message(codec, failure->message);
+  std::longjmp(failure->return_point, 1);
 }
 
 struct Compressed {
@@ -30,13 +30,13 @@ struct Compressed {
   unsigned long size = 0;
 };
 
-// Both of these keep nothing that would need a destructor: longjmp leaves them from inside libjpeg.
+// compress() and decompress() have no objects with destructors: longjmp leaves them from inside libjpeg.
 bool compress(const std::vector<std::uint8_t>& grey, int width_px, int height_px, int quality,
               Failure& failure, Compressed& out) {
   jpeg_compress_struct codec{};
   codec.err = jpeg_std_error(&failure.manager);
   failure.manager.error_exit = fail;
-  if (setjmp(failure.back) != 0) {
+  if (setjmp(failure.return_point) != 0) {
     jpeg_destroy_compress(&codec);
     return false;
   }
@@ -51,7 +51,7 @@ bool compress(const std::vector<std::uint8_t>& grey, int width_px, int height_px
   codec.dct_method = JDCT_ISLOW;  // the same on every machine
   jpeg_start_compress(&codec, TRUE);
   while (codec.next_scanline < codec.image_height) {
-    // libjpeg wants a mutable pointer; it only reads.
+    // libjpeg takes a mutable pointer, but only reads through it.
     JSAMPROW row = const_cast<std::uint8_t*>(grey.data()) +
                    static_cast<std::size_t>(codec.next_scanline) * static_cast<std::size_t>(width_px);
     jpeg_write_scanlines(&codec, &row, 1);
@@ -65,7 +65,7 @@ bool decompress(const Compressed& in, std::vector<std::uint8_t>& grey, int width
   jpeg_decompress_struct codec{};
   codec.err = jpeg_std_error(&failure.manager);
   failure.manager.error_exit = fail;
-  if (setjmp(failure.back) != 0) {
+  if (setjmp(failure.return_point) != 0) {
     jpeg_destroy_decompress(&codec);
     return false;
   }
@@ -86,13 +86,13 @@ bool decompress(const Compressed& in, std::vector<std::uint8_t>& grey, int width
 
 }  // namespace
 
-void pass_through_jpeg(std::vector<std::uint8_t>& grey, int width_px, int height_px, int quality) {
+void jpeg_round_trip(std::vector<std::uint8_t>& grey, int width_px, int height_px, int quality) {
   Failure failure;
   Compressed compressed;
   const bool done = compress(grey, width_px, height_px, quality, failure, compressed) &&
                     decompress(compressed, grey, width_px, failure);
   std::free(compressed.bytes);
-  if (!done) throw Error(std::string("simulated Motion-JPEG: ") + failure.words);
+  if (!done) throw Error(std::string("simulated Motion-JPEG: ") + failure.message);
 }
 
 }  // namespace heel::sim
