@@ -9,11 +9,11 @@ namespace {
 
 constexpr double kHalfLength_m = 0.313;  ///< the bumpers' outer edge
 constexpr double kHalfWidth_m = 0.2525;
-constexpr double kBumperTravel_m = 0.02;  ///< then comes what does not give
+constexpr double kBumperTravel_m = 0.02;  ///< how far a bumper gives way
 constexpr int kSegments = 5;              ///< of a bumper
-constexpr int kPointsASegment = 3;
-constexpr int kPointsASide = 8;
-constexpr double kReach_m = 0.41;  ///< half the diagonal, and a little
+constexpr int kPointsPerSegment = 3;
+constexpr int kPointsPerSide = 8;
+constexpr double kReach_m = 0.41;  ///< a little more than half the diagonal
 
 Eigen::Vector2d in_world(const Pose2& pose, double ahead_m, double left_m) {
   const double c = std::cos(pose.heading_rad);
@@ -21,7 +21,7 @@ Eigen::Vector2d in_world(const Pose2& pose, double ahead_m, double left_m) {
   return {pose.x_m + c * ahead_m - s * left_m, pose.y_m + s * ahead_m + c * left_m};
 }
 
-bool holds(const std::vector<Footprint>& things, const Eigen::Vector2d& point) {
+bool is_inside_any(const std::vector<Footprint>& things, const Eigen::Vector2d& point) {
   return std::any_of(things.begin(), things.end(), [&](const Footprint& thing) {
     return (thing.nearest_m(point) - point).squaredNorm() < 1e-12;
   });
@@ -30,22 +30,22 @@ bool holds(const std::vector<Footprint>& things, const Eigen::Vector2d& point) {
 /// Pressed segments of the front (`end` +1) or rear (−1) bumper.
 std::uint8_t pressed(const Pose2& pose, const std::vector<Footprint>& things, double end) {
   unsigned bits = 0;
-  for (int i = 0; i < kSegments * kPointsASegment; ++i) {
-    const double across = 1.0 - 2.0 * (i + 0.5) / (kSegments * kPointsASegment);
-    if (holds(things, in_world(pose, end * kHalfLength_m, end * across * kHalfWidth_m)))
-      bits |= 1u << (i / kPointsASegment);
+  for (int i = 0; i < kSegments * kPointsPerSegment; ++i) {
+    const double across = 1.0 - 2.0 * (i + 0.5) / (kSegments * kPointsPerSegment);
+    if (is_inside_any(things, in_world(pose, end * kHalfLength_m, end * across * kHalfWidth_m)))
+      bits |= 1u << (i / kPointsPerSegment);
   }
   return static_cast<std::uint8_t>(bits);
 }
 
-/// Whether the part that does not give is inside something.
+/// Whether the rigid part of the robot is inside an obstacle.
 bool blocked(const Pose2& pose, const std::vector<Footprint>& things) {
   const double length = kHalfLength_m - kBumperTravel_m;
-  for (int i = 0; i <= kPointsASide; ++i) {
-    const double share = 2.0 * i / kPointsASide - 1.0;
+  for (int i = 0; i <= kPointsPerSide; ++i) {
+    const double share = 2.0 * i / kPointsPerSide - 1.0;
     for (const double side : {-1.0, 1.0})
-      if (holds(things, in_world(pose, side * length, share * kHalfWidth_m)) ||
-          holds(things, in_world(pose, share * length, side * kHalfWidth_m)))
+      if (is_inside_any(things, in_world(pose, side * length, share * kHalfWidth_m)) ||
+          is_inside_any(things, in_world(pose, share * length, side * kHalfWidth_m)))
         return true;
   }
   return false;
@@ -60,14 +60,14 @@ Contact::Contact(const World& world, P3At& robot)
   });
 }
 
-std::vector<Footprint> Contact::near() const {
+std::vector<Footprint> Contact::nearby_footprints() const {
   const Pose2& pose = robot_.true_pose();
   const Eigen::Vector2d at(pose.x_m, pose.y_m);
   std::vector<Footprint> things;
   const auto add = [&](const std::vector<Footprint>& all) {
     for (const Footprint& thing : all) {
-      const bool far =
-          (thing.centre_m - at).norm() > kReach_m + thing.reach_m();  // most are, and that is soon seen
+      // A quick test first: most of them are far away.
+      const bool far = (thing.centre_m - at).norm() > kReach_m + thing.reach_m();
       if (!far && (thing.nearest_m(at) - at).norm() < kReach_m) things.push_back(thing);
     }
   };
@@ -90,7 +90,7 @@ void Contact::choose_floor() {
 void Contact::step(double t_s) {
   t_s_ = t_s;
   choose_floor();
-  const std::vector<Footprint> things = near();
+  const std::vector<Footprint> things = nearby_footprints();
   if (blocked(robot_.true_pose(), things))
     robot_.place(free_pose_);
   else

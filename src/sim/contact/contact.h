@@ -1,5 +1,4 @@
-// The robot among the things of the world: what its sonars hear, what its bumpers meet, and the floor it
-// turns on.
+// The robot's contact with the world: sonar ranges, pressed bumpers, and the floor it turns on.
 #pragma once
 
 #include <vector>
@@ -11,22 +10,22 @@ namespace heel::sim {
 
 class Contact {
  public:
-  /// Both must outlive it.
+  /// `world` and `robot` must outlive it.
   Contact(const World& world, P3At& robot);
 
-  /// Call after every advance of the robot, a few milliseconds apart at most. Bumper segments are numbered
-  /// 0…4 from left to right in front and from right to left behind. What is solid is not driven through: the
-  /// robot stays where it was, whatever its wheels do.
+  /// Call it after every advance of the robot, at least every few milliseconds. Bumper segments are numbered
+  /// 0…4 from left to right in front and from right to left behind. The robot does not drive through
+  /// anything: it stays where it was while its wheels turn.
   void step(double t_s);
 
  private:
-  std::vector<Footprint> near() const;
+  std::vector<Footprint> nearby_footprints() const;
   void choose_floor();
 
   const World& world_;
   P3At& robot_;
   double t_s_ = 0.0;
-  Pose2 free_pose_;  ///< the last that was not inside anything
+  Pose2 free_pose_;  ///< the robot's last pose without a collision
 };
 
 }  // namespace heel::sim

@@ -6,30 +6,30 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kArrived = 1e-4;  // m or rad
+constexpr double kGoalTolerance = 1e-4;  // m or rad
 
 }  // namespace
 
-void AxisProfile::step_to_speed(double wanted, const AxisLimits& limits, double dt_s) {
-  wanted = std::clamp(wanted, -limits.speed, limits.speed);
-  const bool reverses = wanted * speed_ < 0.0;
-  if (!reverses && std::abs(wanted) > std::abs(speed_)) {
+void AxisProfile::step_to_speed(double target, const AxisLimits& limits, double dt_s) {
+  target = std::clamp(target, -limits.speed, limits.speed);
+  const bool reverses = target * speed_ < 0.0;
+  if (!reverses && std::abs(target) > std::abs(speed_)) {
     const double step = limits.acceleration * dt_s;
-    speed_ += std::clamp(wanted - speed_, -step, step);
+    speed_ += std::clamp(target - speed_, -step, step);
     return;
   }
   const double step = limits.deceleration * dt_s;
-  const double floor = reverses ? 0.0 : wanted;
+  const double floor = reverses ? 0.0 : target;
   speed_ += std::clamp(floor - speed_, -step, step);
 }
 
 bool AxisProfile::step_to_distance(double remaining, const AxisLimits& limits, double dt_s) {
   const double s = std::abs(remaining);
-  if (s < kArrived && std::abs(speed_) <= 2.0 * limits.deceleration * dt_s) {
+  if (s < kGoalTolerance && std::abs(speed_) <= 2.0 * limits.deceleration * dt_s) {
     speed_ = 0.0;
     return true;
   }
-  // v² = 2 a s, and never past the goal within this step.
+  // v² = 2 a s, and not beyond the goal within this step.
   const double speed = std::min({limits.speed, std::sqrt(2.0 * limits.deceleration * s), s / dt_s});
   step_to_speed(std::copysign(speed, remaining), limits, dt_s);
   return false;

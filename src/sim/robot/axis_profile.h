@@ -1,5 +1,5 @@
-// The firmware's speed profile on one axis, translation (m) or rotation (rad): a trapezoid towards a wanted
-// speed, or to rest at a wanted distance.
+// The firmware's speed profile of one axis, translation (m) or rotation (rad): a ramp to a target speed, or a
+// trapezoid that ends at a target distance.
 #pragma once
 
 namespace heel::sim {
@@ -12,13 +12,12 @@ struct AxisLimits {
 
 class AxisProfile {
  public:
-  /// One step of `dt_s` towards `wanted` speed, clamped to the limit. A change of sign decelerates to zero
-  /// first.
-  void step_to_speed(double wanted, const AxisLimits& limits, double dt_s);
-  /// One step along the trapezoid that comes to rest after `remaining` more distance; true when it rests
-  /// there.
+  /// One step of `dt_s` towards the speed `target`, limited to limits.speed. Before a change of sign it
+  /// decelerates to zero.
+  void step_to_speed(double target, const AxisLimits& limits, double dt_s);
+  /// One step along the trapezoid that stops after the distance `remaining`; true when it has stopped there.
   bool step_to_distance(double remaining, const AxisLimits& limits, double dt_s);
-  /// The profile is where the wheels are: after a stall, an emergency stop, motors off.
+  /// Sets the profile to the wheels' speed: after a stall, an emergency stop, motors off.
   void set_speed(double speed) { speed_ = speed; }
   double speed() const { return speed_; }
 

@@ -6,8 +6,8 @@
 namespace heel::sim {
 namespace {
 
-double approach(double value, double wanted, double step) {
-  return value + std::clamp(wanted - value, -step, step);
+double approach(double value, double target, double step) {
+  return value + std::clamp(target - value, -step, step);
 }
 
 /// Adds an arc of length `distance_m` that turns by `turn_rad`; exact to second order in the turn.
@@ -30,10 +30,10 @@ ChassisSettings exact_chassis() {
   return settings;
 }
 
-void Chassis::drive(const WheelSpeeds& wanted, double dt_s) {
+void Chassis::drive(const WheelSpeeds& target, double dt_s) {
   const double step = settings_.wheel_acceleration_max_m_s2 * dt_s;
-  wheels_.left_m_s = approach(wheels_.left_m_s, wanted.left_m_s, step);
-  wheels_.right_m_s = approach(wheels_.right_m_s, wanted.right_m_s, step);
+  wheels_.left_m_s = approach(wheels_.left_m_s, target.left_m_s, step);
+  wheels_.right_m_s = approach(wheels_.right_m_s, target.right_m_s, step);
   move(dt_s);
 }
 
@@ -71,10 +71,10 @@ void Chassis::move(double dt_s) {
   right_travel_m_ += right_m;
   add_arc(odometry_, 0.5 * (left_m + right_m), (right_m - left_m) / settings_.effective_track_m);
 
-  // A random walk whose variance grows with the way driven does not depend on the step.
-  const double root_way = std::sqrt(0.5 * (std::abs(left_m) + std::abs(right_m)));
-  const double drift_m = settings_.drift_per_sqrt_m * root_way * gaussian_(random_);
-  const double drift_rad = settings_.heading_drift_rad_per_sqrt_m * root_way * gaussian_(random_);
+  // A random walk whose variance grows with the travelled distance does not depend on the step.
+  const double root_travel = std::sqrt(0.5 * (std::abs(left_m) + std::abs(right_m)));
+  const double drift_m = settings_.drift_per_sqrt_m * root_travel * gaussian_(random_);
+  const double drift_rad = settings_.heading_drift_rad_per_sqrt_m * root_travel * gaussian_(random_);
   add_arc(true_pose_, true_speed_m_s() * dt_s + drift_m, true_yaw_rate_rad_s() * dt_s + drift_rad);
 }
 

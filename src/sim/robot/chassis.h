@@ -1,7 +1,7 @@
-// The P3-AT's wheels, what its encoders count and where it truly goes.
+// The P3-AT's wheels, their odometry and the true motion.
 //
-// A skid-steer robot's wheels slip in every turn. The firmware integrates the wheel travel with the effective
-// track of DiffConvFactor (588 mm); the floor decides the true one:
+// The wheels of a skid-steer robot slip in every turn. The firmware integrates the wheel travel with the
+// effective track of DiffConvFactor (588 mm); the true track depends on the floor:
 //   odometry   Δs = (l + r)/2,            Δθ = (r − l)/effective_track
 //   truth      Δs = (l' + r')/2 + drift,  Δθ = (r' − l')/true_track,  l' = l (1 + left_scale_error) …
 #pragma once
@@ -14,17 +14,17 @@
 namespace heel::sim {
 
 struct ChassisSettings {
-  double effective_track_m = 0.588;             ///< 2 / 0.0034, what odometry and firmware turn with
-  double true_track_m = 0.62;                   ///< by surface, 0.55…0.70
-  double left_scale_error = -0.002;             ///< true travel / encoder travel − 1
-  double right_scale_error = 0.002;             ///< the difference bends a straight line
-  double drift_per_sqrt_m = 0.0075;             ///< random walk along the path: 0.75 % after one metre, 1 σ
+  double effective_track_m = 0.588;  ///< 2 / 0.0034: the track in the firmware's odometry
+  double true_track_m = 0.62;        ///< depends on the floor, 0.55…0.70
+  double left_scale_error = -0.002;  ///< true travel / encoder travel − 1
+  double right_scale_error = 0.002;  ///< a difference from the left one makes a straight drive curved
+  double drift_per_sqrt_m = 0.0075;  ///< random walk along the path: 0.75 % after one metre, 1 σ
   double heading_drift_rad_per_sqrt_m = 0.003;  ///< random walk of the heading, 1 σ after one metre
-  double wheel_acceleration_max_m_s2 = 6.0;     ///< what motors and tyres can do, above every profile
-  double coast_deceleration_m_s2 = 3.0;         ///< motors off: the gears brake
+  double wheel_acceleration_max_m_s2 = 6.0;     ///< limit of motors and tyres, above that of every profile
+  double coast_deceleration_m_s2 = 3.0;         ///< by the gears, with the motors off
 };
 
-/// No slip, no scale error, no drift: the truth is what odometry believes.
+/// No slip, no scale error, no drift: odometry is the truth.
 ChassisSettings exact_chassis();
 
 struct WheelSpeeds {
@@ -36,21 +36,21 @@ class Chassis {
  public:
   Chassis(const ChassisSettings& settings, std::uint64_t seed) : settings_(settings), random_(seed) {}
 
-  /// One step with the motors pulling the wheels to `wanted`. Blocked wheels stand.
-  void drive(const WheelSpeeds& wanted, double dt_s);
-  /// One step without power.
+  /// One step with the motors driving the wheels to the speeds `target`. Blocked wheels do not move.
+  void drive(const WheelSpeeds& target, double dt_s);
+  /// One step with the motors off.
   void coast(double dt_s);
   void block(bool left, bool right);
 
   const WheelSpeeds& wheels() const { return wheels_; }
   const Pose2& odometry() const { return odometry_; }  ///< since the last zero_odometry()
   void zero_odometry() { odometry_ = Pose2{}; }
-  double left_travel_m() const { return left_travel_m_; }  ///< encoder, since power-on
+  double left_travel_m() const { return left_travel_m_; }  ///< by the encoder, since power-on
   double right_travel_m() const { return right_travel_m_; }
 
   const Pose2& true_pose() const { return true_pose_; }
   void place(const Pose2& pose) { true_pose_ = pose; }
-  /// Another floor under the wheels.
+  /// Changes the floor under the wheels.
   void set_true_track(double track_m) { settings_.true_track_m = track_m; }
   double true_speed_m_s() const;
   double true_yaw_rate_rad_s() const;

@@ -48,9 +48,9 @@ void Drive::emergency_stop() {
   rotation_.set_speed(0.0);
 }
 
-WheelSpeeds Drive::step(const Progress& now, bool held, double dt_s) {
-  step_translation(now.travelled_m, held, dt_s);
-  step_rotation(now.heading_rad, held, dt_s);
+WheelSpeeds Drive::step(const Progress& now, bool stopped_by_watchdog, double dt_s) {
+  step_translation(now.travelled_m, stopped_by_watchdog, dt_s);
+  step_rotation(now.heading_rad, stopped_by_watchdog, dt_s);
   const double half_difference_m_s = 0.5 * rotation_.speed() * effective_track_m_;
   return {translation_.speed() - half_difference_m_s, translation_.speed() + half_difference_m_s};
 }
@@ -61,11 +61,11 @@ void Drive::follow(const WheelSpeeds& wheels) {
 }
 
 int Drive::direction(double travelled_m) const {
-  const double wanted = moves_to_goal_ ? goal_m_ - travelled_m : speed_setpoint_m_s_;
-  return wanted > 0.0 ? 1 : wanted < 0.0 ? -1 : 0;
+  const double setpoint = moves_to_goal_ ? goal_m_ - travelled_m : speed_setpoint_m_s_;
+  return setpoint > 0.0 ? 1 : setpoint < 0.0 ? -1 : 0;
 }
 
-bool Drive::asked_to_move(const Progress& now) const {
+bool Drive::has_motion_to_do(const Progress& now) const {
   constexpr double kHeadingReached_rad = 1e-3;
   const bool turns =
       holds_heading_ ? std::abs(wrap_angle_rad(heading_setpoint_rad_ - now.heading_rad)) > kHeadingReached_rad
@@ -73,17 +73,17 @@ bool Drive::asked_to_move(const Progress& now) const {
   return turns || direction(now.travelled_m) != 0;
 }
 
-void Drive::step_translation(double travelled_m, bool held, double dt_s) {
-  if (held || !moves_to_goal_) {
-    translation_.step_to_speed(held ? 0.0 : speed_setpoint_m_s_, translation_limits, dt_s);
+void Drive::step_translation(double travelled_m, bool stopped_by_watchdog, double dt_s) {
+  if (stopped_by_watchdog || !moves_to_goal_) {
+    translation_.step_to_speed(stopped_by_watchdog ? 0.0 : speed_setpoint_m_s_, translation_limits, dt_s);
     return;
   }
   if (translation_.step_to_distance(goal_m_ - travelled_m, translation_limits, dt_s)) set_speed(0.0);
 }
 
-void Drive::step_rotation(double heading_rad, bool held, double dt_s) {
-  if (held || !holds_heading_) {
-    rotation_.step_to_speed(held ? 0.0 : yaw_rate_setpoint_rad_s_, rotation_limits, dt_s);
+void Drive::step_rotation(double heading_rad, bool stopped_by_watchdog, double dt_s) {
+  if (stopped_by_watchdog || !holds_heading_) {
+    rotation_.step_to_speed(stopped_by_watchdog ? 0.0 : yaw_rate_setpoint_rad_s_, rotation_limits, dt_s);
     return;
   }
   rotation_.step_to_distance(wrap_angle_rad(heading_setpoint_rad_ - heading_rad), rotation_limits, dt_s);

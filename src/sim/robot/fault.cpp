@@ -1,5 +1,7 @@
 #include "sim/robot/fault.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,10 +31,10 @@ constexpr std::array kFaultNames{
     FaultName{FaultKind::LeftOpen, "left_open"},
 };
 
-constexpr TimeNs kNever = std::numeric_limits<TimeNs>::max();
+constexpr TimeNs kNever_ns = std::numeric_limits<TimeNs>::max();
 
 TimeNs end_of(const Fault& fault) {
-  return fault.duration_ns > 0 ? fault.t_ns + fault.duration_ns : kNever;
+  return fault.duration_ns > 0 ? fault.t_ns + fault.duration_ns : kNever_ns;
 }
 
 void add_effect(const Fault& fault, FaultEffects& effects) {
@@ -68,7 +70,7 @@ void add_effect(const Fault& fault, FaultEffects& effects) {
     case FaultKind::Reset:
     case FaultKind::BootBaud:
     case FaultKind::LeftOpen:
-      break;  // done once, when they begin
+      break;  // applied once, when they begin
   }
 }
 
@@ -79,7 +81,7 @@ double number_of(const std::string& text, const std::string& fault, const char* 
     if (used == text.size() && std::isfinite(value) && value >= 0.0) return value;
   } catch (const std::exception&) {
   }
-  throw Error("fault '" + fault + "': " + what + " '" + text + "' is not a number of 0 or more");
+  throw Error(fmt::format("fault '{}': {} '{}' is not a number of 0 or more", fault, what, text));
 }
 
 }  // namespace
@@ -111,11 +113,12 @@ Fault parse_fault(const std::string& text) {
   const std::size_t at = text.find('@');
   const std::optional<FaultKind> kind = fault_kind_from_name(text.substr(0, at));
   if (!kind) {
-    throw Error("fault '" + text + "': '" + text.substr(0, at) + "' is not a fault (expected one of " +
-                fault_names() + ")");
+    throw Error(fmt::format("fault '{}': '{}' is not a fault (expected one of {})", text, text.substr(0, at),
+                            fault_names()));
   }
   if (at == std::string::npos) {
-    throw Error("fault '" + text + "': no start (expected KIND@START[+DURATION][=AMOUNT], times in s)");
+    throw Error(
+        fmt::format("fault '{}': no start (expected KIND@START[+DURATION][=AMOUNT], times in s)", text));
   }
   std::string times = text.substr(at + 1);
   Fault fault{.kind = *kind, .t_ns = 0, .duration_ns = 0, .amount = 0.0};
@@ -148,7 +151,7 @@ std::vector<Fault> FaultSchedule::advance(TimeNs t_ns) {
 
 void FaultSchedule::recompute(TimeNs t_ns) {
   effects_ = FaultEffects{};
-  next_change_ns_ = started_ < faults_.size() ? faults_[started_].t_ns : kNever;
+  next_change_ns_ = started_ < faults_.size() ? faults_[started_].t_ns : kNever_ns;
   for (std::size_t i = 0; i < started_; ++i) {
     const TimeNs end_ns = end_of(faults_[i]);
     if (end_ns <= t_ns) continue;

@@ -1,4 +1,4 @@
-// Faults on demand: a timed list of what goes wrong with the robot or its line, and its effect at a moment.
+// Simulated faults of the robot and its line: a list of faults with times, and their effect at one moment.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,19 @@
 
 namespace heel::sim {
 
-/// What `amount` means stands beside each kind; a duration of 0 lasts to the end of the run.
+/// The comments say what `amount` means.
 enum class FaultKind : std::uint8_t {
-  DropBytes,    ///< share of bytes lost on the line, both ways, 0…1
-  GarbleBytes,  ///< share of bytes with one bit flipped, both ways, 0…1
-  DelayBytes,   ///< seconds every byte comes late, both ways
-  Silence,      ///< the robot hears but nothing it says arrives
-  Reset,        ///< the controller restarts: reset notice, state lost (once; 0: FE, else the id, 254 or 255)
+  DropBytes,    ///< share of bytes lost on the line, both directions, 0…1
+  GarbleBytes,  ///< share of bytes with one bit flipped, both directions, 0…1
+  DelayBytes,   ///< delay of every byte in s, both directions
+  Silence,      ///< the robot receives, but nothing it sends arrives
+  Reset,        ///< the controller restarts once and loses its state; id of its notice, 254 or 255 (0: 254)
   Bumper,       ///< pressed segments: bits 0…6 front, bits 8…14 rear
   StopButton,   ///< the STOP button is held down
-  Stall,        ///< wheels blocked: 0 both, 1 left, 2 right
-  BadConfig,    ///< CONFIGpac goes out with a wrong checksum
-  BootBaud,     ///< restarts at this baud (once)
-  LeftOpen,  ///< as an earlier session left it: open, motors on, this setpoint in mm/s held by the watchdog
+  Stall,        ///< blocked wheels: 0 both, 1 left, 2 right
+  BadConfig,    ///< CONFIGpac has a wrong checksum
+  BootBaud,     ///< the controller restarts once, at this baud rate
+  LeftOpen,     ///< state after an earlier session: open, motors on, setpoint (mm/s) stopped by the watchdog
 };
 
 struct Fault {
@@ -35,13 +35,13 @@ struct Fault {
 
 const char* to_string(FaultKind kind);
 std::optional<FaultKind> fault_kind_from_name(std::string_view name);
-/// "drop, garble, …" for error messages.
+/// "drop, garble, …", for error messages.
 std::string fault_names();
-/// Reads "KIND@START[+DURATION][=AMOUNT]", times in seconds, e.g. "drop@10+5=0.02".
-/// Throws heel::Error naming the part that is wrong.
+/// Parses "KIND@START[+DURATION][=AMOUNT]", times in seconds, e.g. "drop@10+5=0.02". Throws heel::Error
+/// naming the part that is wrong.
 Fault parse_fault(const std::string& text);
 
-/// The sum of all faults at work at one moment.
+/// The effect of all active faults at one moment.
 struct FaultEffects {
   double drop_share = 0.0;
   double garble_share = 0.0;
@@ -58,14 +58,14 @@ struct FaultEffects {
 class FaultSchedule {
  public:
   void add(const Fault& fault);
-  /// Moves to `t_ns` (never back); returns the faults that began since the last call, in order of time.
+  /// Advances to `t_ns` and returns the faults that have begun since the last call, in order of time.
   std::vector<Fault> advance(TimeNs t_ns);
   const FaultEffects& effects() const { return effects_; }
 
  private:
   void recompute(TimeNs t_ns);
 
-  std::vector<Fault> faults_;  ///< by start
+  std::vector<Fault> faults_;  ///< in order of start
   std::size_t started_ = 0;    ///< faults_[0, started_) have begun
   TimeNs next_change_ns_ = 0;  ///< nothing begins or ends before this
   FaultEffects effects_;

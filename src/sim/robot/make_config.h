@@ -1,4 +1,4 @@
-// The CONFIGpac a robot with these settings answers with.
+// The CONFIGpac of a robot with given settings.
 #pragma once
 
 #include "arcos/config_packet.h"
@@ -6,7 +6,7 @@
 
 namespace heel::sim {
 
-/// Rates in the order of HOSTBAUD's argument and of CONFIGpac's HostBaud.
+/// Baud rates; the index is the argument of HOSTBAUD and CONFIGpac's HostBaud.
 inline constexpr int kBauds[] = {9600, 19200, 38400, 57600, 115200};
 
 arcos::ConfigPacket make_config(const P3AtSettings& settings);

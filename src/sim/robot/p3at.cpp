@@ -1,4 +1,4 @@
-// The P3-AT, one step at a time: switches, line, watchdog, wheels, sonars, packets.
+// One step of the P3-AT: switches, line, watchdog, wheels, sonars, packets.
 #include "sim/robot/p3at.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ P3At::P3At(const P3AtSettings& settings, std::uint64_t seed)
     : settings_(settings),
       config_(make_config(settings)),
       line_(settings.boot_baud, seed + 1),
-      junk_due_(settings.junk_before_first_echo),
+      junk_pending_(settings.junk_before_first_echo),
       drive_(settings.translation_boot, radians(settings.rotation_boot_deg),
              settings.chassis.effective_track_m),
       chassis_(settings.chassis, seed),
@@ -82,8 +82,8 @@ void P3At::touch_bumper(std::uint8_t front, std::uint8_t rear) {
 }
 
 void P3At::block_wheels(bool left, bool right) {
-  held_left_ = left;
-  held_right_ = right;
+  blocked_left_ = left;
+  blocked_right_ = right;
 }
 
 std::vector<RobotEvent> P3At::take_events() {
@@ -142,9 +142,9 @@ void P3At::read_switches() {
   if (front != bumpers_front_ || rear != bumpers_rear_) log(RobotEventKind::Bumpers, front | rear << 8);
   bumpers_front_ = front;
   bumpers_rear_ = rear;
-  chassis_.block(held_left_ || effects.blocked_left, held_right_ || effects.blocked_right);
+  chassis_.block(blocked_left_ || effects.blocked_left, blocked_right_ || effects.blocked_right);
 
-  const bool pressed = hand_on_stop_button_ || effects.stop_button;
+  const bool pressed = button_pressed_ || effects.stop_button;
   if (pressed != stop_button_) log(pressed ? RobotEventKind::StopButton : RobotEventKind::StopButtonFree);
   stop_button_ = pressed;
   if (!pressed) return;
@@ -189,23 +189,23 @@ void P3At::turn_wheels() {
   was_stalled_ = stalled_now;
 
   const bool powered = motors_enabled_ && !stalled_now;
-  WheelSpeeds wanted;
+  WheelSpeeds target;
   if (powered) {
-    wanted = drive_.step(progress(), watchdog_stopped_, kStep_s);
-    chassis_.drive(wanted, kStep_s);
+    target = drive_.step(progress(), watchdog_stopped_, kStep_s);
+    chassis_.drive(target, kStep_s);
   } else {
     chassis_.coast(kStep_s);
     drive_.follow(chassis_.wheels());
   }
   const WheelSpeeds& actual = chassis_.wheels();
-  stall_left_.step(powered, wanted.left_m_s, actual.left_m_s, t_ns_, kStep_ns);
-  stall_right_.step(powered, wanted.right_m_s, actual.right_m_s, t_ns_, kStep_ns);
+  stall_left_.step(powered, target.left_m_s, actual.left_m_s, t_ns_, kStep_ns);
+  stall_right_.step(powered, target.right_m_s, actual.right_m_s, t_ns_, kStep_ns);
 }
 
 void P3At::send_due_packets() {
   if (session_ != Session::Open || t_ns_ < t_next_sip_ns_) return;
   t_next_sip_ns_ += settings_.sip_cycle_ns;
-  // A line too slow for all that was asked for loses whole cycles, not bytes.
+  // On a line that is too slow for everything requested, whole cycles are left out, not bytes.
   if (line_.output_free_at_ns() > t_ns_ + settings_.sip_cycle_ns) return;
   send_requested();
   send(arcos::encode_sip(make_sip()));
@@ -225,7 +225,7 @@ void P3At::reset(std::uint8_t notice_id) {
   digital_out_ = 0;
   ad_port_ = 0;
   battery_test_v_ = 0.0;
-  junk_due_ = settings_.junk_before_first_echo;
+  junk_pending_ = settings_.junk_before_first_echo;
   parser_.reset();
   line_.set_robot_baud(settings_.boot_baud);
   const std::uint8_t notice[] = {notice_id};

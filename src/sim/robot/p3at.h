@@ -1,11 +1,12 @@
-// A Pioneer P3-AT behind its serial line: bytes in, bytes out, and a robot that moves. No I/O and no clock:
-// time is passed in, so that the same robot serves a pty in real time and the lock-step simulator.
+// A Pioneer P3-AT behind its serial line: bytes in, bytes out, and a robot that moves. It has no I/O and no
+// clock: the caller passes the time, so that the same model runs on a pty in real time and in the lock-step
+// simulator.
 //
-//   receive(bytes, t) → line (paced, perhaps garbled) → parser → session and commands → drive → wheels
-//   take_output()     ← line (paced, perhaps garbled) ← SIP, CONFIGpac, …              ← odometry, truth
+//   receive(bytes, t) → line (rate, faults) → parser → session and commands → drive → wheels
+//   take_output()     ← line (rate, faults) ← SIP, CONFIGpac, …              ← odometry, truth
 //
-// Inside, everything happens at multiples of kStep_ns: results do not depend on how often advance() is
-// called. Time begins at 0.
+// The model advances in steps of kStep_ns, so that results do not depend on how often advance() is called.
+// Time begins at 0.
 #pragma once
 
 #include <cstdint>
@@ -29,18 +30,18 @@
 
 namespace heel::sim {
 
-/// Where the connection is open; it decides what ids 0, 1 and 2 mean.
+/// The state of the connection; it determines what the packet ids 0, 1 and 2 mean.
 enum class Session : std::uint8_t {
-  Waiting,      ///< SYNC0 awaited
+  Waiting,      ///< for SYNC0
   Synced0,      ///< SYNC0 echoed
   Synced1,      ///< SYNC1 echoed
   Connected,    ///< SYNC2 echoed: 0 PULSE, 1 OPEN, 2 CLOSE; no SIPs yet
-  Open,         ///< SIPs flow, the watchdog runs
-  Maintenance,  ///< 255 was sent: deaf and mute until reset
+  Open,         ///< SIPs are sent, the watchdog is active
+  Maintenance,  ///< after packet 255: neither receives nor sends until a reset
 };
 const char* to_string(Session session);
 
-/// What an outside observer knows that the client does not.
+/// The true state, which the client does not know.
 struct RobotTruth {
   TimeNs t_ns = 0;
   Pose2 pose;  ///< in the world
@@ -65,36 +66,37 @@ class P3At {
 
   explicit P3At(const P3AtSettings& settings, std::uint64_t seed = 1);
 
-  // ── the line ──
-  /// Bytes the client put on the line at `t_ns`; the line's rate decides when they arrive.
+  // The line.
+  /// Bytes that the client sends at `t_ns`; when they arrive depends on the line's rate.
   void receive(std::span<const std::uint8_t> bytes, TimeNs t_ns);
-  /// Everything up to and with `t_ns` happens. Calls must not go back in time.
+  /// Advances the model to `t_ns`, which must not be before that of the last call.
   void advance(TimeNs t_ns);
-  /// What the client's end of the line has received since the last call, up to the last advance().
+  /// The bytes that have reached the client since the last call, up to the time of the last advance().
   std::vector<std::uint8_t> take_output();
-  /// The rate of the client's end; bytes at another rate than the robot's arrive as garbage. 0: always
-  /// agrees.
+  /// The rate of the client's end; bytes at another rate than the robot's arrive as garbage. 0: always the
+  /// robot's.
   void set_host_baud(int baud) { line_.set_host_baud(baud); }
   int baud() const { return line_.robot_baud(); }
-  /// The client hung up. An open robot cannot tell, and what is on the wire still arrives; a half-made
-  /// handshake is forgotten.
+  /// The client has disconnected. An open robot does not notice, and bytes on the line still arrive; an
+  /// incomplete handshake is forgotten.
   void line_dropped();
-  /// Client bytes still under way: a caller that respects the line's rate stops reading when this grows.
+  /// Number of the client's bytes that have not arrived yet. A caller that keeps the line's rate stops
+  /// reading when it grows.
   std::size_t input_backlog() const { return line_.input_backlog(); }
 
-  // ── the world ──
+  // The world.
   const Pose2& true_pose() const { return chassis_.true_pose(); }
   RobotTruth truth() const;
   void place(const Pose2& pose) { chassis_.place(pose); }
   void set_true_track(double track_m) { chassis_.set_true_track(track_m); }
   void set_range_finder(RangeFinder range_m) { sonar_.set_range_finder(std::move(range_m)); }
-  /// Segments pressed from now on, bit i segment i; 0, 0 lets go.
+  /// Sets the pressed bumper segments, bit i for segment i.
   void touch_bumper(std::uint8_t front, std::uint8_t rear);
-  void press_stop_button(bool pressed) { hand_on_stop_button_ = pressed; }
-  /// Something holds the wheels: pushing against it ends in a stall.
+  void press_stop_button(bool pressed) { button_pressed_ = pressed; }
+  /// Blocks wheels: driving them then ends in a stall.
   void block_wheels(bool left, bool right);
   void inject(const Fault& fault) { faults_.add(fault); }
-  /// The controller restarts at its boot rate with notice `notice_id`, FE or FF; odometry and state are lost.
+  /// Restarts the controller at its boot rate with notice `notice_id`, FE or FF. Odometry and state are lost.
   void reset(std::uint8_t notice_id = 0xFE);
 
   std::vector<RobotEvent> take_events();
@@ -103,7 +105,7 @@ class P3At {
   /// Packets sent on request, once or with every SIP.
   enum class Request : std::uint8_t { No, Once, Stream };
 
-  // p3at.cpp: one step
+  // p3at.cpp: the parts of one step
   void step();
   void begin_fault(const Fault& fault);
   void read_switches();
@@ -116,25 +118,25 @@ class P3At {
   bool stalled() const;
   void log(RobotEventKind kind, int value = 0) { events_.push_back({t_ns_, kind, value}); }
 
-  // p3at_session.cpp: what a packet means
+  // p3at_session.cpp: the effect of packets on the connection
   void on_packet(const arcos::Packet& packet);
   void sync(const arcos::Command& command);
   void open();
   void close();
   void forget_session();
-  void obey(const arcos::Command& command);
+  void execute(const arcos::Command& command);
 
-  // p3at_commands.cpp: the command table; each says whether the command was its
-  bool obey_motion(const arcos::Command& command);
-  bool obey_limits(const arcos::Command& command);
-  bool obey_requests(const arcos::Command& command);
-  bool obey_parameters(const arcos::Command& command);
-  bool obey_tuning(const arcos::Command& command);
+  // p3at_commands.cpp: the command table; each returns whether the command is one of its own
+  bool execute_motion(const arcos::Command& command);
+  bool execute_limits(const arcos::Command& command);
+  bool execute_requests(const arcos::Command& command);
+  bool execute_parameters(const arcos::Command& command);
+  bool execute_tuning(const arcos::Command& command);
   void enable(bool on);
   void switch_sonar(int argument);
   void change_baud(int code);
 
-  // p3at_packets.cpp: what it says
+  // p3at_packets.cpp: the packets it sends
   void send(const arcos::Frame& frame) { line_.from_robot(frame.bytes(), t_ns_); }
   void send_requested();
   void send_config();
@@ -151,7 +153,7 @@ class P3At {
   RobotLine line_;
   arcos::Parser parser_;
   Session session_ = Session::Waiting;
-  bool junk_due_ = false;
+  bool junk_pending_ = false;
   TimeNs t_last_command_ns_ = 0;
   TimeNs t_next_sip_ns_ = 0;
   Request config_request_ = Request::No;
@@ -165,19 +167,20 @@ class P3At {
   StallMonitor stall_left_;
   StallMonitor stall_right_;
   bool motors_enabled_ = false;
-  bool watchdog_stopped_ = false;  ///< setpoints are kept and come back with the next command
+  bool watchdog_stopped_ = false;  ///< the setpoints are kept and used again after the next command
   int bump_stall_ = 0;
   bool e_stall_on_button_ = false;
   bool e_stall_engaged_ = false;
   std::uint8_t digital_out_ = 0;
   std::uint8_t ad_port_ = 0;
-  double battery_test_v_ = 0.0;  ///< BATTEST; 0: the real one
+  double battery_test_v_ = 0.0;  ///< voltage set by BATTEST; 0: the battery's
 
   FaultSchedule faults_;
-  // What hands and world do, and that joined with the faults at work.
-  bool hand_on_stop_button_ = false;
+  // Set by the world.
+  bool button_pressed_ = false;
   std::uint8_t touched_front_ = 0, touched_rear_ = 0;
-  bool held_left_ = false, held_right_ = false;
+  bool blocked_left_ = false, blocked_right_ = false;
+  // The same together with the active faults.
   bool stop_button_ = false;
   std::uint8_t bumpers_front_ = 0, bumpers_rear_ = 0;
   bool was_stalled_ = false;

@@ -1,4 +1,4 @@
-// The command table: what each command does to the P3-AT. Wire units become SI units here.
+// The command table: the effect of each command on the P3-AT. Wire units are converted to SI units here.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -19,8 +19,8 @@ constexpr double radians(int degrees) {
   return degrees * std::numbers::pi / 180.0;
 }
 
-/// SETA, SETRA: the sign chooses acceleration or deceleration. Zero would mean never to move or never to
-/// stop, and is ignored.
+/// SETA, SETRA: the sign selects acceleration or deceleration. Zero is ignored: the robot could never move or
+/// never stop.
 void set_acceleration(AxisLimits& limits, double value, const AxisLimits& top) {
   if (value > 0.0) limits.acceleration = std::min(value, top.acceleration);
   if (value < 0.0) limits.deceleration = std::min(-value, top.deceleration);
@@ -28,7 +28,7 @@ void set_acceleration(AxisLimits& limits, double value, const AxisLimits& top) {
 
 }  // namespace
 
-bool P3At::obey_motion(const arcos::Command& command) {
+bool P3At::execute_motion(const arcos::Command& command) {
   const Drive::Progress now = progress();
   const int value = command.value;
   switch (static_cast<CommandId>(command.id)) {
@@ -70,7 +70,7 @@ bool P3At::obey_motion(const arcos::Command& command) {
   }
 }
 
-bool P3At::obey_limits(const arcos::Command& command) {
+bool P3At::execute_limits(const arcos::Command& command) {
   const double degree = radians(1);
   const AxisLimits& top_deg = settings_.rotation_top_deg;
   const AxisLimits top{top_deg.speed * degree, top_deg.acceleration * degree, top_deg.deceleration * degree};
@@ -103,7 +103,7 @@ bool P3At::obey_limits(const arcos::Command& command) {
   }
 }
 
-bool P3At::obey_requests(const arcos::Command& command) {
+bool P3At::execute_requests(const arcos::Command& command) {
   const auto request = [&command] {
     return command.value <= 0 ? Request::No : command.value == 1 ? Request::Once : Request::Stream;
   };
@@ -127,7 +127,7 @@ bool P3At::obey_requests(const arcos::Command& command) {
   return true;
 }
 
-bool P3At::obey_parameters(const arcos::Command& command) {
+bool P3At::execute_parameters(const arcos::Command& command) {
   switch (static_cast<CommandId>(command.id)) {
     case CommandId::Sonar:
       switch_sonar(command.value);
@@ -165,8 +165,8 @@ bool P3At::obey_parameters(const arcos::Command& command) {
   }
 }
 
-/// Constants of the firmware's controllers: shown in CONFIGpac; of them only TICKSMM has an effect here.
-bool P3At::obey_tuning(const arcos::Command& command) {
+/// Constants of the firmware's controllers. CONFIGpac reports them; only TICKSMM has an effect in this model.
+bool P3At::execute_tuning(const arcos::Command& command) {
   const auto word = static_cast<std::uint16_t>(command.value);
   switch (static_cast<CommandId>(command.id)) {
     case CommandId::RotKp:

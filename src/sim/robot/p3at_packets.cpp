@@ -1,4 +1,5 @@
-// What the P3-AT says: SIP, CONFIGpac and the packets sent on request. SI units become wire units here.
+// The packets of the P3-AT: SIP, CONFIGpac and those sent on request. SI units are converted to wire units
+// here.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,7 +11,7 @@
 namespace heel::sim {
 namespace {
 
-/// Rounded and wrapped into 16 bits, as the firmware's counters wrap.
+/// Rounded and wrapped to 16 bits, as the firmware's counters are.
 std::uint16_t wrapped(double value) {
   return static_cast<std::uint16_t>(std::llround(value));
 }

@@ -1,4 +1,4 @@
-// What a packet means to the P3-AT: the connection's states.
+// The states of the P3-AT's connection, and the effect of packets on them.
 #include <string_view>
 
 #include "arcos/other_packets.h"
@@ -24,7 +24,7 @@ void P3At::on_packet(const arcos::Packet& packet) {
       break;
     case Session::Connected:
     case Session::Open:
-      obey(command);
+      execute(command);
       break;
     case Session::Maintenance:
       break;
@@ -32,13 +32,13 @@ void P3At::on_packet(const arcos::Packet& packet) {
 }
 
 void P3At::sync(const arcos::Command& command) {
-  if (command.type != arcos::ArgumentType::None) return;  // an OPEN or CLOSE gone astray
+  if (command.type != arcos::ArgumentType::None) return;  // an OPEN or CLOSE at the wrong time
   const bool expected = (command.id == 0) || (command.id == 1 && session_ != Session::Waiting) ||
                         (command.id == 2 && session_ == Session::Synced1);
   if (!expected) return;
-  if (junk_due_) {
+  if (junk_pending_) {
     line_.from_robot({reinterpret_cast<const std::uint8_t*>(kBootJunk.data()), kBootJunk.size()}, t_ns_);
-    junk_due_ = false;
+    junk_pending_ = false;
   }
   if (command.id == 2) {
     session_ = Session::Connected;
@@ -75,7 +75,7 @@ void P3At::forget_session() {
   config_request_ = encoder_request_ = io_request_ = joystick_request_ = Request::No;
 }
 
-void P3At::obey(const arcos::Command& command) {
+void P3At::execute(const arcos::Command& command) {
   const bool was_stopped = watchdog_stopped_;
   watchdog_stopped_ = false;
   t_last_command_ns_ = t_ns_;
@@ -83,12 +83,12 @@ void P3At::obey(const arcos::Command& command) {
     if (session_ == Session::Connected) open();
   } else if (command.is(CommandId::Close)) {
     close();
-  } else {  // PULSE and what nobody knows do nothing but feed the watchdog
-    obey_motion(command) || obey_limits(command) || obey_requests(command) || obey_parameters(command) ||
-        obey_tuning(command);
+  } else {  // PULSE and unknown commands have no effect but on the watchdog
+    execute_motion(command) || execute_limits(command) || execute_requests(command) ||
+        execute_parameters(command) || execute_tuning(command);
   }
   if (was_stopped && session_ == Session::Open) {
-    const bool resumes = motors_enabled_ && drive_.asked_to_move(progress());
+    const bool resumes = motors_enabled_ && drive_.has_motion_to_do(progress());
     log(RobotEventKind::WatchdogResume, resumes ? 1 : 0);
   }
 }

@@ -1,11 +1,12 @@
 #include "sim/robot/robot_event.h"
 
+#include <fmt/format.h>
+
 #include "sim/robot/fault.h"
 
 namespace heel::sim {
 
 std::string describe(const RobotEvent& event) {
-  const std::string value = std::to_string(event.value);
   switch (event.kind) {
     case RobotEventKind::Synced:
       return "synced";
@@ -26,22 +27,21 @@ std::string describe(const RobotEvent& event) {
     case RobotEventKind::WatchdogStop:
       return "watchdog stop";
     case RobotEventKind::WatchdogResume:
-      return event.value != 0 ? "watchdog over, the old motion resumes" : "watchdog over";
+      return event.value != 0 ? "watchdog over, the old motion continues" : "watchdog over";
     case RobotEventKind::Bumpers:
-      return "bumpers front " + std::to_string(event.value & 0x7F) + " rear " +
-             std::to_string(event.value >> 8 & 0x7F);
+      return fmt::format("bumpers front {} rear {}", event.value & 0x7F, event.value >> 8 & 0x7F);
     case RobotEventKind::Stalled:
       return "stalled";
     case RobotEventKind::StallOver:
       return "stall over";
     case RobotEventKind::BaudChanged:
-      return "baud " + value;
+      return fmt::format("baud {}", event.value);
     case RobotEventKind::Reset:
-      return "controller reset, notice " + value;
+      return fmt::format("controller reset, notice {}", event.value);
     case RobotEventKind::Maintenance:
-      return "maintenance mode: deaf until reset";
+      return "maintenance mode: no communication until reset";
     case RobotEventKind::FaultBegins:
-      return std::string("fault ") + to_string(static_cast<FaultKind>(event.value));
+      return fmt::format("fault {}", to_string(static_cast<FaultKind>(event.value)));
   }
   return "?";
 }

@@ -1,4 +1,4 @@
-// What happens to the simulated robot, one line each, for logs and tests.
+// Events of the simulated robot, one line each, for logs and tests.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ enum class RobotEventKind : std::uint8_t {
   StopButton,      ///< pressed: motors off
   StopButtonFree,  ///< released: motors stay off
   EnableRefused,   ///< ENABLE 1 while the STOP button is held
-  WatchdogStop,    ///< no command for the watchdog's time
-  WatchdogResume,  ///< a command came; value 1: it set the old motion going again
+  WatchdogStop,    ///< no command during the watchdog's time
+  WatchdogResume,  ///< the first command after a watchdog stop; value 1: the old motion continues
   Bumpers,         ///< value: front bits 0…6, rear bits 8…14
   Stalled,
   StallOver,
   BaudChanged,  ///< value: the new rate
-  Reset,        ///< value: the notice's id
-  Maintenance,  ///< 255 was sent
+  Reset,        ///< value: id of the notice
+  Maintenance,  ///< packet 255 was received
   FaultBegins,  ///< value: its FaultKind
 };
 

@@ -1,4 +1,4 @@
-// The robot's serial line, both directions, with the faults that can befall its bytes.
+// The robot's serial line, both directions, with simulated faults.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class RobotLine {
 
   int robot_baud() const { return robot_baud_; }
   void set_robot_baud(int baud);
-  /// The rate the client's end is set to; 0: whatever the robot's is (a line without a rate, such as TCP).
+  /// The rate of the client's end; 0: always the robot's (a line without a rate, such as TCP).
   void set_host_baud(int baud);
   void set_effects(const FaultEffects& effects) { effects_ = effects; }
 
@@ -26,14 +26,14 @@ class RobotLine {
   void arrive_at_robot(TimeNs t_ns, std::vector<std::uint8_t>& out) { to_robot_.receive_until(t_ns, out); }
   void arrive_at_host(TimeNs t_ns, std::vector<std::uint8_t>& out) { to_host_.receive_until(t_ns, out); }
 
-  /// Bytes from the host still under way.
+  /// Number of the host's bytes that have not arrived yet.
   std::size_t input_backlog() const { return to_robot_.backlog(); }
-  /// When the robot's port will have sent all it was given; a delay on the way is not the port's.
+  /// When the robot's port has sent everything, without the delay of a fault.
   TimeNs output_free_at_ns() const { return to_host_.free_at_ns() - effects_.delay_ns; }
 
  private:
   void apply_rates();
-  /// What is left of `bytes` after losses and flipped bits.
+  /// `bytes` after losses and flipped bits.
   std::span<const std::uint8_t> damaged(std::span<const std::uint8_t> bytes);
 
   int robot_baud_;

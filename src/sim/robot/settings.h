@@ -1,4 +1,4 @@
-// What can be chosen about the simulated P3-AT. Defaults: a p3at-sh as delivered, on ordinary floor.
+// Settings of the simulated P3-AT. The defaults are those of a p3at-sh as delivered, on an ordinary floor.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 namespace heel::sim {
 
 struct P3AtSettings {
-  // Who it is.
+  // Identity.
   std::string name = "heel-sim";
   std::string type = "Pioneer";
   std::string subtype = "p3at-sh";
@@ -23,10 +23,10 @@ struct P3AtSettings {
   // Wire.
   double mm_per_position_unit = 1.0;  ///< DistConvFactor
   bool heading_from_zero = false;     ///< THPOS 0…4095 instead of −2048…2047
-  bool sends_fault_flags = true;      ///< newer firmware's last SIP field
+  bool sends_fault_flags = true;      ///< the last SIP field of newer firmware
   int boot_baud = 9600;
   int autobaud = 2;                    ///< CONFIGpac Autobaud; 0: HOSTBAUD is ignored
-  bool junk_before_first_echo = true;  ///< "WMS2\r"
+  bool junk_before_first_echo = true;  ///< sends "WMS2\r" before its first echo
 
   // Times.
   TimeNs sip_cycle_ns = 100 * kNsPerMs;
@@ -34,7 +34,7 @@ struct P3AtSettings {
   TimeNs sonar_cycle_ns = 40 * kNsPerMs;
   TimeNs stall_cut_ns = 200 * kNsPerMs;  ///< StallCount
 
-  // Motion. `top` is what no command can pass, `boot` what holds until SETV, SETA, SETRV, SETRA.
+  // Motion. `top` limits all commands; `boot` holds until SETV, SETA, SETRV and SETRA change it.
   AxisLimits translation_top{.speed = 1.2, .acceleration = 2.0, .deceleration = 2.0};
   AxisLimits translation_boot{.speed = 0.75, .acceleration = 0.3, .deceleration = 0.3};
   AxisLimits rotation_top_deg{.speed = 300.0, .acceleration = 600.0, .deceleration = 600.0};
@@ -52,7 +52,7 @@ struct P3AtSettings {
   std::vector<Fault> faults;
 };
 
-/// The older H8 model: 0.465 mm a position unit, subclass "p3at".
+/// The older model with the H8 controller: 0.465 mm per position unit, subclass "p3at".
 P3AtSettings p3at_h8_settings();
 
 }  // namespace heel::sim

@@ -8,7 +8,7 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kFarthest_m = 5.0;  // a disc that hears nothing reports this
+constexpr double kFarthest_m = 5.0;  // also reported without an echo
 constexpr double kNearest_m = 0.15;
 
 struct Mount {

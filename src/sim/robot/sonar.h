@@ -1,4 +1,4 @@
-// The sixteen sonars: two arrays of eight, each firing one disc a cycle, in POLLING order.
+// The sixteen sonars: two arrays of eight; each array fires one sonar per cycle, in the order of POLLING.
 #pragma once
 
 #include <array>
@@ -16,10 +16,12 @@ inline constexpr int kSonarCount = 16;
 inline constexpr int kSonarsPerArray = 8;
 inline constexpr int kSonarArrays = 2;
 
-/// Where sonar `number` (0…15) sits on the robot: 0…7 front from left to right, 8…15 rear from right to left.
+/// The place of sonar `number` (0…15) on the robot: 0…7 in front from left to right, 8…15 behind from right
+/// to left.
 Pose2 sonar_mount(int number);
 
-/// Distance in metres from a sensor (its pose in the world) to the nearest thing ahead of it; infinity: none.
+/// Gives the distance in metres from a sensor (its pose in the world) to the nearest obstacle ahead;
+/// infinity: none.
 using RangeFinder = std::function<double(const Pose2& sensor_in_world)>;
 
 struct SonarReading {
@@ -37,10 +39,10 @@ class SonarRing {
   void enable(int array, bool on) { enabled_[static_cast<std::size_t>(array)] = on; }
   void enable_all(bool on) { enabled_.fill(on); }
   bool enabled(int array) const { return enabled_[static_cast<std::size_t>(array)]; }
-  /// Numbers from 1, as in POLLING; an array of which none is named falls silent. Empty: the default order.
+  /// Numbers from 1, as in POLLING; an array without any number stops firing. Empty: the default order.
   void set_polling(std::span<const std::uint8_t> numbers);
 
-  /// Fires what is due by `t_ns`.
+  /// Fires the sonars that are due at `t_ns`.
   void advance(TimeNs t_ns, const Pose2& robot_in_world);
   /// The readings since the last call, oldest first.
   std::vector<SonarReading> take_readings();

@@ -1,5 +1,5 @@
-// The firmware's stall protection for one wheel: pushing for half a second while the wheel all but stands
-// cuts the motors' power for StallCount ms; then they try again.
+// The firmware's stall protection of one wheel: when the motor pushes for half a second and the wheel hardly
+// moves, the motors are off for StallCount ms and then try again.
 #pragma once
 
 #include "heel/time.h"
@@ -10,8 +10,8 @@ class StallMonitor {
  public:
   explicit StallMonitor(TimeNs cut_ns) : cut_ns_(cut_ns) {}
 
-  /// One step with power on or off. `wanted` and `actual` are the wheel's speeds.
-  void step(bool powered, double wanted_m_s, double actual_m_s, TimeNs t_ns, TimeNs dt_ns);
+  /// One step with power on or off; `target_m_s` and `actual_m_s` are the wheel's speeds.
+  void step(bool powered, double target_m_s, double actual_m_s, TimeNs t_ns, TimeNs dt_ns);
   bool stalled(TimeNs t_ns) const { return t_ns < t_free_ns_; }
 
  private:
