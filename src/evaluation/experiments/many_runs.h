@@ -1,4 +1,4 @@
-// The same scenario with many seeds: how following varies.
+// Statistics over many runs of one scenario with different seeds.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,13 +9,13 @@
 
 namespace heel::evaluation {
 
-/// Over runs, one value a run.
 struct ManyRuns {
   std::vector<FollowMetrics> runs;
   double simulated_s = 0.0;
 };
 
-/// Quantiles of path RMS, separation, nearest separation, found share, longest time out of view, stops.
+/// Mean, deviation and quantiles over the runs of path RMS, separation, smallest separation, share of frames
+/// in which the shirt was found, longest time out of view, robot path and stops.
 nlohmann::ordered_json to_json(const ManyRuns& many);
 std::string many_runs_table(const ManyRuns& many);
 

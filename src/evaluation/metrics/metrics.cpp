@@ -13,16 +13,16 @@ namespace {
 
 const std::string kFollowing = to_string(StopReason::None);
 const std::string kShuttingDown = to_string(StopReason::Shutdown);
-constexpr double kWalkingM_S = 0.05;
-constexpr double kLostAll_m = 100.0;  ///< search radius along a path that has gone astray
+constexpr double kWalking_m_s = 0.05;
+constexpr double kMaxLateral_m = 100.0;  ///< reported when the path is farther away
 constexpr std::size_t kSearchBehind = 100;
 constexpr std::size_t kSearchAhead = 300;
 
-std::vector<PathPoint> person_path(const std::vector<MotionSample>& motion) {
-  std::vector<PathPoint> path;
+std::vector<Pose2> person_path(const std::vector<MotionSample>& motion) {
+  std::vector<Pose2> path;
   for (const MotionSample& sample : motion) {
     if (!sample.has_person) continue;
-    // Standing still adds nothing to a path.
+    // A standing person adds nothing to the path.
     if (!path.empty() &&
         std::hypot(sample.person.x_m - path.back().x_m, sample.person.y_m - path.back().y_m) < 0.01)
       continue;
@@ -31,7 +31,7 @@ std::vector<PathPoint> person_path(const std::vector<MotionSample>& motion) {
   return path;
 }
 
-double length_m(const std::vector<PathPoint>& path) {
+double length_m(const std::vector<Pose2>& path) {
   double sum = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i)
     sum += std::hypot(path[i].x_m - path[i - 1].x_m, path[i].y_m - path[i - 1].y_m);
@@ -41,7 +41,7 @@ double length_m(const std::vector<PathPoint>& path) {
 void find_walk(const std::vector<MotionSample>& motion, FollowMetrics& out) {
   bool found = false;
   for (const MotionSample& sample : motion) {
-    if (!sample.has_person || sample.person_speed_m_s < kWalkingM_S) continue;
+    if (!sample.has_person || sample.person_speed_m_s < kWalking_m_s) continue;
     if (!found) out.t_walk_begin_s = sample.t_s;
     out.t_walk_end_s = sample.t_s;
     found = true;
@@ -53,8 +53,8 @@ void find_walk(const std::vector<MotionSample>& motion, FollowMetrics& out) {
 }
 
 void measure_paths(const std::vector<MotionSample>& motion, FollowMetrics& out) {
-  const std::vector<PathPoint> path = person_path(motion);
-  std::vector<PathPoint> robot_path;
+  const std::vector<Pose2> path = person_path(motion);
+  std::vector<Pose2> robot_path;
   std::vector<double> lateral, separation;
   std::size_t near = 0;
   double t_out_since_s = -1.0;
@@ -63,7 +63,7 @@ void measure_paths(const std::vector<MotionSample>& motion, FollowMetrics& out) 
     if (sample.t_s < out.t_walk_begin_s) continue;
     if (sample.touching) out.touching_s += sample.t_s - t_before_s;
     t_before_s = sample.t_s;
-    // Standing, encoders of a slipping robot still tremble: count steps of a centimetre.
+    // The pose of a standing robot still trembles: only steps of a centimetre count.
     if (robot_path.empty() ||
         std::hypot(sample.robot.x_m - robot_path.back().x_m, sample.robot.y_m - robot_path.back().y_m) > 0.01)
       robot_path.push_back(sample.robot);
@@ -122,7 +122,7 @@ void count_stops(const std::vector<TickSample>& ticks, FollowMetrics& out) {
   double t_before_s = out.t_walk_begin_s;
   for (const TickSample& tick : ticks) {
     if (tick.t_s < out.t_walk_begin_s || tick.t_s > out.t_walk_end_s) continue;
-    // The run was ended from outside: no failure to follow.
+    // The end of the run is no failure to follow.
     if (tick.stop_reason == kShuttingDown) break;
     if (tick.stop_reason != kFollowing) {
       out.rest_s_by_reason[tick.stop_reason] += tick.t_s - t_before_s;
@@ -173,18 +173,18 @@ Quantiles quantiles(std::vector<double> values) {
   return q;
 }
 
-double lateral_distance_m(const std::vector<PathPoint>& path, const PathPoint& point, std::size_t& near) {
+double lateral_distance_m(const std::vector<Pose2>& path, const Pose2& point, std::size_t& near) {
   const std::size_t from = near > kSearchBehind ? near - kSearchBehind : 0;
   const std::size_t to = std::min(path.size() - 1, near + kSearchAhead);
-  double best2 = kLostAll_m * kLostAll_m;
-  double lateral = kLostAll_m;
+  double best2 = kMaxLateral_m * kMaxLateral_m;
+  double lateral = kMaxLateral_m;
   for (std::size_t i = from; i < to; ++i) {
-    const PathPoint& a = path[i];
+    const Pose2& a = path[i];
     const double ex = path[i + 1].x_m - a.x_m;
     const double ey = path[i + 1].y_m - a.y_m;
     const double length2 = std::max(ex * ex + ey * ey, 1e-18);
     double along = ((point.x_m - a.x_m) * ex + (point.y_m - a.y_m) * ey) / length2;
-    // Before its beginning the path goes on straight: the robot starts behind the person.
+    // The path is extended backwards: the robot starts behind the person.
     along = std::clamp(along, i == 0 ? -1e9 : 0.0, 1.0);
     const double dx = point.x_m - a.x_m - along * ex;
     const double dy = point.y_m - a.y_m - along * ey;

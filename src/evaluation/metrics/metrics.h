@@ -1,5 +1,6 @@
-// How well a run followed: the robot's path against the person's, what the camera lost, how far estimates
-// were from the truth. Gathered sample by sample, from lock step or from a finished run's CSV files alike.
+// How well the robot followed in a run: its path relative to the person's, how long the shirt was not found,
+// the errors of the estimates. Computed from samples, which come from lock step or from the CSV files of a
+// finished run.
 #pragma once
 
 #include <cstdint>
@@ -8,26 +9,22 @@
 #include <string>
 #include <vector>
 
+#include "core/pose2.h"
+
 namespace heel::evaluation {
 
-struct PathPoint {
-  double x_m = 0.0;
-  double y_m = 0.0;
-  double heading_rad = 0.0;
-};
-
-/// One row of truth.
+/// One row of the truth.
 struct MotionSample {
   double t_s = 0.0;
-  PathPoint robot;
+  Pose2 robot;
   bool has_person = false;
-  PathPoint person;
+  Pose2 person;
   double person_speed_m_s = 0.0;
-  bool back_in_view = false;  ///< by geometry, whatever vision made of it
+  bool back_in_view = false;  ///< by geometry, independent of vision
   bool touching = false;      ///< a bumper is pressed
 };
 
-/// One frame as vision saw it, and as it truly was.
+/// One frame: vision's estimate and the truth.
 struct PoseSample {
   double t_s = 0.0;  ///< of capture
   bool found = false;
@@ -43,7 +40,7 @@ struct PoseSample {
 
 struct TickSample {
   double t_s = 0.0;
-  std::string stop_reason;  ///< "following" or why not
+  std::string stop_reason;  ///< "following", or why the robot does not follow
   double v_m_s = 0.0;
   double yaw_rate_rad_s = 0.0;
 };
@@ -57,25 +54,25 @@ Quantiles quantiles(std::vector<double> values);
 /// The value of the nearest rank below which `share` of the values lie; 0 when there are none.
 double quantile(std::vector<double> values, double share);
 
-/// A target found farther than this from its true place is another one.
+/// A target that is found farther than this from its true place is a wrong one.
 inline constexpr double kWrong_m = 0.5;
 
 struct FollowMetrics {
   double t_walk_begin_s = 0.0, t_walk_end_s = 0.0;  ///< while the person walked
   double person_path_m = 0.0, robot_path_m = 0.0;
-  Quantiles lateral_m;            ///< robot's distance from the person's path, signed, left of it positive
+  Quantiles lateral_m;            ///< the robot's distance from the person's path, positive to the left of it
   Quantiles separation_m;         ///< robot to person
-  double separation_end_m = 0.0;  ///< when the walk ends
+  double separation_end_m = 0.0;  ///< at the end of the walk
   std::uint64_t frames = 0, frames_found = 0;
-  std::uint64_t frames_wrong = 0;      ///< found, but over kWrong_m from where the target was: something else
-  double out_of_view_longest_s = 0.0;  ///< between two frames in which the target was found
+  std::uint64_t frames_wrong = 0;      ///< found, but more than kWrong_m from the true place
+  double out_of_view_longest_s = 0.0;  ///< longest time between two frames in which the target was found
   double out_of_view_total_s = 0.0;    ///< frames not found, times the frame period
   double truly_out_of_view_longest_s = 0.0;  ///< by geometry
   Quantiles certainty, yaw_error_rad, x_error_m, y_error_m, z_error_m;
-  double yaw_nees = 0.0;    ///< mean of (error/sigma)²: 1 when the stated sigma is honest
+  double yaw_nees = 0.0;    ///< mean of (error/sigma)²: 1 when the stated sigma is right
   double touching_s = 0.0;  ///< with a bumper pressed
   std::map<std::string, double> rest_s_by_reason;  ///< while the person walked
-  std::map<std::string, int> stops_by_reason;  ///< changes from following to rest, while the person walked
+  std::map<std::string, int> stops_by_reason;      ///< number of stops while the person walked
 };
 
 class MetricsCollector {
@@ -96,19 +93,20 @@ class MetricsCollector {
   std::vector<TickSample> ticks_;
 };
 
-/// Signed distance of a point from the walked path, left of it positive; before its first point the path goes
-/// on straight backwards. `near` is where the search begins and is moved along: paths may cross themselves.
-double lateral_distance_m(const std::vector<PathPoint>& path, const PathPoint& point, std::size_t& near);
+/// Signed distance of a point from the walked path, positive to the left of it. The path is extended
+/// backwards in a straight line. The search begins near point `near` of the path, which is updated, because a
+/// path may cross itself.
+double lateral_distance_m(const std::vector<Pose2>& path, const Pose2& point, std::size_t& near);
 
 nlohmann::ordered_json to_json(const FollowMetrics& metrics);
 
-/// What a run must not exceed; negative: not asked.
+/// Limits for a run; negative: no limit.
 struct FollowCriteria {
   double max_out_of_view_s = -1.0;
   double max_rms_m = -1.0;
   double min_robot_path_m = -1.0;
 };
-/// One line for each that is not met.
+/// One line for each criterion that is not met.
 std::vector<std::string> failed_criteria(const FollowMetrics& metrics, const FollowCriteria& criteria);
 
 }  // namespace heel::evaluation

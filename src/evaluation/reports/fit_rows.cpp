@@ -43,7 +43,7 @@ std::vector<sim::FitRow> still_fit_rows(const std::vector<StillSample>& samples,
     row.conditions.blur_px = s.blur_px;
     row.conditions.light = s.light;
     // Decided by the picture before, not by whether tracking worked.
-    row.conditions.first_look = s.first_look || i == 0 || !samples[i - 1].found;
+    row.conditions.whole_frame_search = s.whole_frame_search || i == 0 || !samples[i - 1].found;
     row.conditions.other_print = s.shirt != "bold";
     row.world = std::hash<std::string>{}(s.shirt) ^ s.seed;
     row.certainty = s.certainty;

@@ -32,7 +32,7 @@ void write_response(const std::string& directory, const MetricsCollector& run) {
   for (std::size_t i = 0; i < run.motion().size(); ++i) {
     const MotionSample& now = run.motion()[i];
     if (i > 0) {
-      const PathPoint& before = run.motion()[i - 1].robot;
+      const Pose2& before = run.motion()[i - 1].robot;
       driven_m += std::hypot(now.robot.x_m - before.x_m, now.robot.y_m - before.y_m);
     }
     // The person walks straight on: their line is where they are and where they face.

@@ -19,10 +19,10 @@ bool walking(const FollowMetrics& metrics, double t_s) {
 }
 
 /// The robot's place at a time; NaN after the last row of truth.
-PathPoint robot_at(const std::vector<MotionSample>& motion, double t_s) {
+Pose2 robot_at(const std::vector<MotionSample>& motion, double t_s) {
   const auto at = std::lower_bound(motion.begin(), motion.end(), t_s,
                                    [](const MotionSample& s, double t) { return s.t_s < t; });
-  return at == motion.end() ? PathPoint{kNoValue, kNoValue, kNoValue} : at->robot;
+  return at == motion.end() ? Pose2{kNoValue, kNoValue, kNoValue} : at->robot;
 }
 
 void write_path(const std::string& path, const MetricsCollector& run, const FollowMetrics& metrics) {
@@ -43,7 +43,7 @@ void write_pose_errors(const std::string& path, const MetricsCollector& run, con
                "robot_x_m,robot_y_m");
   for (const PoseSample& pose : run.poses()) {
     const auto shown = [&](double value) { return pose.found && pose.has_truth ? value : kNoValue; };
-    const PathPoint robot = robot_at(run.motion(), pose.t_s);
+    const Pose2 robot = robot_at(run.motion(), pose.t_s);
     file.number(pose.t_s - begin_s(run), kTimeDecimals).count(walking(metrics, pose.t_s) ? 1 : 0);
     file.count(pose.found ? 1 : 0).number(pose.found ? pose.certainty : 0.0, kShareDecimals);
     file.number(shown(kDegPerRad * pose.yaw_rad), kAngleDecimals);

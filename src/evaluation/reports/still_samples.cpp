@@ -59,7 +59,7 @@ std::vector<StillSample> read_stills(const std::string& path) {
     s.true_yaw_rad = number("true_yaw_rad");
     s.true_t_x_m = number("true_t_x_m");
     s.true_t_z_m = number("true_t_z_m");
-    s.first_look = number("picture") == 0.0;
+    s.whole_frame_search = number("picture") == 0.0;
     s.found = number("found") != 0.0;
     s.certainty = s.found ? number("certainty") : 0.0;
     s.yaw_est_rad = number("est_yaw_rad");

@@ -16,7 +16,7 @@ struct StillSample {
   std::uint64_t seed = 0;
   double light = 1.0, x_m = 0.0, z_m = 0.0, yaw_rad = 0.0, blur_px = 0.0, occluded = 0.0;  // commanded
   double true_x_m = 0.0, true_z_m = 0.0, true_yaw_rad = 0.0, true_t_x_m = 0.0, true_t_z_m = 0.0;
-  bool first_look = false;  ///< looked for in the whole frame, not tracked from the frame before
+  bool whole_frame_search = false;  ///< looked for in the whole frame, not tracked from the frame before
   bool found = false;
   double certainty = 0.0;  ///< 0 where it was not found
   double yaw_est_rad = 0.0, yaw_sigma_rad = 0.0, x_est_m = 0.0, z_est_m = 0.0;

@@ -1,11 +1,12 @@
 #include "sim/pose_noise/error_fit.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
-#include <string>
 
 #include "core/angles.h"
 #include "heel/error.h"
@@ -13,14 +14,14 @@
 namespace heel::sim {
 namespace {
 
-constexpr std::size_t kFewestRows = 200;
+constexpr std::size_t kMinRows = 200;
 constexpr int kRobustRounds = 8;
-constexpr double kHuber = 2.5;       ///< normalised residuals beyond this weigh less
-constexpr double kRidge = 1e-5;      ///< of the weights of a linear fit, per row
-constexpr double kOddsRidge = 0.05;  ///< of a logistic one; rare events leave most terms undetermined
+constexpr double kHuber = 2.5;       ///< normalised residuals beyond this get less weight
+constexpr double kRidge = 1e-5;      ///< ridge of a linear fit, per unit of weight
+constexpr double kOddsRidge = 0.05;  ///< ridge of a logistic fit; rare events do not determine all terms
 constexpr int kNewtonSteps = 60;
 constexpr double kBackHalfWidth_m = 0.16;
-constexpr double kLeastSpread = 1e-5;
+constexpr double kMinSpread = 1e-5;
 constexpr double kAspectMargin_rad = 0.05, kDistanceMargin_m = 0.1;
 
 constexpr auto kEven = static_cast<Eigen::Index>(kEvenTerms.size());
@@ -35,7 +36,7 @@ Eigen::MatrixXd even_matrix(const Rows& rows) {
   return A;
 }
 
-/// Weighted least squares with a little ridge, so that a term nothing speaks of stays at zero.
+/// Weighted least squares with a small ridge, so that a term without data stays at zero.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
                               const Eigen::VectorXd& weights) {
   const double ridge = kRidge * weights.sum();
@@ -48,12 +49,12 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b
 EvenTerms logistic_regression(const Rows& rows, const std::vector<bool>& happened) {
   const Eigen::MatrixXd A = even_matrix(rows);
   Eigen::VectorXd w = Eigen::VectorXd::Zero(kEven);
-  const auto likely = std::count(happened.begin(), happened.end(), true);
-  w(0) = std::log((static_cast<double>(likely) + 0.5) /
-                  (static_cast<double>(rows.size() - static_cast<std::size_t>(likely)) + 0.5));
+  const auto count = std::count(happened.begin(), happened.end(), true);
+  w(0) = std::log((static_cast<double>(count) + 0.5) /
+                  (static_cast<double>(rows.size() - static_cast<std::size_t>(count)) + 0.5));
   for (int step = 0; step < kNewtonSteps; ++step) {
     Eigen::VectorXd gradient = -kOddsRidge * w;
-    gradient(0) = 0.0;  // the base rate is free
+    gradient(0) = 0.0;  // no ridge for the constant term
     Eigen::MatrixXd N = kOddsRidge * Eigen::MatrixXd::Identity(kEven, kEven);
     for (Eigen::Index i = 0; i < A.rows(); ++i) {
       const double p = 1.0 / (1.0 + std::exp(-A.row(i).dot(w)));
@@ -79,7 +80,7 @@ Quantiles quantiles_of(std::vector<double> values) {
   return out;
 }
 
-/// The share of the variance that lies between worlds (analysis of variance, random effects).
+/// The share of the variance that is between worlds (analysis of variance, random effects).
 double share_between_worlds(const Rows& rows, const Eigen::VectorXd& residual) {
   std::map<std::uint64_t, std::vector<double>> worlds;
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -103,8 +104,9 @@ double share_between_worlds(const Rows& rows, const Eigen::VectorXd& residual) {
   return variance / std::max(variance + mean_within, 1e-12);
 }
 
-/// The lag at which the autocorrelation of a sequence about its mean falls below 1/e; 0 for a short one.
-double memory_s(const std::vector<double>& t_s, std::vector<double> values) {
+/// The lag at which the autocorrelation of a sequence around its mean falls below 1/e; 0 for a short
+/// sequence.
+double correlation_time_s(const std::vector<double>& t_s, std::vector<double> values) {
   if (values.size() < 30) return 0.0;
   double mean = 0.0, power = 0.0;
   for (const double value : values) mean += value / static_cast<double>(values.size());
@@ -123,7 +125,7 @@ double memory_s(const std::vector<double>& t_s, std::vector<double> values) {
   return static_cast<double>(values.size() / 2) * period_s;
 }
 
-/// Bias by robust least squares, spread by the logarithm of what it leaves, in turns.
+/// Fits the bias by robust least squares and the spread to the logarithm of the residuals, alternating.
 SpreadModel fit_spread(const Rows& rows, const Rows& walk, double FitRow::*error, bool with_side) {
   const auto count = static_cast<Eigen::Index>(rows.size());
   const Eigen::MatrixXd even = even_matrix(rows);
@@ -142,13 +144,14 @@ SpreadModel fit_spread(const Rows& rows, const Rows& walk, double FitRow::*error
   for (int round = 0; round < kRobustRounds; ++round) {
     const Eigen::VectorXd solution = least_squares(A, b, weights);
     residual = b - A * solution;
-    const Eigen::VectorXd log_size = (residual.array().abs() + kLeastSpread).log();
+    const Eigen::VectorXd log_size = (residual.array().abs() + kMinSpread).log();
     model.log_spread = least_squares(even, log_size, Eigen::VectorXd::Ones(count));
     if (with_side)
       model.bias_odd = solution;
     else
       model.bias_even = solution;
-    // The logarithm's mean lies below the deviation's; as weights only proportions count.
+    // The mean logarithm is below the logarithm of the deviation, but for the weights only proportions
+    // matter.
     const Eigen::VectorXd spread = (even * model.log_spread).array().exp();
     for (Eigen::Index i = 0; i < count; ++i) {
       const double normalised = std::abs(residual(i)) / (2.0 * spread(i));
@@ -157,7 +160,7 @@ SpreadModel fit_spread(const Rows& rows, const Rows& walk, double FitRow::*error
   }
   const Eigen::VectorXd normalised = residual.array() / (even * model.log_spread).array().exp();
   model.residual = quantiles_of({normalised.data(), normalised.data() + count});
-  // Tails are few: a variance is taken of what lies within them.
+  // The variance is that of the residuals without the tails, which have few samples.
   const double limit = std::max(std::abs(model.residual[1]), std::abs(model.residual[kQuantiles - 2]));
   model.print_share = share_between_worlds(rows, normalised.cwiseMin(limit).cwiseMax(-limit));
   std::vector<double> t_s, sequence;
@@ -165,7 +168,7 @@ SpreadModel fit_spread(const Rows& rows, const Rows& walk, double FitRow::*error
     t_s.push_back(row->t_s);
     sequence.push_back((row->*error - model.bias(row->conditions)) / model.spread(row->conditions));
   }
-  model.memory_s = memory_s(t_s, sequence);
+  model.memory_s = correlation_time_s(t_s, sequence);
   return model;
 }
 
@@ -181,13 +184,13 @@ LogModel fit_log(const Rows& rows, const std::function<double(const FitRow&)>& v
   return model;
 }
 
-void fit_time(const std::vector<FitRow>& stills, const Rows& found, ErrorModel& model) {
+void fit_time(const std::vector<FitRow>& pictures, const Rows& found, ErrorModel& model) {
   model.time_share = fit_log(found, [](const FitRow& row) { return row.vision_ms; });
   const double reference = model.time_share.mean_log(ViewConditions{});
   model.time_share.log_mean(0) -= reference;
   double sum = 0.0;
   int missed = 0;
-  for (const FitRow& row : stills) {
+  for (const FitRow& row : pictures) {
     if (row.found) continue;
     sum += std::log(std::max(row.vision_ms, 1e-3)) - reference;
     ++missed;
@@ -195,43 +198,61 @@ void fit_time(const std::vector<FitRow>& stills, const Rows& found, ErrorModel& 
   model.missed_log_time_share = missed > 0 ? sum / missed : 0.0;
 }
 
+/// The pictures by their result.
+struct Selection {
+  Rows all, found, not_flipped;
+  std::vector<bool> is_found;    ///< of all
+  std::vector<bool> is_flipped;  ///< of the found
+};
+
+Selection select(const std::vector<FitRow>& pictures) {
+  Selection selection;
+  for (const FitRow& row : pictures) {
+    selection.all.push_back(&row);
+    selection.is_found.push_back(row.found);
+    if (!row.found) continue;
+    selection.found.push_back(&row);
+    selection.is_flipped.push_back(row.flipped);
+    if (!row.flipped) selection.not_flipped.push_back(&row);
+  }
+  return selection;
+}
+
+/// The range of the pictures in which the shirt was found.
+void set_limits(const Rows& found, ErrorModel& model) {
+  for (const FitRow* row : found) {
+    model.distance_max_m = std::max(model.distance_max_m, row->conditions.distance_m + kDistanceMargin_m);
+    model.aspect_max_rad =
+        std::max(model.aspect_max_rad, std::abs(row->conditions.aspect_rad) + kAspectMargin_rad);
+  }
+}
+
 }  // namespace
 
-ErrorModel fit_error_model(const std::vector<FitRow>& stills, const std::vector<FitRow>& walk) {
-  Rows all, found, upright, walk_found;
-  std::vector<bool> was_found, was_flipped;
-  ErrorModel model;
-  for (const FitRow& row : stills) {
-    all.push_back(&row);
-    was_found.push_back(row.found);
-    if (!row.found) continue;
-    found.push_back(&row);
-    was_flipped.push_back(row.flipped);
-    if (!row.flipped) upright.push_back(&row);
-    model.distance_max_m = std::max(model.distance_max_m, row.conditions.distance_m + kDistanceMargin_m);
-    model.aspect_max_rad =
-        std::max(model.aspect_max_rad, std::abs(row.conditions.aspect_rad) + kAspectMargin_rad);
-  }
-  if (upright.size() < kFewestRows)
-    throw Error("error model: the shirt was found in " + std::to_string(upright.size()) + " of " +
-                std::to_string(stills.size()) + " pictures (expected at least " +
-                std::to_string(kFewestRows) + ")");
+ErrorModel fit_error_model(const std::vector<FitRow>& pictures, const std::vector<FitRow>& walk) {
+  const Selection selection = select(pictures);
+  if (selection.not_flipped.size() < kMinRows)
+    throw Error(fmt::format("error model: the shirt was found in {} of {} pictures (expected at least {})",
+                            selection.not_flipped.size(), pictures.size(), kMinRows));
+  Rows walk_found;
   std::vector<double> walk_t_s, walk_miss;
   for (const FitRow& row : walk) {
     walk_t_s.push_back(row.t_s);
     walk_miss.push_back(row.found ? 0.0 : 1.0);
     if (row.found && !row.flipped) walk_found.push_back(&row);
   }
-  model.found_log_odds = logistic_regression(all, was_found);
-  model.flip_log_odds = logistic_regression(found, was_flipped);
-  model.aspect_rad = fit_spread(upright, walk_found, &FitRow::aspect_error_rad, true);
-  model.range_share = fit_spread(upright, walk_found, &FitRow::range_error_share, false);
-  model.bearing_rad = fit_spread(upright, walk_found, &FitRow::bearing_error_rad, true);
-  model.certainty = fit_log(found, [](const FitRow& row) { return row.certainty; });
-  model.yaw_sigma_rad = fit_log(upright, [](const FitRow& row) { return row.yaw_sigma_rad; });
-  fit_time(stills, found, model);
-  // Where nothing was ever missed, misses come as errors do.
-  const double misses_s = memory_s(walk_t_s, walk_miss);
+  ErrorModel model;
+  set_limits(selection.found, model);
+  model.found_log_odds = logistic_regression(selection.all, selection.is_found);
+  model.flip_log_odds = logistic_regression(selection.found, selection.is_flipped);
+  model.aspect_rad = fit_spread(selection.not_flipped, walk_found, &FitRow::aspect_error_rad, true);
+  model.range_share = fit_spread(selection.not_flipped, walk_found, &FitRow::range_error_share, false);
+  model.bearing_rad = fit_spread(selection.not_flipped, walk_found, &FitRow::bearing_error_rad, true);
+  model.certainty = fit_log(selection.found, [](const FitRow& row) { return row.certainty; });
+  model.yaw_sigma_rad = fit_log(selection.not_flipped, [](const FitRow& row) { return row.yaw_sigma_rad; });
+  fit_time(pictures, selection.found, model);
+  // Without any missed frame, misses are correlated like errors.
+  const double misses_s = correlation_time_s(walk_t_s, walk_miss);
   model.found_memory_s = misses_s > 0.0 ? misses_s : model.aspect_rad.memory_s;
   return model;
 }
@@ -242,7 +263,7 @@ ViewConditions conditions_of(double x_m, double z_m, double yaw_rad, double fx_p
   conditions.distance_m = std::hypot(x_m, z_m);
   conditions.aspect_rad = wrap_angle_rad(yaw_rad - std::atan2(x_m, z_m));
   conditions.hidden = occluded;
-  // What is out of the picture is hidden too.
+  // The part out of the picture counts as hidden.
   const double half_px = std::max(
       1.0, fx_px * kBackHalfWidth_m * std::abs(std::cos(conditions.aspect_rad)) / std::max(z_m, 0.1));
   const double at_px = cx_px + fx_px * x_m / std::max(z_m, 0.1);

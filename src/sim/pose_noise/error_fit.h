@@ -1,4 +1,4 @@
-// Fits the error model to pictures of known truth.
+// Fits the pose-noise model to pictures with known truth.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace heel::sim {
 
-/// One picture: its conditions, and what vision made of it. Errors are estimated minus true.
+/// One picture: its conditions, and vision's result. Errors are estimated minus true values.
 struct FitRow {
   ViewConditions conditions;
-  std::uint64_t world = 0;  ///< pictures of one print in one room have the same
-  double t_s = 0.0;         ///< in a sequence
+  std::uint64_t world = 0;  ///< the same for all pictures of one print in one room
+  double t_s = 0.0;         ///< of a frame in a sequence
   bool found = false;
   bool flipped = false;
   double certainty = 0.0;
@@ -21,12 +21,12 @@ struct FitRow {
   double vision_ms = 0.0;
 };
 
-/// `stills` tell the errors by their conditions, `walk`, frame after frame, how long an error lasts. Throws
-/// heel::Error where there are too few.
-ErrorModel fit_error_model(const std::vector<FitRow>& stills, const std::vector<FitRow>& walk);
+/// Fits errors by conditions to `pictures`, and correlation times to the consecutive frames of `walk`. Throws
+/// heel::Error when there are too few pictures.
+ErrorModel fit_error_model(const std::vector<FitRow>& pictures, const std::vector<FitRow>& walk);
 
-/// The conditions of a truth: what hides the back, and what of it is out of the picture, is one share.
-/// `occluded` as evaluation::StillImageView.
+/// The conditions of a view with known truth. `hidden` becomes the larger of the occluded share and the share
+/// out of the picture; `occluded` as in evaluation::StillImageView.
 ViewConditions conditions_of(double x_m, double z_m, double yaw_rad, double fx_px, double cx_px,
                              double width_px, double occluded);
 

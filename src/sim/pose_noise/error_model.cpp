@@ -24,7 +24,7 @@ EvenTerms even_terms(const ViewConditions& c) {
   const double hidden = std::min(std::abs(c.hidden), 1.0);
   EvenTerms terms;
   terms << 1.0, r, r * r, a * a, a * a * a * a, r * a * a, blur, blur * r, dark, dark * dark, hidden,
-      hidden * hidden, c.first_look ? 1.0 : 0.0, c.other_print ? 1.0 : 0.0;
+      hidden * hidden, c.whole_frame_search ? 1.0 : 0.0, c.other_print ? 1.0 : 0.0;
   return terms;
 }
 

@@ -75,7 +75,7 @@ LogModel read_log(TomlSection section) {
 }  // namespace
 
 ErrorModel read_error_model(const std::string& path) {
-  const std::string text = read_toml_text(path, "an error model, as `heel fit` writes it");
+  const std::string text = read_toml_text(path, "an error model written by `heel fit`");
   const toml::table table = parse_toml(text, path);
   TomlSection root(table, "", path);
   ErrorModel model;
@@ -98,7 +98,7 @@ ErrorModel read_error_model(const std::string& path) {
 void write_error_model(const ErrorModel& model, const std::string& note, const std::string& path) {
   OutputFile file(path);
   file.print(
-      "# What vision makes of the pictured world, for `heel simulate --error-model`. Written by `heel fit`.\n"
+      "# Pose-noise model for `heel simulate --error-model`. Written by `heel fit`.\n"
       "# {}\n"
       "# Terms: distance in m, angle to the line of sight in rad, blur in px, dark in halvings of the "
       "light,\n"

@@ -11,10 +11,10 @@
 namespace heel::sim {
 namespace {
 
-constexpr TimeNs kForgotten_ns = kNsPerS / 2;  ///< as PoseTracker
+constexpr TimeNs kTrackingEnd_ns = kNsPerS / 2;  ///< after this time PoseTracker searches the whole frame
 constexpr std::uint32_t kTemplateFeatures = 300;
 
-double normal_share_below(double value) {
+double normal_cdf(double value) {
   return 0.5 * std::erfc(-value / std::sqrt(2.0));
 }
 
@@ -24,7 +24,7 @@ double quantile(const Quantiles& quantiles, double share) {
   return quantiles[low] + (at - static_cast<double>(low)) * (quantiles[low + 1] - quantiles[low]);
 }
 
-/// R_cur_from_ref of an upright person with this heading.
+/// R_cur_from_ref for an upright person with this heading.
 Eigen::Matrix3d rotation_of(const Eigen::Isometry3d& world_from_camera, double heading_rad) {
   const double c = std::cos(heading_rad), s = std::sin(heading_rad);
   Eigen::Matrix3d world_from_ref;
@@ -45,34 +45,34 @@ SampledPoses::SampledPoses(const ErrorModel& model, const Scenario& scenario, do
       mount_z_m_(scenario.camera.mount_z_m),
       random_(seed) {
   found_.memory_s = model.found_memory_s;
-  const auto begin = [&](Memory& memory, const SpreadModel& spread) {
-    memory.share_for_good = spread.print_share;
-    memory.memory_s = spread.memory_s;
-    memory.for_good = random_.normal();
+  const auto begin = [&](CorrelatedNoise& noise, const SpreadModel& spread) {
+    noise.constant_share = spread.print_share;
+    noise.memory_s = spread.memory_s;
+    noise.constant = random_.normal();
   };
   begin(aspect_, model.aspect_rad);
   begin(range_, model.range_share);
   begin(bearing_, model.bearing_rad);
 }
 
-double SampledPoses::next(Memory& memory, double dt_s) {
-  const double kept = memory.memory_s > 0.0 ? std::exp(-dt_s / memory.memory_s) : 0.0;
-  memory.fading = kept * memory.fading + std::sqrt(1.0 - kept * kept) * random_.normal();
-  return std::sqrt(memory.share_for_good) * memory.for_good +
-         std::sqrt(1.0 - memory.share_for_good) * memory.fading;
+double SampledPoses::next(CorrelatedNoise& noise, double dt_s) {
+  const double correlation = noise.memory_s > 0.0 ? std::exp(-dt_s / noise.memory_s) : 0.0;
+  noise.varying = correlation * noise.varying + std::sqrt(1.0 - correlation * correlation) * random_.normal();
+  return std::sqrt(noise.constant_share) * noise.constant +
+         std::sqrt(1.0 - noise.constant_share) * noise.varying;
 }
 
-double SampledPoses::drawn(const SpreadModel& model, const ViewConditions& conditions, Memory& memory,
-                           double dt_s) {
-  const double residual = quantile(model.residual, normal_share_below(next(memory, dt_s)));
+double SampledPoses::sample(const SpreadModel& model, const ViewConditions& conditions,
+                            CorrelatedNoise& noise, double dt_s) {
+  const double residual = quantile(model.residual, normal_cdf(next(noise, dt_s)));
   return model.bias(conditions) + model.spread(conditions) * residual;
 }
 
-ViewConditions SampledPoses::conditions_now(const RobotMotion& robot, const Truth& truth) const {
+ViewConditions SampledPoses::conditions_of_frame(const RobotMotion& robot, const Truth& truth) const {
   const Eigen::Vector3d& back = truth.back_in_camera_m;
   ViewConditions now = conditions_of(back.x(), back.z(), truth.yaw_rad, camera_.fx, camera_.cx,
                                      static_cast<double>(camera_.width_px), 0.0);
-  // The camera's own turning smears most; walking adds little at two metres.
+  // Most of the blur comes from the rotation of the camera; walking adds little at two metres.
   const double sideways_m_s = truth.person.speed_m_s * std::sin(now.aspect_rad) +
                               robot.v_m_s * std::sin(std::atan2(back.x(), back.z()));
   const double rate_rad_s = robot.yaw_rate_rad_s + sideways_m_s / std::max(now.distance_m, 0.1);
@@ -93,13 +93,14 @@ PoseEstimate SampledPoses::estimate(const FrameHeader& header, const RobotMotion
   pose.t_capture_ns = t_ns;
   pose.template_features = kTemplateFeatures;
 
-  ViewConditions now = conditions_now(robot, truth);
-  now.first_look = !ever_found_ || t_ns - t_last_found_ns_ > kForgotten_ns;
-  // Every value moves on with every frame, so that what is drawn for one does not shift the others.
-  const double found = normal_share_below(next(found_, dt_s));
-  const double aspect_error = drawn(model_.aspect_rad, now, aspect_, dt_s);
-  const double range_error = drawn(model_.range_share, now, range_, dt_s);
-  const double bearing_error = drawn(model_.bearing_rad, now, bearing_, dt_s);
+  ViewConditions now = conditions_of_frame(robot, truth);
+  now.whole_frame_search = !ever_found_ || t_ns - t_last_found_ns_ > kTrackingEnd_ns;
+  // Every random number is drawn for every frame, so that one value does not change the sequence of the
+  // others.
+  const double found = normal_cdf(next(found_, dt_s));
+  const double aspect_error = sample(model_.aspect_rad, now, aspect_, dt_s);
+  const double range_error = sample(model_.range_share, now, range_, dt_s);
+  const double bearing_error = sample(model_.bearing_rad, now, bearing_, dt_s);
   const double flip = random_.uniform();
   const double certainty =
       std::exp(model_.certainty.mean_log(now) + model_.certainty.log_deviation * random_.normal());
@@ -114,7 +115,7 @@ PoseEstimate SampledPoses::estimate(const FrameHeader& header, const RobotMotion
   }
   time_share_ = std::exp(model_.time_share.mean_log(now) + log_time);
   pose.reason = PoseReason::Found;
-  pose.tracked = !now.first_look;
+  pose.tracked = !now.whole_frame_search;
   pose.certainty = std::min(certainty, 1.0);
   pose.inliers = static_cast<std::uint32_t>(pose.certainty * kTemplateFeatures);
   pose.yaw_sigma_rad = sigma_rad;
@@ -123,16 +124,16 @@ PoseEstimate SampledPoses::estimate(const FrameHeader& header, const RobotMotion
 
   const double aspect = flip < model_.flip_probability(now) ? -now.aspect_rad : now.aspect_rad;
   const double bearing = std::atan2(truth.back_in_camera_m.x(), truth.back_in_camera_m.z()) + bearing_error;
-  fill(truth, wrap_angle_rad(aspect + aspect_error + bearing), bearing, now.distance_m * (1.0 + range_error),
-       pose);
+  set_pose(truth, wrap_angle_rad(aspect + aspect_error + bearing), bearing,
+           now.distance_m * (1.0 + range_error), pose);
   return pose;
 }
 
-void SampledPoses::fill(const Truth& truth, double yaw_rad, double bearing_rad, double range_m,
-                        PoseEstimate& pose) const {
+void SampledPoses::set_pose(const Truth& truth, double yaw_rad, double bearing_rad, double range_m,
+                            PoseEstimate& pose) const {
   const Eigen::Vector3d& back = truth.back_in_camera_m;
-  const double nearer = range_m / std::hypot(back.x(), back.z());
-  const Eigen::Vector3d position(range_m * std::sin(bearing_rad), nearer * back.y(),
+  const double range_ratio = range_m / std::hypot(back.x(), back.z());
+  const Eigen::Vector3d position(range_m * std::sin(bearing_rad), range_ratio * back.y(),
                                  range_m * std::cos(bearing_rad));
   const Eigen::Matrix3d R =
       Eigen::AngleAxisd(yaw_rad - truth.yaw_rad, Eigen::Vector3d::UnitY()).toRotationMatrix() *
@@ -145,7 +146,7 @@ void SampledPoses::fill(const Truth& truth, double yaw_rad, double bearing_rad, 
   H = (K * H * K.inverse()).eval();
   pose.yaw_rad = yaw_rad;
   Eigen::Map<Eigen::Vector3d>(pose.t_over_d.data()) = t_over_d;
-  // The lever of the template's distance turns the yaw's deviation into t's.
+  // t changes with the yaw by the lever of the template's distance.
   Eigen::Map<Eigen::Vector3d>(pose.t_over_d_sigma.data()) =
       pose.yaw_sigma_rad * Eigen::Vector3d(std::abs(std::cos(yaw_rad)), 0.0, std::abs(std::sin(yaw_rad)));
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.R_cur_from_ref.data()) = R;

@@ -169,10 +169,10 @@ TEST(FitRows, TellConditionsAndErrorsOfWhatWasSeen) {
   const auto rows = evaluation::still_fit_rows(written_and_read({lost, after_lost, seen, tracked}), camera);
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_FALSE(rows[0].found);
-  EXPECT_TRUE(rows[1].conditions.first_look) << "the picture before did not show it";
+  EXPECT_TRUE(rows[1].conditions.whole_frame_search) << "the picture before did not show it";
   EXPECT_TRUE(rows[1].flipped);
   EXPECT_TRUE(rows[1].conditions.other_print);
-  EXPECT_FALSE(rows[3].conditions.first_look);
+  EXPECT_FALSE(rows[3].conditions.whole_frame_search);
   EXPECT_FALSE(rows[3].flipped);
   EXPECT_NEAR(rows[3].conditions.aspect_rad, -bearing_rad, 1e-6);
   const double bearing_error_rad = std::atan2(0.41, 1.98) - bearing_rad;

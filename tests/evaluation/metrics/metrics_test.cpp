@@ -32,7 +32,7 @@ PoseSample pose(double t_s, bool found, double yaw_error) {
 }
 
 TEST(Metrics, LateralDistanceIsSignedAndReachesBehindTheStart) {
-  const std::vector<PathPoint> path{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}};
+  const std::vector<Pose2> path{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}};
   std::size_t near = 0;
   EXPECT_NEAR(lateral_distance_m(path, {-2, 0.3, 0}, near), 0.3, 1e-12);
   EXPECT_NEAR(lateral_distance_m(path, {0.5, -0.2, 0}, near), -0.2, 1e-12);
