@@ -12,7 +12,7 @@
 namespace heel {
 
 /// Owns the estimator's and the supervisor's memory; reads no clock, holds no device. The daemon's control
-/// thread, the lock-step simulator and replay run this very code.
+/// thread and the lock-step simulator run the same code.
 class ControlStage {
  public:
   ControlStage(const Config& config, const RobotGeometry& robot);

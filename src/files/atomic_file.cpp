@@ -25,7 +25,7 @@ class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& final_path)
       : path_(final_path + ".XXXXXX"), fd_(mkstemp(path_.data())) {
-    if (fd_ < 0) throw file_error(final_path, "cannot make a temporary file beside it");
+    if (fd_ < 0) throw file_error(final_path, "cannot write beside it");
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;

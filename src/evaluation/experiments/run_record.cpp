@@ -18,7 +18,7 @@ constexpr int kWireDecimals = 3;
 
 }  // namespace
 
-MotionSample motion_sample(const sim::TruthMoment& truth) {
+MotionSample motion_sample(const sim::LockstepTruth& truth) {
   MotionSample sample;
   sample.t_s = seconds_from_ns(truth.t_ns);
   sample.robot = {truth.robot.pose.x_m, truth.robot.pose.y_m, truth.robot.pose.heading_rad};
@@ -30,7 +30,7 @@ MotionSample motion_sample(const sim::TruthMoment& truth) {
   return sample;
 }
 
-PoseSample pose_sample(const PoseEstimate& pose, const sim::TruthMoment& truth) {
+PoseSample pose_sample(const PoseEstimate& pose, const sim::LockstepTruth& truth) {
   PoseSample sample;
   sample.t_s = seconds_from_ns(pose.t_capture_ns);
   sample.found = pose.found();
@@ -85,7 +85,7 @@ void RunRecord::open_truth(bool has_world) {
                             [this, &column] { return column.value(truth_.world); });
 }
 
-void RunRecord::on_tick(const TickRecord& tick, const sim::TruthMoment& truth) {
+void RunRecord::on_tick(const TickRecord& tick, const sim::LockstepTruth& truth) {
   metrics_.add(motion_sample(truth));
   metrics_.add(tick_sample(tick));
   if (!recorder_) return;
@@ -95,7 +95,7 @@ void RunRecord::on_tick(const TickRecord& tick, const sim::TruthMoment& truth) {
   if (tick.tick % kFlushTicks == 0) recorder_->flush();
 }
 
-void RunRecord::on_pose(const FrameView& frame, const PoseEstimate& pose, const sim::TruthMoment& truth) {
+void RunRecord::on_pose(const FrameView& frame, const PoseEstimate& pose, const sim::LockstepTruth& truth) {
   metrics_.add(pose_sample(pose, truth));
   if (!recorder_) return;
   recorder_->record(pose);

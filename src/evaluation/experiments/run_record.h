@@ -14,8 +14,8 @@
 namespace heel::evaluation {
 
 // Samples for the metrics, made of a run's records.
-MotionSample motion_sample(const sim::TruthMoment& truth);
-PoseSample pose_sample(const PoseEstimate& pose, const sim::TruthMoment& truth);
+MotionSample motion_sample(const sim::LockstepTruth& truth);
+PoseSample pose_sample(const PoseEstimate& pose, const sim::LockstepTruth& truth);
 TickSample tick_sample(const TickRecord& tick);
 
 class RunRecord : public sim::LockstepObserver {
@@ -24,8 +24,8 @@ class RunRecord : public sim::LockstepObserver {
   /// `directory` is empty. Throws heel::Error when the folder cannot be written.
   RunRecord(const std::string& directory, const sim::LockstepSettings& settings);
 
-  void on_tick(const TickRecord& tick, const sim::TruthMoment& truth) override;
-  void on_pose(const FrameView& frame, const PoseEstimate& pose, const sim::TruthMoment& truth) override;
+  void on_tick(const TickRecord& tick, const sim::LockstepTruth& truth) override;
+  void on_pose(const FrameView& frame, const PoseEstimate& pose, const sim::LockstepTruth& truth) override;
   void on_bytes_to_robot(std::span<const std::uint8_t> bytes, TimeNs t_ns) override;
 
   const MetricsCollector& metrics() const { return metrics_; }
@@ -39,7 +39,7 @@ class RunRecord : public sim::LockstepObserver {
   MetricsCollector metrics_;
   std::unique_ptr<Recorder> recorder_;  ///< this and the files: null without a directory
   std::unique_ptr<SampledCsv> truth_file_;
-  sim::TruthMoment truth_;  ///< of the row being written
+  sim::LockstepTruth truth_;  ///< of the row being written
   std::unique_ptr<sim::WireFile> wire_;
   TimeNs frame_interval_ns_ = 0;
   TimeNs t_next_frame_ns_ = 0;

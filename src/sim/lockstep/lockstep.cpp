@@ -32,7 +32,7 @@ class Lockstep {
     TimeNs t_ns = 0;  ///< middle
     TimeNs stamp_error_ns = 0;
     RobotMotion robot;
-    TruthMoment truth;
+    LockstepTruth truth;
   };
   struct PoseUnderWay {
     PoseEstimate pose;
@@ -46,7 +46,7 @@ class Lockstep {
   void tick(TimeNs t_ns, bool shutdown);
   void send(std::span<const std::uint8_t> bytes, TimeNs t_ns);
   RobotMotion motion_at(TimeNs t_ns) const;
-  TruthMoment truth_at(TimeNs t_ns) const;
+  LockstepTruth truth_at(TimeNs t_ns) const;
 
   const Scenario scenario_;
   const double control_rate_hz_;
@@ -142,8 +142,8 @@ RobotMotion Lockstep::motion_at(TimeNs t_ns) const {
   return motion;
 }
 
-TruthMoment Lockstep::truth_at(TimeNs t_ns) const {
-  TruthMoment truth;
+LockstepTruth Lockstep::truth_at(TimeNs t_ns) const {
+  LockstepTruth truth;
   truth.t_ns = t_ns;
   truth.robot = robot_.truth();
   if (world_) {

@@ -31,8 +31,8 @@ struct LockstepSettings {
   std::optional<ErrorModel> errors;
 };
 
-/// What is true at one moment. Without a world (frames from a file) only the robot's part is.
-struct TruthMoment {
+/// The truth at one time. Without a world (frames from a file) there is only the robot's.
+struct LockstepTruth {
   TimeNs t_ns = 0;
   RobotTruth robot;
   bool has_world = false;
@@ -44,10 +44,10 @@ struct TruthMoment {
 class LockstepObserver {
  public:
   virtual ~LockstepObserver() = default;
-  virtual void on_tick(const TickRecord& /*tick*/, const TruthMoment& /*truth*/) {}
+  virtual void on_tick(const TickRecord& /*tick*/, const LockstepTruth& /*truth*/) {}
   /// `truth` is that of the capture time.
   virtual void on_pose(const FrameView& /*frame*/, const PoseEstimate& /*pose*/,
-                       const TruthMoment& /*truth*/) {}
+                       const LockstepTruth& /*truth*/) {}
   virtual void on_bytes_to_robot(std::span<const std::uint8_t> /*bytes*/, TimeNs /*t_ns*/) {}
 };
 

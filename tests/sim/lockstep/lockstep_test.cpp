@@ -90,7 +90,7 @@ TEST(Lockstep, RepeatsToTheBitAndDiffersBySeed) {
 
 class Records : public LockstepObserver {
  public:
-  void on_tick(const TickRecord& tick, const TruthMoment& /*truth*/) override { ticks.push_back(tick); }
+  void on_tick(const TickRecord& tick, const LockstepTruth& /*truth*/) override { ticks.push_back(tick); }
   std::vector<TickRecord> ticks;
 };
 
@@ -151,7 +151,7 @@ TEST(Lockstep, SlowVisionLosesFramesButNotThePerson) {
 /// Keeps what the poses' times say.
 class PoseTimes : public LockstepObserver {
  public:
-  void on_pose(const FrameView& frame, const PoseEstimate& pose, const TruthMoment& truth) override {
+  void on_pose(const FrameView& frame, const PoseEstimate& pose, const LockstepTruth& truth) override {
     stamp_error_s.push_back(seconds_from_ns(frame.header.t_capture_ns - truth.t_ns));
     latency_s.push_back(seconds_from_ns(pose.t_done_ns - truth.t_ns));
   }

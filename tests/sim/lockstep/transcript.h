@@ -26,7 +26,7 @@ class TranscriptObserver : public sim::LockstepObserver {
   TranscriptObserver(const std::string& directory, const sim::LockstepSettings& settings)
       : record_(directory, settings) {}
 
-  void on_tick(const TickRecord& tick, const sim::TruthMoment& truth) override {
+  void on_tick(const TickRecord& tick, const sim::LockstepTruth& truth) override {
     std::string& bytes = transcript["ticks"];
     append(bytes, tick.input.now_ns, tick.input.robot.odometry.t_ns);
     for (const SonarEcho& echo : tick.input.robot.sonar) append(bytes, echo.t_ns, echo.range_m);
@@ -34,7 +34,7 @@ class TranscriptObserver : public sim::LockstepObserver {
     append_truth(truth);
     record_.on_tick(tick, truth);
   }
-  void on_pose(const FrameView& frame, const PoseEstimate& pose, const sim::TruthMoment& truth) override {
+  void on_pose(const FrameView& frame, const PoseEstimate& pose, const sim::LockstepTruth& truth) override {
     const FrameHeader& header = frame.header;
     append(transcript["frame headers"], header.sequence, header.t_capture_ns, header.width_px,
            header.height_px);
@@ -63,7 +63,7 @@ class TranscriptObserver : public sim::LockstepObserver {
     static_assert(((std::is_arithmetic_v<Values> || std::is_enum_v<Values>)&&...), "no padding");
     (bytes.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
   }
-  void append_truth(const sim::TruthMoment& truth) {
+  void append_truth(const sim::LockstepTruth& truth) {
     std::string& bytes = transcript["truth"];
     const sim::RobotTruth& robot = truth.robot;
     append(bytes, truth.t_ns, truth.walking, robot.pose.x_m, robot.pose.y_m, robot.pose.heading_rad,
