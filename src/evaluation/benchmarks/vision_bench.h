@@ -23,7 +23,7 @@ struct Times {
 Times summarise(std::vector<TimeNs> samples_ns);
 
 struct StageFigure {
-  VisionStage stage;
+  VisionStage stage = VisionStage::Integral;
   Times times;
 };
 

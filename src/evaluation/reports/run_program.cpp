@@ -58,6 +58,7 @@ ProgramEnd run_program(const std::vector<std::string>& arguments) {
     return end;
   }
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   pid_t pid = -1;

@@ -116,13 +116,14 @@ double correlation_time_s(const std::vector<double>& t_s, std::vector<double> va
   }
   if (power <= 0.0) return 0.0;
   const double period_s = (t_s.back() - t_s.front()) / static_cast<double>(t_s.size() - 1);
-  for (std::size_t lag = 1; lag < values.size() / 2; ++lag) {
+  const std::size_t half = values.size() / 2;
+  for (std::size_t lag = 1; lag < half; ++lag) {
     double product = 0.0;
     for (std::size_t i = lag; i < values.size(); ++i) product += values[i] * values[i - lag];
     product /= static_cast<double>(values.size() - lag);
     if (product < power / M_E) return static_cast<double>(lag) * period_s;
   }
-  return static_cast<double>(values.size() / 2) * period_s;
+  return static_cast<double>(half) * period_s;
 }
 
 /// Fits the bias by robust least squares and the spread to the logarithm of the residuals, alternating.

@@ -76,8 +76,8 @@ class Rasteriser {
   struct Face {
     RowwiseForm u, v, w;      ///< u/z, v/z, 1/z
     RowwiseForm s, t, light;  ///< texture coordinates / z, light / z
-    float footprint2;         ///< (texels per pixel)² = footprint2 / w³ on the optical axis
-    FaceShape shape;
+    float footprint2 = 0.f;   ///< (texels per pixel)² = footprint2 / w³ on the optical axis
+    FaceShape shape = FaceShape::Triangle;
     Window window;
     Surface surface;
   };

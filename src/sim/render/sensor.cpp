@@ -13,16 +13,17 @@ constexpr int kPad = 8;                ///< width of the border that repeats the
 constexpr float kMotionMax_px = 10.f;  ///< longest blur: its kernel radius 7 is below kPad
 constexpr int kMotionSteps_px = 4;     ///< quantisation steps of blur vectors per pixel
 constexpr int kMotionBins = 2 * static_cast<int>(kMotionMax_px) * kMotionSteps_px + 1;
+constexpr int kMiddleMotionBin = (kMotionBins - 1) / 2;
 constexpr int kBandBlocks = 3;  ///< rows of blocks that a thread processes at a time
 constexpr std::size_t kNoiseSamples = 1 << 16;
 
 int motion_bin(float d_px) {
   const float clamped = std::clamp(d_px, -kMotionMax_px, kMotionMax_px);
-  return static_cast<int>(std::lround(clamped * kMotionSteps_px)) + (kMotionBins - 1) / 2;
+  return static_cast<int>(std::lround(clamped * kMotionSteps_px)) + kMiddleMotionBin;
 }
 
 float motion_of_bin(int bin) {
-  return static_cast<float>(bin - (kMotionBins - 1) / 2) / static_cast<float>(kMotionSteps_px);
+  return static_cast<float>(bin - kMiddleMotionBin) / static_cast<float>(kMotionSteps_px);
 }
 
 }  // namespace
@@ -196,6 +197,7 @@ void Sensor::expose(const std::vector<float>& radiance, const MotionField& motio
   grey.resize(blurred_.size());
   Random random(derived_seed(seed_, 0x100 + frame));
   std::vector<const float*> noise;
+  noise.reserve(static_cast<std::size_t>(height_));
   for (int y = 0; y < height_; ++y) noise.push_back(noise_.data() + (random.next() & (kNoiseSamples - 1)));
   workers_.parallel_for(height_, kBandBlocks * kMotionBlock_px, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)

@@ -10,8 +10,8 @@ std::uint16_t word(double value) {
 }
 
 std::uint8_t baud_code(int baud) {
-  for (std::uint8_t code = 0; code < std::size(kBauds); ++code) {
-    if (kBauds[code] == baud) return code;
+  for (std::size_t code = 0; code < std::size(kBauds); ++code) {
+    if (kBauds[code] == baud) return static_cast<std::uint8_t>(code);
   }
   return 0;
 }

@@ -42,13 +42,15 @@ void draw_sheet(Canvas& canvas, double x, double y, double width, double height,
           });
   }
   const double line = std::max(2.0, 0.02 * height);
-  for (double ty = y + 0.65 * height; ty < y + height - 3 * line - edge; ty += 2.2 * line) {
+  double ty = y + 0.65 * height;
+  while (ty < y + height - 3 * line - edge) {
     double tx = x + 2 * edge + 2;
     while (tx < x + width - 2 * edge - 6) {
       const double word = std::min(random.uniform(2, 9) * line, x + width - 2 * edge - 2 - tx);
       fill_box(canvas, tx, ty, word, line, ink);
       tx += word + 1.5 * line;
     }
+    ty += 2.2 * line;
   }
 }
 

@@ -86,6 +86,7 @@ void SampleUprightGrid(const IntegralImage& integral, float x_px, float y_px, fl
   const int base_y = std::min(std::max(static_cast<int>(y0), 0), integral.height_px());
   const std::uint32_t* base = integral.row(base_y);
   const int base_x = std::min(std::max(static_cast<int>(x0), 0), integral.width_px());
+  // Filled at once: clearing it would cost time. NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
   GridColumns columns;
   place_columns(integral, x0, first, spacing_px, base, columns);
   for (int j = 0; j < lines; ++j) {

@@ -168,7 +168,7 @@ LayerRows FastHessian::rows_round(int layer, int row) {
 void FastHessian::find_in_row(const IntegralImage& integral, const Octave& octave, int layer, int row,
                               KeypointSelection& selection) {
   const SampleRange cols = octave.search_cols[static_cast<std::size_t>(layer)];
-  std::array<LayerRows, 2> others;
+  std::array<LayerRows, 2> others{};
   std::size_t known = 0;
   for (const int near : {layer - 1, layer + 1}) {
     if (octave.searched(near)) others[known++] = rows_round(near, row);

@@ -120,6 +120,7 @@ float dominant_orientation(const IntegralImage& integral, const Feature& feature
   sample_upright_grid(integral, feature.x_px, feature.y_px, kSpacingPerSigma * feature.sigma_px, kLines,
                       grid);
   Responses dx, dy;
+  // Filled at once: clearing it would cost time. NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
   std::array<std::int32_t, kSide * kStride> bin;
   HWY_DYNAMIC_DISPATCH(HaarResponses)(grid, dx, dy, bin);
 

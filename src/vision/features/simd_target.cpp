@@ -37,6 +37,7 @@ std::vector<std::int64_t> available() {
 
 std::vector<std::string_view> names_of(const std::vector<std::int64_t>& targets) {
   std::vector<std::string_view> names;
+  names.reserve(targets.size());
   for (const std::int64_t target : targets) names.emplace_back(hwy::TargetName(target));
   return names;
 }

@@ -1,5 +1,6 @@
 #include "vision/pose/back_pose_selector.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
