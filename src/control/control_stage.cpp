@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "control/conditions.h"
-#include "control/follow_law.h"
+#include "control/follow_law_factory.h"
 #include "control/gate.h"
 #include "control/sonar_obstacles.h"
 #include "control/supervisor.h"
@@ -14,7 +14,8 @@
 namespace heel {
 
 struct ControlStage::Impl {
-  Impl(const Config& config, const RobotGeometry& robot) : estimator(config), obstacle_map(robot) {
+  Impl(const Config& config, const RobotGeometry& robot)
+      : estimator(config), obstacle_map(robot), law(make_follow_law(config)) {
     reconfigure(config);
   }
 
@@ -23,9 +24,9 @@ struct ControlStage::Impl {
   void update_robot(const RobotState& robot);
   MeasurementStatus update_target(const ControlInput& input);
   double person_range_m(const TargetState& target) const;
+  VelocityCommand wanted(const FollowInput& input) const;
 
   // Only the parts in use, none of which holds text: taking over a configuration takes no memory.
-  ControlConfig control;
   SupervisorConfig supervisor;
   GateConfig gate;
   CameraMount mount;
@@ -33,6 +34,7 @@ struct ControlStage::Impl {
 
   TargetEstimator estimator;
   SonarObstacleMap obstacle_map;
+  std::unique_ptr<FollowLaw> law;
   ConditionMonitor monitor;
   VelocityCommand last_command;
   std::uint64_t ticks = 0;
@@ -43,12 +45,12 @@ struct ControlStage::Impl {
 };
 
 void ControlStage::Impl::reconfigure(const Config& config) {
-  control = config.control;
   supervisor = config.supervisor;
   gate = config.gate;
   mount = mount_of(config.camera);
   sonar_on = config.robot.sonar;
   estimator.reconfigure(config);
+  law->reconfigure(config);
 }
 
 /// After a reconnection odom begins anew, and with it everything expressed in it.
@@ -57,6 +59,7 @@ void ControlStage::Impl::update_robot(const RobotState& robot) {
     reconnects = robot.reconnects;
     estimator.reset();
     obstacle_map.clear();
+    law->reset();
   }
   if (!robot.has_sip) return;
   estimator.add_odometry(robot.odometry);
@@ -82,6 +85,17 @@ double ControlStage::Impl::person_range_m(const TargetState& target) const {
   return std::hypot(x_m, y_m);
 }
 
+/// What the law wants, as a command that expires.
+VelocityCommand ControlStage::Impl::wanted(const FollowInput& input) const {
+  const WantedVelocity velocity = law->velocity(input);
+  VelocityCommand command;
+  command.t_issued_ns = input.now_ns;
+  command.t_expires_ns = input.now_ns + ns_from_seconds(gate.command_lifetime_s);
+  command.v_m_s = velocity.v_m_s;
+  command.yaw_rate_rad_s = velocity.yaw_rate_rad_s;
+  return command;
+}
+
 ControlStage::ControlStage(const Config& config, const RobotGeometry& robot)
     : impl_(std::make_unique<Impl>(config, robot)) {}
 ControlStage::~ControlStage() = default;
@@ -104,9 +118,9 @@ TickRecord ControlStage::tick(const ControlInput& input) {
   record.conditions = s.monitor.observe(input, record.measurement, s.supervisor, s.sonar_on);
   const Verdict verdict = supervise(record.conditions);
   record.stop_reason = verdict.reason;
-  record.wanted = follow(record.target, s.control, s.mount, input.now_ns, s.gate.command_lifetime_s);
   const Clearances clearances{s.person_range_m(record.target),
                               s.obstacle_map.obstacles_at(input.now_ns, input.robot.odometry)};
+  record.wanted = s.wanted({input.now_ns, record.target, input.robot, clearances.obstacles});
   const GateResult gated =
       apply_gate(record.wanted, s.last_command, verdict.style, clearances, input.now_ns, s.gate);
   record.free_distance_m = gated.free_distance_m;

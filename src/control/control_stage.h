@@ -15,12 +15,14 @@ namespace heel {
 /// thread and the lock-step simulator run the same code.
 class ControlStage {
  public:
+  /// Throws heel::Error when `config.control.law` is not a control law.
   ControlStage(const Config& config, const RobotGeometry& robot);
   ~ControlStage();
   ControlStage(ControlStage&&) noexcept;
   ControlStage& operator=(ControlStage&&) noexcept;
 
-  /// New gains, limits and thresholds at a tick boundary; state is kept.
+  /// New gains, limits and thresholds at a tick boundary; state is kept. The control law stays the one of the
+  /// construction: another one would begin without the state that it needs while the robot drives.
   void reconfigure(const Config& config);
 
   /// One tick. The record holds the verdict, the target, the wanted and the gated command.

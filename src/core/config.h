@@ -44,11 +44,12 @@ struct EstimateConfig {
 
 struct ControlConfig {
   double rate_hz = 50.0;
+  std::string law = "view";           ///< view, position: control/follow_law_factory.h
   double gain_distance_1_s = 1.0;     ///< v = gain · t_z error (m → m/s)
   double gain_lateral_rad_s_m = 1.0;  ///< yaw rate from t_x error
-  double gain_yaw_1_s = 0.8;      ///< yaw rate from yaw error; see control/follow_law.h for how it is chosen
-  double setpoint_t_z_m = 0.0;    ///< added to the template's distance: + follows farther away
-  double setpoint_t_x_m = 0.0;    ///< + walks to the person's left
+  double gain_yaw_1_s = 0.8;    ///< yaw rate from yaw error; control/proportional_law.h says how it is chosen
+  double setpoint_t_z_m = 0.0;  ///< added to the template's distance: + follows farther away
+  double setpoint_t_x_m = 0.0;  ///< + walks to the person's left
   double setpoint_yaw_rad = 0.0;  ///< + circles to the person's right, still facing the person
   double deadband_distance_m = 0.05;
   bool reverse = false;           ///< may drive backwards when the person comes nearer

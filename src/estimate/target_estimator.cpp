@@ -41,7 +41,8 @@ Eigen::Matrix2d position_covariance(const Eigen::Vector2d& line_of_sight_odom_m,
 void TargetEstimator::reconfigure(const Config& config) {
   mount_ = mount_of(config.camera);
   settings_ = config.estimate;
-  set_points_ = config.control;
+  set_points_ = {config.control.setpoint_t_z_m, config.control.setpoint_t_x_m,
+                 config.control.setpoint_yaw_rad};
 }
 
 void TargetEstimator::reset() {
@@ -124,10 +125,9 @@ TargetState TargetEstimator::at(TimeNs now_ns) const {
   // The camera has the person where the reference view has them, moved by the set points; the robot's own
   // centre is behind the camera by the mount.
   const Eigen::Vector2d person_from_camera_m =
-      in_reference_view_m_ + Eigen::Vector2d(set_points_.setpoint_t_z_m, -set_points_.setpoint_t_x_m);
+      in_reference_view_m_ + Eigen::Vector2d(set_points_.t_z_m, -set_points_.t_x_m);
   const Eigen::Vector2d person_from_robot_m = person_from_camera_m + Eigen::Vector2d(mount_.x_m, mount_.y_m);
-  const Eigen::Vector2d goal_m =
-      position_m - rotation(yaw_rad + set_points_.setpoint_yaw_rad) * person_from_robot_m;
+  const Eigen::Vector2d goal_m = position_m - rotation(yaw_rad + set_points_.yaw_rad) * person_from_robot_m;
 
   target.known = true;
   target.t_capture_ns = t_capture_ns_;

@@ -32,7 +32,10 @@ class TargetEstimator {
 
   CameraMount mount_;
   EstimateConfig settings_;
-  ControlConfig set_points_;
+  struct SetPoints {
+    double t_z_m = 0.0, t_x_m = 0.0, yaw_rad = 0.0;
+  };
+  SetPoints set_points_;
 
   OdometryHistory path_;
   ConstantVelocityFilter<2> position_;  // odom, m

@@ -132,8 +132,9 @@ TEST(ConfigLoad, NamesKeysThatNeedARestart) {
   after.control.gain_yaw_1_s = 5;
   EXPECT_TRUE(keys_needing_restart(before, after).empty());
   after.camera.width_px = 320;
+  after.control.law = "position";
   after.robot.sonar = !before.robot.sonar;
-  EXPECT_THAT(keys_needing_restart(before, after), ElementsAre("camera.width_px", "robot.sonar"));
+  EXPECT_THAT(keys_needing_restart(before, after), ElementsAre("camera.width_px", "control.law", "robot.sonar"));
 }
 
 /// The default of a key that is a number.

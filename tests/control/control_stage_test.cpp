@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "control/law_names.h"
 #include "core/angles.h"
+#include "core/random.h"
 #include "estimate/floor_truth.h"
 #include "robot/p3at_geometry.h"
 #include "support/allocation_count.h"
@@ -25,12 +27,18 @@ struct Following {
   TickRecord record;
   double v_m_s = 0.0, yaw_rate_rad_s = 0.0;
 
-  Following() {
+  explicit Following(const std::string& law = "view") : config(config_with(law)) {
     input.now_ns = 5 * kNsPerS;
     input.robot.phase = LinkPhase::Running;
     input.robot.has_sip = true;
     input.robot.motors_enabled = true;
     input.robot.odometry = test::odometry(input.now_ns, robot, 0, 0);
+  }
+
+  static Config config_with(const std::string& law) {
+    Config config;
+    config.control.law = law;
+    return config;
   }
 
   void tick() {
@@ -88,6 +96,9 @@ TEST(ControlStage, TheRecordHoldsTheInputAndWhatBecameOfThePose) {
   EXPECT_EQ(run.record.input.robot.sonar[3].t_ns, 5 * kNsPerS);
   EXPECT_EQ(run.record.measurement, MeasurementStatus::Accepted);
   EXPECT_EQ(run.record.conditions, kNoTargetYet);
+  EXPECT_EQ(run.record.wanted.t_issued_ns, 5 * kNsPerS);
+  EXPECT_EQ(run.record.wanted.t_expires_ns,
+            5 * kNsPerS + ns_from_seconds(run.config.gate.command_lifetime_s));
   run.tick();
   EXPECT_EQ(run.record.input.pose.frame_sequence, 1u);
   EXPECT_EQ(run.record.measurement, MeasurementStatus::None);
@@ -237,8 +248,64 @@ TEST(ControlStage, TheSameInputsGiveTheSameCommands) {
   }
 }
 
-TEST(ControlStage, TickTakesNoMemory) {
-  Following run;
+TEST(ControlStage, AnotherLawNeedsAnotherStage) {
+  Following run, unchanged;
+  run.config.control.law = "position";
+  run.stage.reconfigure(run.config);
+  run.person_yaw_rate_rad_s = unchanged.person_yaw_rate_rad_s = 0.2;
+  for (int i = 0; i < 250; ++i) {
+    run.tick();
+    unchanged.tick();
+    ASSERT_EQ(run.yaw_rate_rad_s, unchanged.yaw_rate_rad_s);
+  }
+  EXPECT_NE(run.yaw_rate_rad_s, 0.0);
+}
+
+class ControlStageWithEachLaw : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(ControlStageWithEachLaw, FollowsAPersonWhoWalksStraight) {
+  Following run(GetParam());
+  run.robot = {0.0, 0.4, 0.1};
+  run.run(40.0);
+  EXPECT_EQ(run.record.stop_reason, StopReason::None);
+  EXPECT_NEAR(run.v_m_s, 0.5, 0.02);
+  EXPECT_NEAR(run.robot.y_m, 0.0, 0.05);
+  run.visible = false;
+  run.run(2.0);
+  EXPECT_EQ(run.v_m_s, 0.0);
+  EXPECT_EQ(run.yaw_rate_rad_s, 0.0);
+}
+
+/// A person who jumps about, unlike any person, and is not found now and then.
+TEST_P(ControlStageWithEachLaw, CommandsStayWithinTheLimitsOfTheGate) {
+  Following run(GetParam());
+  run.config.estimate.outliers_to_reset = 2;  // the estimate follows the jumps
+  run.stage.reconfigure(run.config);
+  const GateConfig& limits = run.config.gate;
+  Random random(29);
+  double last_v_m_s = 0.0;
+  int moving = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    if (i % 40 == 0) {
+      const double range_m = random.uniform(0.3, 6.0), bearing_rad = random.uniform(-0.5, 0.5);
+      run.person = test::moved(run.robot, 0.0, bearing_rad, 1.0);
+      run.person = test::moved(run.person, range_m, 0.0, 1.0);
+      run.person.heading_rad += random.uniform(-1.2, 1.2);
+      run.visible = random.uniform() < 0.9;
+    }
+    run.tick();
+    ASSERT_LE(std::abs(run.v_m_s), limits.v_max_m_s);
+    ASSERT_LE(std::abs(run.yaw_rate_rad_s), limits.yaw_rate_max_rad_s);
+    ASSERT_LE(run.v_m_s - last_v_m_s, limits.acceleration_m_s2 * 0.02 + 1e-12);
+    ASSERT_TRUE(std::isfinite(run.record.wanted.v_m_s) && std::isfinite(run.record.wanted.yaw_rate_rad_s));
+    last_v_m_s = run.v_m_s;
+    moving += run.v_m_s > 0.0;
+  }
+  EXPECT_GT(moving, 1000);
+}
+
+TEST_P(ControlStageWithEachLaw, TickTakesNoMemory) {
+  Following run(GetParam());
   if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   const std::uint64_t before = test::allocations_of_this_thread();
   run.run(3.0);
@@ -247,6 +314,9 @@ TEST(ControlStage, TickTakesNoMemory) {
   EXPECT_EQ(test::allocations_of_this_thread(), before);
   EXPECT_GT(before, 0u);
 }
+
+INSTANTIATE_TEST_SUITE_P(Laws, ControlStageWithEachLaw, ::testing::ValuesIn(test::law_names()),
+                         [](const auto& law) { return law.param; });
 
 }  // namespace
 }  // namespace heel

@@ -1,168 +1,137 @@
-// The law: signs one by one, its known special case, and the closed loop on an exact unicycle.
+// What holds for every control law: rest without a target, finite and bounded velocities, no allocation.
 #include "control/follow_law.h"
 
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
-#include "core/angles.h"
-#include "estimate/floor_truth.h"
+#include "control/follow_law_factory.h"
+#include "control/law_names.h"
+#include "core/random.h"
+#include "heel/error.h"
+#include "robot/p3at_geometry.h"
+#include "support/allocation_count.h"
 
 namespace heel {
 namespace {
 
-constexpr double kDistance_m = 2.0;
+class EveryFollowLaw : public ::testing::TestWithParam<std::string> {
+ protected:
+  EveryFollowLaw() { config_.control.law = GetParam(); }
 
-struct Law {
-  ControlConfig control;
-  CameraMount mount = mount_of(CameraConfig{});
-
-  /// The exact target of a person in the robot frame.
-  TargetState target(double x_m, double y_m, double yaw_rad) const {
+  WantedVelocity velocity(FollowLaw& law, const TargetState& target) {
+    now_ns_ += 20 * kNsPerMs;
+    robot_.odometry.t_ns = now_ns_;
+    return law.velocity({now_ns_, target, robot_, obstacles_});
+  }
+  /// A person seen from the robot, and the goal behind them.
+  static TargetState target(double range_m, double bearing_rad, double yaw_rad) {
+    constexpr double kBehind_m = 1.65;
     TargetState t;
     t.known = true;
-    t.x_m = x_m;
-    t.y_m = y_m;
+    t.x_m = range_m * std::cos(bearing_rad);
+    t.y_m = range_m * std::sin(bearing_rad);
     t.yaw_rad = yaw_rad;
-    const double behind_m = kDistance_m + mount.x_m;
-    t.goal_x_m = x_m - behind_m * std::cos(yaw_rad + control.setpoint_yaw_rad);
-    t.goal_y_m = y_m - behind_m * std::sin(yaw_rad + control.setpoint_yaw_rad);
+    t.goal_x_m = t.x_m - kBehind_m * std::cos(yaw_rad);
+    t.goal_y_m = t.y_m - kBehind_m * std::sin(yaw_rad);
     return t;
   }
-  VelocityCommand operator()(const TargetState& t) const { return follow(t, control, mount, kNsPerS, 0.2); }
-  double rest_x_m() const { return kDistance_m + mount.x_m; }
+  static TargetState any_target(Random& random) {
+    constexpr double kPi = std::numbers::pi;
+    return target(random.uniform(0.8, 10.0), random.uniform(-kPi, kPi), random.uniform(-kPi, kPi));
+  }
+
+  Config config_;
+  RobotState robot_;
+  SonarObstacles obstacles_{p3at_geometry()};
+  TimeNs now_ns_ = kNsPerS;
 };
 
-TEST(FollowLaw, RestsInTheReferenceView) {
-  const Law law;
-  const auto command = law(law.target(law.rest_x_m(), 0, 0));
-  EXPECT_NEAR(command.v_m_s, 0.0, 1e-12);
-  EXPECT_NEAR(command.yaw_rate_rad_s, 0.0, 1e-12);
+TEST_P(EveryFollowLaw, WantsRestWhenTheTargetIsNotKnown) {
+  const auto law = make_follow_law(config_);
+  velocity(*law, target(4.0, 0.2, 0.3));
+  TargetState lost = target(4.0, 0.2, 0.3);
+  lost.known = false;
+  const WantedVelocity wanted = velocity(*law, lost);
+  EXPECT_EQ(wanted.v_m_s, 0.0);
+  EXPECT_EQ(wanted.yaw_rate_rad_s, 0.0);
 }
 
-TEST(FollowLaw, DrivesWhenThePersonIsFarAndRestsWhenNear) {
-  Law law;
-  EXPECT_GT(law(law.target(law.rest_x_m() + 0.5, 0, 0)).v_m_s, 0.0);
-  EXPECT_EQ(law(law.target(law.rest_x_m() - 0.5, 0, 0)).v_m_s, 0.0);
-  law.control.reverse = true;
-  EXPECT_LT(law(law.target(law.rest_x_m() - 0.5, 0, 0)).v_m_s, 0.0);
+TEST_P(EveryFollowLaw, DrivesTowardsAPersonFarAheadAndTurnsToTheirSide) {
+  const auto law = make_follow_law(config_);
+  EXPECT_GT(velocity(*law, target(4.0, 0.0, 0.0)).v_m_s, 0.0);
+  EXPECT_GT(velocity(*law, target(4.0, 0.2, 0.0)).yaw_rate_rad_s, 0.0);
+  EXPECT_LT(velocity(*law, target(4.0, -0.2, 0.0)).yaw_rate_rad_s, 0.0);
 }
 
-TEST(FollowLaw, ErrorsInTheDeadbandDoNotMoveIt) {
-  Law law;
-  law.control.reverse = true;
-  law.control.deadband_distance_m = 0.1;
-  EXPECT_EQ(law(law.target(law.rest_x_m() + 0.09, 0, 0)).v_m_s, 0.0);
-  EXPECT_EQ(law(law.target(law.rest_x_m() - 0.09, 0, 0)).v_m_s, 0.0);
-  EXPECT_NEAR(law(law.target(law.rest_x_m() + 0.11, 0, 0)).v_m_s, 0.01, 1e-9);  // no step at the edge
-}
-
-TEST(FollowLaw, TurnsTowardsThePersonsSide) {
-  const Law law;
-  EXPECT_GT(law(law.target(law.rest_x_m(), 0.3, 0)).yaw_rate_rad_s, 0.0);   // left
-  EXPECT_LT(law(law.target(law.rest_x_m(), -0.3, 0)).yaw_rate_rad_s, 0.0);  // right
-}
-
-TEST(FollowLaw, YawGainTurnsTheWayThePersonTurns) {
-  Law law;
-  law.control.gain_lateral_rad_s_m = 0.0;
-  EXPECT_GT(law(law.target(law.rest_x_m(), 0, 0.2)).yaw_rate_rad_s, 0.0);
-  EXPECT_LT(law(law.target(law.rest_x_m(), 0, -0.2)).yaw_rate_rad_s, 0.0);
-}
-
-TEST(FollowLaw, GainsInTheRatioOfTheDistanceAreBearingOnly) {
-  Law law;
-  law.mount.x_m = 0.0;
-  law.control.gain_lateral_rad_s_m = 1.3;
-  law.control.gain_yaw_1_s = 1.3 * kDistance_m;
-  for (const double yaw_rad : {-0.02, 0.0, 0.02}) {
-    const auto command = law(law.target(2.5, 0.1, yaw_rad));
-    EXPECT_NEAR(command.yaw_rate_rad_s, 1.3 * 0.1, 1e-4) << yaw_rad;  // k_x y, to third order in yaw
+TEST_P(EveryFollowLaw, IsBoundedForEveryTarget) {
+  const auto law = make_follow_law(config_);
+  Random random(17);
+  for (int i = 0; i < 20'000; ++i) {
+    const TargetState target = any_target(random);
+    const WantedVelocity wanted = velocity(*law, target);
+    // More than the gate allows, but not arbitrarily more.
+    ASSERT_LE(std::abs(wanted.v_m_s), 15.0) << target.x_m << " " << target.y_m << " " << target.yaw_rad;
+    ASSERT_LE(std::abs(wanted.yaw_rate_rad_s), 35.0)
+        << target.x_m << " " << target.y_m << " " << target.yaw_rad;
   }
 }
 
-TEST(FollowLaw, UnknownTargetIsRestAndCommandsExpire) {
-  const Law law;
-  const auto command = law(TargetState{});
-  EXPECT_EQ(command.v_m_s, 0.0);
-  EXPECT_EQ(command.yaw_rate_rad_s, 0.0);
-  EXPECT_EQ(command.t_issued_ns, kNsPerS);
-  EXPECT_EQ(command.t_expires_ns, kNsPerS + ns_from_seconds(0.2));
-}
-
-/// A loop with an exact robot; returns the largest bearing of the person from the camera on the way.
-struct Loop {
-  Law law;
-  Pose2 robot, person;
-  double person_v_m_s = 0.0;
-  double worst_bearing_rad = 0.0;
-
-  TargetState target() const {
-    const Eigen::Vector2d p = test::in_robot(robot, person.x_m, person.y_m);
-    return law.target(p.x(), p.y(), wrap_angle_rad(person.heading_rad - robot.heading_rad));
-  }
-  void run(double seconds) {
-    constexpr double dt_s = 0.02;
-    for (double t_s = 0.0; t_s < seconds; t_s += dt_s) {
-      const TargetState seen = target();
-      worst_bearing_rad = std::max(worst_bearing_rad,
-                                   std::abs(std::atan2(seen.y_m - law.mount.y_m, seen.x_m - law.mount.x_m)));
-      const auto command = law(seen);
-      robot = test::moved(robot, command.v_m_s, command.yaw_rate_rad_s, dt_s);
-      person = test::moved(person, person_v_m_s, 0.0, dt_s);
-    }
-  }
-};
-
-TEST(FollowLawLoop, ConvergesOnToTheLineOfAWalkingPerson) {
-  for (const double offset_m : {-0.5, 0.5}) {
-    for (const double v_m_s : {0.3, 0.6, 1.0}) {
-      Loop loop;
-      loop.robot = {0.0, offset_m, 0.2};
-      loop.person = {2.5, 0.0, 0.0};
-      loop.person_v_m_s = v_m_s;
-      loop.run(60.0);
-      EXPECT_NEAR(loop.robot.y_m, 0.0, 0.01) << v_m_s;
-      EXPECT_NEAR(loop.robot.heading_rad, 0.0, 0.01) << v_m_s;
-      // The lag that proportional control leaves: V / k_z.
-      const double lag_m = loop.target().goal_x_m - loop.law.control.deadband_distance_m;
-      EXPECT_NEAR(lag_m, v_m_s / loop.law.control.gain_distance_1_s, 0.02) << v_m_s;
-    }
+TEST_P(EveryFollowLaw, IsFiniteAtTheCameraBesideItAndVeryFarAway) {
+  for (const bool reverse : {false, true}) {
+    config_.control.reverse = reverse;
+    const auto law = make_follow_law(config_);
+    for (const double range_m : {0.0, config_.camera.mount_x_m, 1e-9, 1e6})
+      for (const double bearing_rad : {0.0, std::numbers::pi / 2, std::numbers::pi})
+        for (const double yaw_rad : {0.0, std::numbers::pi / 2, std::numbers::pi, -std::numbers::pi}) {
+          const WantedVelocity wanted = velocity(*law, target(range_m, bearing_rad, yaw_rad));
+          EXPECT_TRUE(std::isfinite(wanted.v_m_s)) << range_m << " " << bearing_rad << " " << yaw_rad;
+          EXPECT_TRUE(std::isfinite(wanted.yaw_rate_rad_s))
+              << range_m << " " << bearing_rad << " " << yaw_rad;
+        }
   }
 }
 
-TEST(FollowLawLoop, LinearisedFrequencyAndDampingAreAsTheHeaderSays) {
-  // Lightly damped on purpose, so that a period can be seen: k_yaw = 0, k_z large.
-  Loop loop;
-  loop.law.control.gain_yaw_1_s = 0.0;
-  loop.law.control.gain_distance_1_s = 5.0;
-  loop.law.control.gain_lateral_rad_s_m = 1.0;
-  loop.law.control.bearing_max_rad = 1.5;
-  loop.person_v_m_s = 0.8;
-  loop.robot = {0.0, 0.02, 0.0};
-  loop.person = {loop.law.rest_x_m() + 0.8 / 5.0 + loop.law.control.deadband_distance_m, 0.0, 0.0};
-  const double damping_1_s = 0.5 * 1.0 * (0.8 / 5.0 + loop.law.control.deadband_distance_m);
-  const double frequency_rad_s = std::sqrt(1.0 * 0.8 - damping_1_s * damping_1_s);
-  loop.run(2 * std::numbers::pi / frequency_rad_s);  // one period
-  EXPECT_NEAR(loop.robot.y_m, 0.02 * std::exp(-damping_1_s * 2 * std::numbers::pi / frequency_rad_s), 0.001);
+TEST_P(EveryFollowLaw, GivesTheSameForTheSameInputs) {
+  const auto one = make_follow_law(config_), other = make_follow_law(config_);
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    const TargetState target = any_target(random);
+    const WantedVelocity a = velocity(*one, target);
+    now_ns_ -= 20 * kNsPerMs;
+    const WantedVelocity b = velocity(*other, target);
+    ASSERT_EQ(a.v_m_s, b.v_m_s);
+    ASSERT_EQ(a.yaw_rate_rad_s, b.yaw_rate_rad_s);
+  }
 }
 
-RC_GTEST_PROP(FollowLawLoop, ThePersonNeverLeavesThePicture, ()) {
-  const auto between = [](double low, double high) {
-    return low + (high - low) * *rc::gen::inRange(0, 10001) / 1e4;
-  };
-  Loop loop;
-  loop.law.control.gain_yaw_1_s = between(0.0, 5.0);
-  loop.law.control.gain_lateral_rad_s_m = between(0.0, 3.0);
-  const double limit_rad = loop.law.control.bearing_max_rad;
-  // Somebody standing, turned any way, inside the picture.
-  const double range_m = between(1.5, 5.0), bearing_rad = between(-0.9, 0.9) * limit_rad;
-  loop.person = {loop.law.mount.x_m + range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad),
-                 between(-1.2, 1.2)};
-  // As the gate does: no nearer than 0.8 m, which the law itself does not know.
-  for (int i = 0; i < 300 && loop.target().x_m > 1.0; ++i) loop.run(0.02);
-  RC_ASSERT(loop.worst_bearing_rad < limit_rad + 0.03);
+TEST_P(EveryFollowLaw, TakesOverNewGains) {
+  const auto law = make_follow_law(config_);
+  config_.control.gain_distance_1_s = 0.0;
+  law->reconfigure(config_);
+  EXPECT_EQ(velocity(*law, target(4.0, 0.0, 0.0)).v_m_s, 0.0);
+}
+
+TEST_P(EveryFollowLaw, AllocatesNothingAfterItIsMade) {
+  if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  const auto law = make_follow_law(config_);
+  const std::uint64_t before = test::allocations_of_this_thread();
+  Random random(3);
+  for (int i = 0; i < 100; ++i) velocity(*law, any_target(random));
+  law->reconfigure(config_);
+  law->reset();
+  velocity(*law, any_target(random));
+  EXPECT_EQ(test::allocations_of_this_thread(), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, EveryFollowLaw, ::testing::ValuesIn(test::law_names()),
+                         [](const auto& law) { return law.param; });
+
+TEST(FollowLawFactory, RefusesANameThatIsNoLaw) {
+  Config config;
+  config.control.law = "views";
+  EXPECT_THROW(make_follow_law(config), Error);
 }
 
 }  // namespace
