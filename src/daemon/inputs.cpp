@@ -59,7 +59,8 @@ Inputs load_inputs(const Config& config) {
 
 std::string verdict_text(const TemplateVerdict& verdict) {
   return fmt::format(
-      "{} features over {:.0f} % of the region, {:.0f} % alike, {:.0f} % left at twice the distance",
+      "{} features over {:.0f} % of the region, {:.0f} % similar to others, {:.0f} % left at twice the "
+      "distance",
       verdict.features, 100.0 * verdict.spread, 100.0 * verdict.self_similarity,
       100.0 * verdict.coarse_share);
 }

@@ -36,7 +36,7 @@ class StatusReporter {
   ServiceNotifier notifier_;
   TickRecord tick_;
   bool frame_seen_ = false;
-  bool complete_ = false;  // the robot has answered and a frame was seen, both at once
+  bool complete_ = false;  // the robot had answered and a frame had come at the same time
   bool ready_ = false;     // and systemd has been notified
   std::uint64_t seen_open_failures_ = 0;
   std::string logged_open_error_;  // empty: none since the robot last answered

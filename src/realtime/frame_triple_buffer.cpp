@@ -70,9 +70,9 @@ bool FrameTripleBuffer::wait(TimeNs timeout_ns) const {
   // The signal is read before the check for a frame: a frame published between the check and the sleep
   // changes the signal, and the futex then returns at once.
   const std::uint32_t seen = signal_.load(std::memory_order_acquire);
-  if (exchange_.has_fresh()) return true;
+  if (exchange_.has_unread()) return true;
   futex_wait(signal_, seen, timeout_ns, FutexScope::Process);
-  return exchange_.has_fresh();
+  return exchange_.has_unread();
 }
 
 void FrameTripleBuffer::wake() {

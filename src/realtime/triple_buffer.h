@@ -27,9 +27,9 @@ class TripleBuffer {
   bool publish() {
     // Release: the reader that takes the slot sees what was written to it.
     // Acquire: the reader has finished with the slot we get back before we write to it.
-    const std::uint32_t before = newest_.exchange(write_slot_ | kFresh, std::memory_order_acq_rel);
+    const std::uint32_t before = newest_.exchange(write_slot_ | kUnread, std::memory_order_acq_rel);
     write_slot_ = before & kSlotMask;
-    return (before & kFresh) != 0;
+    return (before & kUnread) != 0;
   }
 
   // Reader:
@@ -40,16 +40,16 @@ class TripleBuffer {
   /// unchanged.
   bool take() {
     // Only the reader clears the flag, so it is still set at the exchange.
-    if (!has_fresh()) return false;
+    if (!has_unread()) return false;
     read_slot_ = newest_.exchange(read_slot_, std::memory_order_acq_rel) & kSlotMask;
     return true;
   }
 
   // Both:
-  bool has_fresh() const { return (newest_.load(std::memory_order_acquire) & kFresh) != 0; }
+  bool has_unread() const { return (newest_.load(std::memory_order_acquire) & kUnread) != 0; }
 
  private:
-  static constexpr std::uint32_t kFresh = 4;  // flag: published and not yet taken
+  static constexpr std::uint32_t kUnread = 4;  // flag: published and not yet taken
   static constexpr std::uint32_t kSlotMask = 3;
 
   // Each has its own cache line, so that the writer's stores do not slow down the reader's loads.

@@ -41,8 +41,7 @@ class CommandPacer {
   static constexpr TimeNs kSpacing_ns = 4 * kNsPerMs;
   static constexpr TimeNs kBurst_ns = 12 * kNsPerMs;  // commands of one tick may wait this long in buffers
   static constexpr TimeNs kRepeatPercent = 60;
-  static constexpr TimeNs kPair_ns =
-      8 * kNsPerMs;  // two are sent at once where one uses no more of the share
+  static constexpr TimeNs kPair_ns = 8 * kNsPerMs;  // two are sent together if one uses at most this share
 
   TimeNs byte_ns_ = 0;
   TimeNs busy_until_ns_ = 0;
