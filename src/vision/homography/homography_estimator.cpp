@@ -1,13 +1,16 @@
 // RANSAC for the homography: sample → minimal solver → MSAC cost → local optimisation of each new best →
 // normalised DLT and Levenberg–Marquardt over the final consensus set.
-// Everything runs in coordinates centred on the pairs' mean in each image (px, not scaled): there H(2,2), the
-// w of the centroid, is never near zero, and floats are exact enough for scoring.
+//
+// Coordinates are centred on the mean of the pairs in each image (px, not scaled). There H(2,2), the w of the
+// centroid, is never near zero, and floats are exact enough for the cost.
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "core/random.h"
 #include "heel/homography.h"
@@ -19,12 +22,13 @@ namespace heel {
 namespace {
 
 constexpr int kLocalRounds = 2;  // DLT → new consensus → DLT
-// Tukey's limit at 6 σ loses little of least squares' efficiency (5.1 σ: 5 % in the plane); the median of the
-// squared error of two coordinates is 1.386 σ².
+// Tukey's loss with its limit at 6 σ loses little efficiency against least squares (5 % at 5.1 σ in the
+// plane). The median of the squared error of two coordinates is 1.386 σ².
 constexpr double kSoftLimitMedians = 6.0 * 6.0 / 1.386;
-constexpr double kSoftLimitMin = 0.25, kSoftLimitMax = 6.0;  // of the inliers' limit
+constexpr double kSoftLimitMin = 0.25, kSoftLimitMax = 6.0;  // of the inlier limit
 
-/// Samples needed to have drawn one of inliers only with the given confidence (H&Z, Eq. (4.18)).
+/// The number of samples of which, with the given confidence, at least one has inliers only (H&Z, Eq.
+/// (4.18)).
 int samples_needed(int inliers, int pairs, double confidence, int at_most) {
   const double good_sample = std::pow(static_cast<double>(inliers) / static_cast<double>(pairs), 4.0);
   if (good_sample >= 1.0) return 1;
@@ -46,6 +50,32 @@ std::array<std::size_t, 4> draw_sample(Random& random, std::uint32_t n) {
   return sample;
 }
 
+/// A homography in centred coordinates, and how well it fits.
+struct ScoredHomography {
+  Eigen::Matrix3d H = Eigen::Matrix3d::Identity();
+  float cost_px2 = std::numeric_limits<float>::infinity();
+  int inliers = 0;
+};
+
+/// What the samples gave.
+struct SearchResult {
+  ScoredHomography best;
+  bool any_sample_solved = false;
+  int iterations = 0;
+};
+
+/// The pairs that support a homography, and their indices. Views of the work space, valid until the next
+/// consensus.
+struct Consensus {
+  std::span<const PointPair> pairs;
+  std::span<const std::uint32_t> indices;
+};
+
+struct PolishedHomography {
+  Eigen::Matrix3d H;  ///< centred
+  Consensus consensus;
+};
+
 }  // namespace
 
 struct HomographyEstimator::Impl {
@@ -55,32 +85,31 @@ struct HomographyEstimator::Impl {
         capacity(static_cast<std::size_t>(std::max(0, max_pairs))),
         table(capacity) {
     centred.reserve(capacity);
-    consensus.reserve(capacity);
-    consensus_index.reserve(capacity);
+    consensus_pairs.reserve(capacity);
+    consensus_indices.reserve(capacity);
     errors_px2.reserve(capacity);
   }
 
   void load(std::span<const PointPair> pairs);
-  void find_consensus(const Eigen::Matrix3d& H, double below_px2);
-  bool sample_and_score(Random& random);
-  void optimise_locally();
-  double soft_limit_px2(const Eigen::Matrix3d& H);
-  void polish();
-  int search();
-  RobustHomography report(int iterations, std::vector<std::uint8_t>& inlier_mask) const;
+  bool solve_sample(Random& random, Eigen::Matrix3d& H) const;
+  Consensus consensus_of(const Eigen::Matrix3d& H, double below_px2);
+  ScoredHomography optimise_locally(ScoredHomography candidate);
+  SearchResult search();
+  double soft_limit_px2(const Eigen::Matrix3d& H, std::span<const PointPair> consensus);
+  PolishedHomography polish(const Eigen::Matrix3d& H);
+  RobustHomography in_image_coordinates(const PolishedHomography& polished) const;
 
   RansacSettings settings;
   double limit_px2;
   std::size_t capacity;
 
+  // The problem, written by load().
   Eigen::Vector2d ref_centre_px, cur_centre_px;
   std::vector<PointPair> centred;  // every pair, centred
   ScoreTable table;                // the same as floats
-  Eigen::Matrix3d best_H;
-  float best_cost_px2 = 0.f;
-  bool any_sample_solved = false;
-  std::vector<PointPair> consensus;  // of the last find_consensus
-  std::vector<std::uint32_t> consensus_index;
+  // Work space: written and read within one step.
+  std::vector<PointPair> consensus_pairs;
+  std::vector<std::uint32_t> consensus_indices;
   std::vector<double> errors_px2;
 };
 
@@ -99,75 +128,71 @@ void HomographyEstimator::Impl::load(std::span<const PointPair> pairs) {
     centred.push_back({pair.ref_px - ref_centre_px, pair.cur_px - cur_centre_px});
     table.add(centred.back().ref_px, centred.back().cur_px);
   }
-  best_cost_px2 = std::numeric_limits<float>::infinity();
-  any_sample_solved = false;
-  consensus.clear();
-  consensus_index.clear();
 }
 
-void HomographyEstimator::Impl::find_consensus(const Eigen::Matrix3d& H, double below_px2) {
-  const Eigen::Matrix3d H_inverse = H.inverse();
-  consensus.clear();
-  consensus_index.clear();
-  for (std::size_t i = 0; i < centred.size(); ++i) {
-    if (symmetric_transfer_error_px2(H, H_inverse, centred[i]) >= below_px2) continue;
-    if (H.row(2).dot(centred[i].ref_px.homogeneous()) <= 0.0) continue;  // behind a camera
-    consensus.push_back(centred[i]);
-    consensus_index.push_back(static_cast<std::uint32_t>(i));
-  }
-}
-
-/// Draws one sample; true when its homography is the best so far.
-bool HomographyEstimator::Impl::sample_and_score(Random& random) {
+bool HomographyEstimator::Impl::solve_sample(Random& random, Eigen::Matrix3d& H) const {
   const std::array<std::size_t, 4> sample = draw_sample(random, static_cast<std::uint32_t>(centred.size()));
   std::array<Eigen::Vector2d, 4> ref_px, cur_px;
   for (std::size_t i = 0; i < 4; ++i) {
     ref_px[i] = centred[sample[i]].ref_px;
     cur_px[i] = centred[sample[i]].cur_px;
   }
-  Eigen::Matrix3d H;
-  if (!homography_4pt(ref_px, cur_px, H)) return false;
-  any_sample_solved = true;
-  const float cost_px2 = table.cost_px2(H, static_cast<float>(limit_px2), best_cost_px2);
-  if (!(cost_px2 < best_cost_px2)) return false;
-  best_cost_px2 = cost_px2;
-  best_H = H;
-  return true;
+  return homography_4pt(ref_px, cur_px, H);
 }
 
-/// Least squares over the best's consensus set, as long as that makes it better.
-void HomographyEstimator::Impl::optimise_locally() {
-  find_consensus(best_H, limit_px2);
-  for (int round = 0; round < kLocalRounds && consensus.size() > 4; ++round) {
-    Eigen::Matrix3d H;
-    if (homography_dlt(consensus, H) != HomographyStatus::Ok) return;
-    const float cost_px2 = table.cost_px2(H, static_cast<float>(limit_px2), best_cost_px2);
-    if (!(cost_px2 < best_cost_px2)) return;
-    best_cost_px2 = cost_px2;
-    best_H = H;
-    find_consensus(best_H, limit_px2);
+Consensus HomographyEstimator::Impl::consensus_of(const Eigen::Matrix3d& H, double below_px2) {
+  const Eigen::Matrix3d H_inverse = H.inverse();
+  consensus_pairs.clear();
+  consensus_indices.clear();
+  for (std::size_t i = 0; i < centred.size(); ++i) {
+    if (symmetric_transfer_error_px2(H, H_inverse, centred[i]) >= below_px2) continue;
+    if (H.row(2).dot(centred[i].ref_px.homogeneous()) <= 0.0) continue;  // behind a camera
+    consensus_pairs.push_back(centred[i]);
+    consensus_indices.push_back(static_cast<std::uint32_t>(i));
   }
+  return {consensus_pairs, consensus_indices};
 }
 
-/// Samples until a better one is too unlikely or the iterations are used up.
-int HomographyEstimator::Impl::search() {
+/// Least squares over the consensus set, repeated as long as it lowers the cost.
+ScoredHomography HomographyEstimator::Impl::optimise_locally(ScoredHomography candidate) {
+  Consensus consensus = consensus_of(candidate.H, limit_px2);
+  for (int round = 0; round < kLocalRounds && consensus.pairs.size() > 4; ++round) {
+    Eigen::Matrix3d H;
+    if (homography_dlt(consensus.pairs, H) != HomographyStatus::Ok) break;
+    const float cost_px2 = table.cost_px2(H, static_cast<float>(limit_px2), candidate.cost_px2);
+    if (!(cost_px2 < candidate.cost_px2)) break;
+    candidate.H = H;
+    candidate.cost_px2 = cost_px2;
+    consensus = consensus_of(H, limit_px2);
+  }
+  candidate.inliers = static_cast<int>(consensus.pairs.size());
+  return candidate;
+}
+
+/// Draws samples until a better one is improbable enough or the iterations are used up.
+SearchResult HomographyEstimator::Impl::search() {
   Random random(settings.seed);
-  const int pairs = static_cast<int>(centred.size());
+  SearchResult result;
+  ScoredHomography& best = result.best;
   int needed = settings.max_iterations;
-  int iterations = 0;
-  while (iterations < needed) {
-    ++iterations;
-    if (!sample_and_score(random)) continue;
-    optimise_locally();
-    needed = samples_needed(static_cast<int>(consensus.size()), pairs, settings.confidence,
+  while (result.iterations < needed) {
+    ++result.iterations;
+    Eigen::Matrix3d H;
+    if (!solve_sample(random, H)) continue;
+    result.any_sample_solved = true;
+    const float cost_px2 = table.cost_px2(H, static_cast<float>(limit_px2), best.cost_px2);
+    if (!(cost_px2 < best.cost_px2)) continue;
+    best = optimise_locally({H, cost_px2, 0});
+    needed = samples_needed(best.inliers, static_cast<int>(centred.size()), settings.confidence,
                             settings.max_iterations);
   }
-  return iterations;
+  return result;
 }
 
-/// Where the refinement's loss becomes constant: as many standard deviations of the noise (seen in the
-/// consensus set's median error) as keep the efficiency of least squares, whatever the threshold was set to.
-double HomographyEstimator::Impl::soft_limit_px2(const Eigen::Matrix3d& H) {
+/// Where the loss of the refinement becomes constant: a multiple of the noise (estimated from the median
+/// error of the consensus set) that keeps the efficiency of least squares, whatever the inlier limit is.
+double HomographyEstimator::Impl::soft_limit_px2(const Eigen::Matrix3d& H,
+                                                 std::span<const PointPair> consensus) {
   const Eigen::Matrix3d H_inverse = H.inverse();
   errors_px2.clear();
   for (const PointPair& pair : consensus)
@@ -177,38 +202,25 @@ double HomographyEstimator::Impl::soft_limit_px2(const Eigen::Matrix3d& H) {
   return std::clamp(kSoftLimitMedians * *middle, kSoftLimitMin * limit_px2, kSoftLimitMax * limit_px2);
 }
 
-/// Normalised DLT over the consensus set, then the local refinement, which lets go of the hard threshold:
-/// pairs just outside it still pull a little, those just inside it no longer with full weight.
-void HomographyEstimator::Impl::polish() {
-  find_consensus(best_H, limit_px2);
-  if (consensus.size() <= 4) return;
+/// Normalised DLT over the consensus set, then the refinement with a soft limit: pairs just outside the
+/// inlier limit keep a small weight, pairs just inside it have less than the full weight.
+PolishedHomography HomographyEstimator::Impl::polish(const Eigen::Matrix3d& H_best) {
+  const Consensus consensus = consensus_of(H_best, limit_px2);
+  if (consensus.pairs.size() <= 4) return {H_best, consensus};
   Eigen::Matrix3d H;
-  if (homography_dlt(consensus, H) != HomographyStatus::Ok) H = best_H;
-  const double soft_px2 = soft_limit_px2(H);
-  find_consensus(H, soft_px2);
-  refine_homography(consensus, soft_px2, H);
-  best_H = H;
-  find_consensus(best_H, limit_px2);
+  if (homography_dlt(consensus.pairs, H) != HomographyStatus::Ok) H = H_best;
+  const double soft_px2 = soft_limit_px2(H, consensus.pairs);
+  refine_homography(consensus_of(H, soft_px2).pairs, soft_px2, H);
+  return {H, consensus_of(H, limit_px2)};
 }
 
-RobustHomography HomographyEstimator::Impl::report(int iterations,
-                                                   std::vector<std::uint8_t>& inlier_mask) const {
+RobustHomography HomographyEstimator::Impl::in_image_coordinates(const PolishedHomography& polished) const {
   RobustHomography result;
-  result.iterations = iterations;
-  if (!any_sample_solved) {
-    result.status = HomographyStatus::Degenerate;
-    return result;
-  }
-  if (consensus.size() <= 4) {
-    result.status = HomographyStatus::NoConsensus;
-    return result;
-  }
   result.status = HomographyStatus::Ok;
-  result.inliers = static_cast<int>(consensus.size());
-  for (const std::uint32_t i : consensus_index) inlier_mask[i] = 1;
+  result.inliers = static_cast<int>(polished.consensus.pairs.size());
 
-  // Back to image coordinates, linear in the entries: H = C H_centred R ...
-  const Eigen::Matrix3d H_centred = best_H / best_H(2, 2);
+  // Linear in the entries: H = C H_centred R ...
+  const Eigen::Matrix3d H_centred = polished.H / polished.H(2, 2);
   Eigen::Matrix3d C = Eigen::Matrix3d::Identity(), R = Eigen::Matrix3d::Identity();
   C.col(2).head<2>() = cur_centre_px;
   R.col(2).head<2>() = -ref_centre_px;
@@ -217,7 +229,7 @@ RobustHomography HomographyEstimator::Impl::report(int iterations,
   result.H_cur_from_ref = H / h;
   if (!settings.precision) return result;
 
-  const HomographyPrecision precision = homography_precision(consensus, H_centred);
+  const HomographyPrecision precision = homography_precision(polished.consensus.pairs, H_centred);
   result.rms_px = precision.rms_px;
   Matrix9d L;
   for (int i = 0; i < 9; ++i)
@@ -242,9 +254,19 @@ RobustHomography HomographyEstimator::estimate(std::span<const PointPair> pairs,
   pairs = pairs.first(std::min(pairs.size(), impl_->capacity));
   if (pairs.size() < 4) return {};
   impl_->load(pairs);
-  const int iterations = impl_->search();
-  if (impl_->any_sample_solved) impl_->polish();
-  return impl_->report(iterations, inlier_mask);
+  const SearchResult found = impl_->search();
+  RobustHomography result;
+  result.status = HomographyStatus::Degenerate;
+  if (found.any_sample_solved) {
+    const PolishedHomography polished = impl_->polish(found.best.H);
+    result.status = HomographyStatus::NoConsensus;
+    if (polished.consensus.pairs.size() > 4) {
+      result = impl_->in_image_coordinates(polished);
+      for (const std::uint32_t i : polished.consensus.indices) inlier_mask[i] = 1;
+    }
+  }
+  result.iterations = found.iterations;
+  return result;
 }
 
 }  // namespace heel
