@@ -50,7 +50,7 @@ class PoseEstimator {
   /// search, of the enlarged region where they are, may find the shirt, or find it more precisely.
   bool needs_upsampled_pass(const PoseEstimate& pose) const;
 
-  /// From now on the end of each step is reported to `times`, which must outlive this; null: to nobody.
+  /// From now on the end of each step is reported to `times`, which must outlive this; null: no reports.
   void measure(StageTimes* times);
 
  private:

@@ -23,12 +23,12 @@ class PoseTracker {
   void measure(StageTimes* times) { estimator_.measure(times); }
 
  private:
-  PoseEstimate search(const FrameView& frame);
-  bool expects_it_in(const FrameView& frame) const;
+  PoseEstimate search_whole_frame(const FrameView& frame);
+  bool predicts_view_in(const FrameView& frame) const;
 
   PoseEstimator estimator_;
   VisionConfig config_;
-  PoseEstimate last_;  ///< the last one found
+  PoseEstimate last_found_;
 };
 
 }  // namespace heel

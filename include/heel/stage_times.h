@@ -18,10 +18,10 @@ enum class VisionStage : std::uint8_t {
   Selection,       ///< the strongest, spread over the image
   Description,     ///< orientation, where asked for, and descriptors
   Matching,        ///< nearest neighbours in the template
-  Undistortion,    ///< of the features' places
+  Undistortion,    ///< of the features' places, and their order by place
   Homography,      ///< RANSAC and refinement; again after every guided round
-  GuidedMatching,  ///< and the look at the shape before it
-  Motion,          ///< decomposition, choice, and the pose with its precision
+  GuidedMatching,  ///< and the check of the shape before it
+  Motion,          ///< decomposition, choice, and the pose with its sigma; where there is none, the checks
 };
 inline constexpr std::size_t kVisionStages = 9;
 

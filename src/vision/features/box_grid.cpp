@@ -19,7 +19,7 @@ using F32 = hn::CappedTag<float, 16>;
 using I32 = hn::RebindToSigned<F32>;
 using U32 = hn::RebindToUnsigned<F32>;
 
-// A coordinate of the integral image as the line before it and how far beyond that it lies.
+// Coordinates of the integral image: the line before each, and the fraction of a line beyond it.
 struct Lines {
   hn::Vec<I32> index;
   hn::Vec<F32> fraction;
@@ -41,8 +41,8 @@ HWY_INLINE hn::Vec<F32> lerp(hn::Vec<F32> a, hn::Vec<F32> b, hn::Vec<F32> t) {
   return hn::Add(a, hn::Mul(t, hn::Sub(b, a)));
 }
 
-// Where the columns of an upright grid lie in the integral image, four at a time: the column before each grid
-// line, as an index, and how far beyond that the line lies.
+// Where the columns of an upright grid lie in the integral image, four at a time: the index of the column
+// before each grid line, and the fraction of a column beyond it.
 using F4 = hn::FixedTag<float, 4>;
 using I4 = hn::RebindToSigned<F4>;
 using U4 = hn::RebindToUnsigned<F4>;
@@ -52,11 +52,11 @@ struct GridColumns {
   HWY_ALIGN std::array<std::int32_t, kPadded> index;
   HWY_ALIGN std::array<float, kPadded> fraction;
   HWY_ALIGN std::array<std::uint32_t, 2 * kPadded>
-      base;  // what the base line holds there: left, right, left …
+      base;  // the sums of the base row there: left, right, left …
 };
 
-// The two sums left and right of each of two grid lines: one 64-bit read a grid line where a gather of single
-// values would need two.
+// The sums left and right of each of two grid lines. One 64-bit read for each grid line replaces two reads of
+// a gather.
 HWY_INLINE hn::Vec<U4> load_pairs(const std::uint32_t* line, const std::int32_t* index) {
   const hn::FixedTag<std::uint32_t, 2> d2;
   return hn::Combine(U4(), hn::LoadU(d2, line + index[1]), hn::LoadU(d2, line + index[0]));
@@ -97,7 +97,7 @@ void SampleUprightGrid(const IntegralImage& integral, float x_px, float y_px, fl
     const auto upper_origin = hn::Set(U4(), upper[base_x] - base[base_x]);
     const auto lower_origin = hn::Set(U4(), lower[base_x] - base[base_x]);
     const auto down = hn::Set(d, y - static_cast<float>(row));
-    // Both neighbours of two grid lines at height y, left and right in turn.
+    // The sums left and right of two grid lines at height y, alternating.
     const auto between_rows = [&](int i) {
       const auto base_sums = hn::Load(U4(), columns.base.data() + 2 * i);
       const auto at = [&](const std::uint32_t* line, hn::Vec<U4> origin) {
@@ -150,7 +150,7 @@ void SampleRotatedCells(const IntegralImage& integral, float x_px, float y_px, f
       const Lines right = split(hn::Add(x, half), integral.width_px());
       const Lines top = split(hn::Sub(y, half), integral.height_px());
       const Lines bottom = split(hn::Add(y, half), integral.height_px());
-      // Everything above one line of the integral image, between the box's left and right.
+      // The sum above one line of the integral image, between the left and right sides of the box.
       const auto strip = [&](hn::Vec<I32> line) {
         const auto start = hn::Mul(line, stride);
         const auto at = [&](hn::Vec<I32> column, std::size_t offset) {

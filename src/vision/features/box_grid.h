@@ -1,6 +1,10 @@
-// Square patches of box means round a feature: the raw material of orientation and descriptor.
-// Lines and boxes need not fall on pixel borders: the integral image is interpolated bilinearly, which makes
-// a fractional box exact for square pixels; beyond the border the last row and column go on for ever.
+// Square patches of box sums round a feature, from which orientation and descriptor are computed.
+//
+// Convention: pixel (0,0) is the centre of the top-left pixel; a patch holds value[row * kPatchStride +
+// column].
+// Units: pixels; sums of grey levels 0…255. Grid lines need not fall on pixel borders: the integral image is
+// interpolated bilinearly, which is exact for square pixels. Beyond the image border the last row and column
+// are continued.
 #pragma once
 
 #include <array>
@@ -13,21 +17,20 @@ inline constexpr int kPatchCells = 25;              ///< cells of a descriptor p
 inline constexpr int kGridLines = kPatchCells + 2;  ///< most lines of a grid along a side
 inline constexpr int kPatchStride = 48;             ///< floats from row to row; room for whole vectors
 
-/// value[row * kPatchStride + column]
 using Patch = std::array<float, kPatchStride * kGridLines>;
 
-/// Integral image at a grid of `lines` × `lines` points, `spacing_px` apart and centred on pixel position
-/// (x, y): box sums are differences of four of them. Sums relative to the grid's middle lines, so that float
-/// holds them. lines ≤ kGridLines.
+/// The integral image at a grid of `lines` × `lines` points, `spacing_px` apart and centred on pixel position
+/// (x, y); lines ≤ kGridLines. A box sum is the difference of four of them. The values are relative to the
+/// grid's centre, so that a float holds them exactly enough.
 void sample_upright_grid(const IntegralImage& integral, float x_px, float y_px, float spacing_px, int lines,
                          Patch& grid);
 
-/// Sums over kPatchCells² boxes of side 2 · `spacing_px`, each overlapping its neighbours by half, their
-/// centres on a grid of that spacing turned by (cos, sin) about (x, y); the boxes themselves stay upright.
+/// Sums over kPatchCells² boxes of side 2 · `spacing_px` that overlap their neighbours by half. The centres
+/// lie on a grid of that spacing, rotated by (cos, sin) about (x, y); the boxes themselves are not rotated.
 void sample_rotated_cells(const IntegralImage& integral, float x_px, float y_px, float spacing_px,
                           float cos_angle, float sin_angle, Patch& cells);
 
-/// The upright counterpart.
+/// The same without rotation.
 void sample_upright_cells(const IntegralImage& integral, float x_px, float y_px, float spacing_px,
                           Patch& cells);
 

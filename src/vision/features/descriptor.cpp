@@ -53,7 +53,7 @@ using Four = hn::FixedTag<float, 4>;
 
 constexpr int kColumns = 32;  // kResponses rounded up to whole vectors
 
-// Haar responses of side two cells, from the four cells round each one's centre.
+// Haar responses two cells wide, each from the four cells round its centre.
 struct Haar {
   hn::Vec<F32> dx, dy;
 };
@@ -65,7 +65,7 @@ HWY_INLINE Haar haar_responses(const float* cells) {
   return {hn::Add(falling, rising), hn::Sub(falling, rising)};
 }
 
-// A subregion's Σdx, Σdy, Σ|dx|, Σ|dy| down its columns.
+// Σdx, Σdy, Σ|dx|, Σ|dy| of a subregion, summed down each of its columns.
 struct ColumnSums {
   hn::Vec<F32> dx, dy, abs_dx, abs_dy;
 
@@ -81,23 +81,23 @@ struct ColumnSums {
   HWY_INLINE void store(float* sums) const { hn::StoreInterleaved4(dx, dy, abs_dx, abs_dy, F32(), sums); }
 };
 
-// Down the columns from `column` on, every response computed once: the last rows of a subregion are also the
-// first of the next. sums[subregion row][column][Σdx, Σdy, Σ|dx|, Σ|dy|]
+// Sums one vector of columns from `column` on. Each response is computed once: the last rows of a subregion
+// are also the first rows of the next. sums[subregion row][column][Σdx, Σdy, Σ|dx|, Σ|dy|]
 HWY_INLINE void sum_columns(const Patch& cells, int column, std::array<float, 4 * kColumns>* sums) {
   const float* row = cells.data() + column;
-  ColumnSums own, next;
-  own.start();
+  ColumnSums current, next;
+  current.start();
   int k = 0;  // row inside the subregion
   for (int cy = 0; cy < kCells; ++cy) {
     next.start();
-    for (; k < kCellStep; ++k, row += kPatchStride) own.add(haar_responses(row), k);
+    for (; k < kCellStep; ++k, row += kPatchStride) current.add(haar_responses(row), k);
     for (; k < kCellSide; ++k, row += kPatchStride) {
       const Haar haar = haar_responses(row);
-      own.add(haar, k);
+      current.add(haar, k);
       next.add(haar, k - kCellStep);
     }
-    own.store(sums[cy].data() + 4 * column);
-    own = next;
+    current.store(sums[cy].data() + 4 * column);
+    current = next;
     k -= kCellStep;
   }
 }

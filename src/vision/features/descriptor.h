@@ -1,7 +1,11 @@
-// The SURF-64 descriptor (H. Bay et al., CVIU 2008, 4.2): Σdx, Σdy, Σ|dx|, Σ|dy| of Haar responses in 4 × 4
-// subregions, the subregions overlapping and weighted in two stages (M. Agrawal et al., "CenSurE", ECCV 2008,
-// 4): 24 × 24 responses one sigma apart, subregions of 9 × 9 every 5. A response is the difference of box
-// means of side 2 sigma that overlap by half: smoother than the paper's wavelet, and better matched.
+// The SURF-64 descriptor: Σdx, Σdy, Σ|dx|, Σ|dy| of Haar responses in 4 × 4 subregions.
+//
+// Convention: dx to the right, dy downwards, both rotated with the feature unless upright.
+// Units: positions in pixels; the descriptor has unit length.
+// Source: H. Bay et al., CVIU 2008, 4.2; overlapping subregions weighted in two stages: M. Agrawal et al.,
+// "CenSurE", ECCV 2008, 4. There are 24 × 24 responses one sigma apart, and a subregion of 9 × 9 every 5. A
+// response is the difference of box sums of side 2 sigma that overlap by half; it is smoother than the
+// wavelet of the paper and gives more correct matches.
 #pragma once
 
 #include "heel/features.h"
@@ -10,7 +14,7 @@
 namespace heel {
 
 /// Rotated by feature.angle_rad unless `upright`. Order: subregion row, subregion column, (Σdx, Σdy, Σ|dx|,
-/// Σ|dy|); unit length, or all zero where the image is flat.
+/// Σ|dy|). All zero where the image is uniform.
 void describe(const IntegralImage& integral, const Feature& feature, bool upright, Descriptor& descriptor);
 
 }  // namespace heel

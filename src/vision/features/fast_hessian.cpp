@@ -9,7 +9,7 @@ namespace heel {
 namespace {
 
 constexpr int kRingRows = 3;
-// Nine responses of a layer round one sample cost as much as so many of a row.
+// Nine responses of a layer round one sample cost as much as this many responses of a row.
 constexpr int kSamplesPerPatch = 24;
 
 // Samples [first, last) of a row or column.
@@ -37,7 +37,7 @@ int ceil_div(int a, int b) {
   return (a + b - 1) / b;
 }
 
-// Samples at which a filter reaching `half_px` pixels fits an image of `size_px` pixels.
+// Samples at which a filter that extends `half_px` to each side fits into an image of `size_px` pixels.
 SampleRange fitting(int size_px, int half_px, int step) {
   if (size_px <= 2 * half_px) return {};
   return {ceil_div(half_px, step), (size_px - 1 - half_px) / step + 1};
@@ -68,9 +68,8 @@ struct FastHessian::Octave {
   int index = 0;
   int step = 1;
   Region region;
-  float sigma_min_px = 0.f, sigma_max_px = 0.f;  // what the octave is answerable for
-  // Where maxima are looked for in each layer, and where its responses may be needed for that; empty:
-  // nowhere.
+  float sigma_min_px = 0.f, sigma_max_px = 0.f;  // of the keypoints that this octave reports
+  // Where maxima are searched in each layer, and where its responses may be needed for that; empty: nowhere.
   std::array<SampleRange, kLayersPerOctave> search_rows{}, search_cols{};
   std::array<SampleRange, kLayersPerOctave> rows{}, cols{};
   SampleRange all_rows;
@@ -81,7 +80,7 @@ struct FastHessian::Octave {
 FastHessian::FastHessian(int max_width_px)
     : ring_stride_(static_cast<std::size_t>(max_width_px + kResponsePadding + 1)),
       ring_(kLayersPerOctave * kRingRows * ring_stride_ + kResponsePadding),
-      found_(static_cast<std::size_t>(max_width_px + kResponsePadding)),
+      maxima_(static_cast<std::size_t>(max_width_px + kResponsePadding)),
       work_(max_width_px) {}
 
 float* FastHessian::ring_row(int layer, int row) {
@@ -100,7 +99,7 @@ FastHessian::Octave FastHessian::plan_octave(const IntegralImage& integral, cons
   octave.index = index;
   octave.step = 1 << index;
   octave.region = region;
-  // Octaves overlap in scale; what the finer one can find is left to it.
+  // Octaves overlap in scale; where they do, the finer one reports the keypoint.
   octave.sigma_min_px = std::max(settings.sigma_min_px, index == 0 ? 0.f : middle_sigma(index - 1, 2));
   octave.sigma_max_px = settings.sigma_max_px;
   for (int m = 1; m + 1 < kLayersPerOctave; ++m) {
@@ -132,17 +131,17 @@ void FastHessian::detect_octave(const IntegralImage& integral, const Octave& oct
   for (int row = octave.all_rows.first; row < octave.all_rows.last; ++row) {
     for (int layer = 1; layer + 1 < kLayersPerOctave; ++layer) {
       if (octave.searched(layer) && octave.rows[static_cast<std::size_t>(layer)].contains(row))
-        make_rows(integral, octave, layer, row, row + 1);
+        compute_rows(integral, octave, layer, row, row + 1);
     }
     for (int layer = 1; layer + 1 < kLayersPerOctave; ++layer) {
       if (octave.search_rows[static_cast<std::size_t>(layer)].contains(row - 1))
-        find_in_row(integral, octave, layer, row - 1, selection);
+        find_maxima_in_row(integral, octave, layer, row - 1, selection);
     }
   }
 }
 
-void FastHessian::make_rows(const IntegralImage& integral, const Octave& octave, int layer, int first,
-                            int last) {
+void FastHessian::compute_rows(const IntegralImage& integral, const Octave& octave, int layer, int first,
+                               int last) {
   const auto l = static_cast<std::size_t>(layer);
   for (int row = first; row < last; ++row) {
     int& holds = ring_holds_[l][static_cast<std::size_t>(row % kRingRows)];
@@ -153,7 +152,7 @@ void FastHessian::make_rows(const IntegralImage& integral, const Octave& octave,
   }
 }
 
-bool FastHessian::has_rows_round(int layer, int row) const {
+bool FastHessian::has_rows_around(int layer, int row) const {
   for (int r = row - 1; r <= row + 1; ++r) {
     if (ring_holds_[static_cast<std::size_t>(layer)][static_cast<std::size_t>(r % kRingRows)] != r)
       return false;
@@ -161,36 +160,37 @@ bool FastHessian::has_rows_round(int layer, int row) const {
   return true;
 }
 
-LayerRows FastHessian::rows_round(int layer, int row) {
+LayerRows FastHessian::rows_around(int layer, int row) {
   return {ring_row(layer, row - 1), ring_row(layer, row), ring_row(layer, row + 1)};
 }
 
-void FastHessian::find_in_row(const IntegralImage& integral, const Octave& octave, int layer, int row,
-                              KeypointSelection& selection) {
+void FastHessian::find_maxima_in_row(const IntegralImage& integral, const Octave& octave, int layer, int row,
+                                     KeypointSelection& selection) {
   const SampleRange cols = octave.search_cols[static_cast<std::size_t>(layer)];
   std::array<LayerRows, 2> others{};
   std::size_t known = 0;
   for (const int near : {layer - 1, layer + 1}) {
-    if (octave.searched(near)) others[known++] = rows_round(near, row);
+    if (octave.searched(near)) others[known++] = rows_around(near, row);
   }
-  const int count = find_maxima_row(rows_round(layer, row), {others.data(), known}, cols.first, cols.last,
-                                    selection.threshold(), found_.data());
+  const int count = find_maxima_row(rows_around(layer, row), {others.data(), known}, cols.first, cols.last,
+                                    selection.threshold(), maxima_.data());
   if (count * kSamplesPerPatch > cols.last - cols.first) {
-    for (const int near : {layer - 1, layer + 1}) make_rows(integral, octave, near, row - 1, row + 2);
+    for (const int near : {layer - 1, layer + 1}) compute_rows(integral, octave, near, row - 1, row + 2);
   }
   for (int k = 0; k < count; ++k)
-    refine(integral, octave, layer, row, found_[static_cast<std::size_t>(k)], selection);
+    refine(integral, octave, layer, row, maxima_[static_cast<std::size_t>(k)], selection);
 }
 
-/// A sample that is a maximum as far as its neighbours are known.
+/// Adds the keypoint at a sample that is a maximum among the neighbours computed so far. It is none if a
+/// neighbour that is computed here is larger.
 void FastHessian::refine(const IntegralImage& integral, const Octave& octave, int layer, int row, int column,
                          KeypointSelection& selection) {
   ResponseCube cube;
   const float centre = ring_row(layer, row)[column];
   for (int near = layer - 1; near <= layer + 1; ++near) {
     ResponsePatch& patch = cube[static_cast<std::size_t>(near - layer + 1)];
-    if (has_rows_round(near, row)) {
-      const LayerRows rows = rows_round(near, row);
+    if (has_rows_around(near, row)) {
+      const LayerRows rows = rows_around(near, row);
       for (std::size_t j = 0; j < 3; ++j) std::copy_n(rows[j] + column - 1, 3, patch[j].data());
     } else if (!hessian_response_patch(integral, octave_filter(octave.index, near), column * octave.step,
                                        row * octave.step, octave.step, centre, patch)) {

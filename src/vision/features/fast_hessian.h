@@ -1,10 +1,14 @@
-// The fast-Hessian detector (H. Bay et al., CVIU 2008, 3.2–3.4): maxima of the determinant of box-filter
-// Hessians over position and scale, refined by a quadratic fit.
+// The fast-Hessian detector: maxima of the determinant of box-filter Hessians over position and scale,
+// refined by a quadratic fit.
 //
-// Octave o samples every 2^o-th pixel with filters of side 3 (2^(o+1) (i+1) + 1), i = 0…3. Rows are streamed:
-// a response lives in a ring of three rows from the moment it is made until its neighbours are known. A layer
-// in which no maxima are looked for is only a neighbour of others: its responses are computed round their
-// maxima alone, or by the row where these stand too close for that to pay.
+// Convention: octave o has a sample at every 2^o-th pixel and filters of side 3 (2^(o+1) (i+1) + 1) for layer
+// i = 0…3.
+// Units: pixels; responses of grey levels 0…1.
+// Source: H. Bay et al., "Speeded-Up Robust Features (SURF)", CVIU 2008, 3.2–3.4.
+//
+// Responses are computed row by row, and a ring of three rows of each layer is kept. A layer in which no
+// maxima are searched is only compared with its neighbours: its responses are computed only round the maxima
+// of these, or as whole rows where the maxima are so dense that rows cost less.
 #pragma once
 
 #include <array>
@@ -40,19 +44,19 @@ class FastHessian {
   static Octave plan_octave(const IntegralImage& integral, const Region& region,
                             const FeatureSettings& settings, int index);
   void detect_octave(const IntegralImage& integral, const Octave& octave, KeypointSelection& selection);
-  void find_in_row(const IntegralImage& integral, const Octave& octave, int layer, int row,
-                   KeypointSelection& selection);
+  void find_maxima_in_row(const IntegralImage& integral, const Octave& octave, int layer, int row,
+                          KeypointSelection& selection);
   void refine(const IntegralImage& integral, const Octave& octave, int layer, int row, int column,
               KeypointSelection& selection);
-  void make_rows(const IntegralImage& integral, const Octave& octave, int layer, int first, int last);
-  bool has_rows_round(int layer, int row) const;
-  LayerRows rows_round(int layer, int row);
+  void compute_rows(const IntegralImage& integral, const Octave& octave, int layer, int first, int last);
+  bool has_rows_around(int layer, int row) const;
+  LayerRows rows_around(int layer, int row);
   float* ring_row(int layer, int row);
 
   std::size_t ring_stride_;
   std::vector<float> ring_;                                        ///< [layer][row mod 3][sample]
-  std::array<std::array<int, 3>, kLayersPerOctave> ring_holds_{};  ///< which row; −1: none
-  std::vector<std::int32_t> found_;
+  std::array<std::array<int, 3>, kLayersPerOctave> ring_holds_{};  ///< the row in it; −1: none
+  std::vector<std::int32_t> maxima_;
   HessianRowWork work_;
 };
 

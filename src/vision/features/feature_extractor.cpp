@@ -1,5 +1,5 @@
-// The extractor behind heel/features.h: (enlarged view →) integral image → fast-Hessian → selection →
-// orientation → descriptor.
+// The extractor of heel/features.h: (upsampling →) integral image → fast-Hessian → selection → orientation →
+// descriptor.
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
@@ -18,10 +18,11 @@
 namespace heel {
 namespace {
 
-// Keypoints kept before spreading, for each one wanted: enough that weak corners of the image are still in.
+// Keypoints kept during detection for each one wanted: enough to leave some in weakly textured corners of the
+// image.
 constexpr int kCandidatesPerFeature = 4;
-// Of the frame round a region that is looked at upsample: descriptors reach beyond it.
-constexpr int kSurroundings_px = 16;
+// Border of the frame that is upsampled with a region, since descriptors extend beyond the region.
+constexpr int kUpsampledBorder_px = 16;
 
 Region clipped(const Region& region, int width_px, int height_px) {
   if (region.width_px == 0 && region.height_px == 0) return {0, 0, width_px, height_px};
@@ -31,13 +32,13 @@ Region clipped(const Region& region, int width_px, int height_px) {
   return {x0, y0, x1 - x0, y1 - y0};
 }
 
-Region with_surroundings(const Region& region, int width_px, int height_px) {
-  return clipped({region.x_px - kSurroundings_px, region.y_px - kSurroundings_px,
-                  region.width_px + 2 * kSurroundings_px, region.height_px + 2 * kSurroundings_px},
+Region with_border(const Region& region, int width_px, int height_px) {
+  return clipped({region.x_px - kUpsampledBorder_px, region.y_px - kUpsampledBorder_px,
+                  region.width_px + 2 * kUpsampledBorder_px, region.height_px + 2 * kUpsampledBorder_px},
                  width_px, height_px);
 }
 
-void check(const FeatureSettings& settings) {
+void check_settings(const FeatureSettings& settings) {
   if (settings.octaves < 1 || settings.octaves > kMaxOctaves)
     throw Error("features: octaves " + std::to_string(settings.octaves) + " is out of range (expected 1…4)");
   if (settings.max_features < 1)
@@ -53,37 +54,38 @@ struct FeatureExtractor::Impl {
         max_width_px(width_px),
         max_height_px(height_px),
         max_features(given.max_features),
-        enlarged(width_px, static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
-        integral(width_px, UpsampledRegion::kFactor * height_px),  // an enlarged view is taller than a frame
+        upsampled(width_px, static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
+        integral(width_px,
+                 UpsampledRegion::kFactor * height_px),  // an upsampled region may be taller than a frame
         hessian(width_px),
         selection(static_cast<std::size_t>(given.max_features) * kCandidatesPerFeature) {
-    downwards.reserve(static_cast<std::size_t>(given.max_features));
+    top_down.reserve(static_cast<std::size_t>(given.max_features));
   }
 
   void extract(const FrameView& view, const Region& region, const FeatureSettings& wanted, FeatureSet& out);
-  void extract_closely(const FrameView& frame, const Region& region, const Region& part, FeatureSet& out);
+  void extract_upsampled(const FrameView& frame, const Region& region, const Region& part, FeatureSet& out);
   void describe_all(FeatureSet& out);
 
   FeatureSettings settings;
   int max_width_px, max_height_px;
-  int max_features;  // memory is there for so many
-  UpsampledRegion enlarged;
+  int max_features;  // memory is taken for this many
+  UpsampledRegion upsampled;
   IntegralImage integral;
   FastHessian hessian;
   KeypointSelection selection;
-  std::vector<std::uint32_t> downwards;  // the features found, from the top of the image
+  std::vector<std::uint32_t> top_down;  // the features found, in the order of y
   StageTimes* times = nullptr;
 };
 
-/// From the top of the image downwards, so that the part of the integral image that is read stays in cache;
-/// from the strongest on it would be somewhere else every time.
+/// In the order of y, not of strength, so that the part of the integral image that is read stays in the
+/// cache.
 void FeatureExtractor::Impl::describe_all(FeatureSet& out) {
-  downwards.resize(out.features.size());
-  std::iota(downwards.begin(), downwards.end(), 0U);
-  std::sort(downwards.begin(), downwards.end(),
+  top_down.resize(out.features.size());
+  std::iota(top_down.begin(), top_down.end(), 0U);
+  std::sort(top_down.begin(), top_down.end(),
             [&](std::uint32_t a, std::uint32_t b) { return out.features[a].y_px < out.features[b].y_px; });
   out.descriptors.resize(out.features.size());
-  for (const std::uint32_t i : downwards) {
+  for (const std::uint32_t i : top_down) {
     Feature& feature = out.features[i];
     if (settings.oriented) feature.angle_rad = dominant_orientation(integral, feature);
     describe(integral, feature, !settings.oriented, out.descriptors[i]);
@@ -91,7 +93,7 @@ void FeatureExtractor::Impl::describe_all(FeatureSet& out) {
 }
 
 FeatureExtractor::FeatureExtractor(int max_width_px, int max_height_px, const FeatureSettings& settings) {
-  check(settings);
+  check_settings(settings);
   if (max_width_px < 1 || max_height_px < 1)
     throw Error("features: image size " + std::to_string(max_width_px) + "×" + std::to_string(max_height_px) +
                 " is empty");
@@ -133,9 +135,9 @@ void FeatureExtractor::extract(const FrameView& frame, const Region& region, Fea
                 std::to_string(s.max_height_px) + " prepared for");
   const Region searched = clipped(region, width_px, height_px);
   if (frame.grey == nullptr || searched.width_px == 0 || searched.height_px == 0) return;
-  const Region part = with_surroundings(searched, width_px, height_px);
-  if (s.settings.upsample && s.enlarged.has_room_for(part))
-    return s.extract_closely(frame, searched, part, out);
+  const Region part = with_border(searched, width_px, height_px);
+  if (s.settings.upsample && s.upsampled.has_room_for(part))
+    return s.extract_upsampled(frame, searched, part, out);
   s.extract(frame, searched, s.settings, out);
 }
 
@@ -157,21 +159,21 @@ void FeatureExtractor::Impl::extract(const FrameView& view, const Region& region
   mark(times, VisionStage::Description);
 }
 
-/// `part`: the region with its surroundings, which is what is drawn larger.
-void FeatureExtractor::Impl::extract_closely(const FrameView& frame, const Region& region, const Region& part,
-                                             FeatureSet& out) {
+/// `part`: the region with its border, which is upsampled.
+void FeatureExtractor::Impl::extract_upsampled(const FrameView& frame, const Region& region,
+                                               const Region& part, FeatureSet& out) {
   constexpr int k = UpsampledRegion::kFactor;
   FeatureSettings wanted = settings;
   wanted.sigma_min_px *= k;
   wanted.sigma_max_px *= k;
-  const FrameView view = enlarged.draw(frame, part);
+  const FrameView view = upsampled.upsample(frame, part);
   extract(view,
           {k * (region.x_px - part.x_px), k * (region.y_px - part.y_px), k * region.width_px,
            k * region.height_px},
           wanted, out);
   for (Feature& feature : out.features) {
-    feature.x_px = enlarged.x_in_frame(feature.x_px);
-    feature.y_px = enlarged.y_in_frame(feature.y_px);
+    feature.x_px = upsampled.x_in_frame(feature.x_px);
+    feature.y_px = upsampled.y_in_frame(feature.y_px);
     feature.sigma_px /= k;
   }
 }

@@ -17,9 +17,10 @@ using U32 = hn::ScalableTag<std::uint32_t>;
 using I32 = hn::ScalableTag<std::int32_t>;
 using F32 = hn::ScalableTag<float>;
 
-// The row differences for columns [begin, end). With I the integral image and l the lobe:
-//   xx: the strip Dxx's boxes stand in,                          yy: whole minus three times the middle
-//   strip, xy: the strip above the centre row minus the one below it.
+// The row differences for columns [begin, end):
+//   xx: the strip of rows in which the boxes of Dxx lie
+//   yy: all rows of the filter, less three times the middle strip
+//   xy: the strip above the centre row, less the strip below it
 void difference_rows(const IntegralImage& integral, BoxFilter filter, int y, int begin, int end,
                      HessianRowWork& work) {
   const U32 d;
@@ -48,7 +49,7 @@ void difference_rows(const IntegralImage& integral, BoxFilter filter, int y, int
   }
 }
 
-// Every kStep-th column from `columns` on; kStep 0 stands for any larger step, given at run time.
+// Every kStep-th column from `columns` on; kStep 0: every `step`-th.
 template <int kStep, class D = U32>
 HWY_INLINE hn::Vec<D> load_every(const std::uint32_t* columns, int step) {
   const D d;
@@ -106,13 +107,14 @@ void HessianResponseRow(const IntegralImage& integral, BoxFilter filter, int y, 
   }
 }
 
-// One row of the patch: three samples (and one more that nobody asked for), straight from the integral image.
+// One row of the patch, directly from the integral image: three samples, and a fourth in the last lane that
+// is not used.
 template <int kStep>
 HWY_INLINE hn::Vec<hn::FixedTag<float, 4>> patch_row(const IntegralImage& integral, BoxFilter filter, int x,
                                                      int y, int step) {
   using U4 = hn::FixedTag<std::uint32_t, 4>;
   const int l = filter.lobe, half = filter.half(), mid = (l - 1) / 2;
-  // The box from rows y + top to y + bottom and columns x + left to x + right, ends not included.
+  // The box of rows [y + top, y + bottom) and columns [x + left, x + right).
   const auto box = [&](int top, int bottom, int left, int right) {
     const std::uint32_t* above = integral.row(y + top) + x;
     const std::uint32_t* below = integral.row(y + bottom) + x;
@@ -132,14 +134,14 @@ HWY_INLINE hn::Vec<hn::FixedTag<float, 4>> patch_row(const IntegralImage& integr
 
 template <int kStep>
 HWY_INLINE bool patch_rows(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
-                           float not_above, ResponsePatch& patch) {
+                           float limit, ResponsePatch& patch) {
   const hn::FixedTag<float, 4> d;
   const auto three = hn::FirstN(d, 3);
-  const auto limit = hn::Set(d, not_above);
+  const auto limits = hn::Set(d, limit);
   HWY_ALIGN float row[4];
-  for (const int j : {1, 0, 2}) {  // the middle first: most that exceed the limit stand there
+  for (const int j : {1, 0, 2}) {  // the middle row first: it exceeds the limit most often
     const auto responses = patch_row<kStep>(integral, filter, x - step, y + (j - 1) * step, step);
-    if (!hn::AllFalse(d, hn::And(three, hn::Gt(responses, limit)))) return false;
+    if (!hn::AllFalse(d, hn::And(three, hn::Gt(responses, limits)))) return false;
     hn::Store(responses, d, row);
     std::copy_n(row, 3, patch[static_cast<std::size_t>(j)].data());
   }
@@ -147,14 +149,14 @@ HWY_INLINE bool patch_rows(const IntegralImage& integral, BoxFilter filter, int 
 }
 
 bool HessianResponsePatch(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
-                          float not_above, ResponsePatch& patch) {
+                          float limit, ResponsePatch& patch) {
   switch (step) {
     case 1:
-      return patch_rows<1>(integral, filter, x, y, step, not_above, patch);
+      return patch_rows<1>(integral, filter, x, y, step, limit, patch);
     case 2:
-      return patch_rows<2>(integral, filter, x, y, step, not_above, patch);
+      return patch_rows<2>(integral, filter, x, y, step, limit, patch);
     default:
-      return patch_rows<0>(integral, filter, x, y, step, not_above, patch);
+      return patch_rows<0>(integral, filter, x, y, step, limit, patch);
   }
 }
 
@@ -167,10 +169,10 @@ HWY_INLINE hn::Vec<F32> max_of_nine(const LayerRows& rows, int i) {
   return hn::Max(max_of_three(rows[1], i), hn::Max(max_of_three(rows[0], i), max_of_three(rows[2], i)));
 }
 
-// Those of Lanes samples from i on that are maxima above `floor`: the cheapest comparisons first, since few
-// samples pass them.
-HWY_INLINE hn::Mask<F32> maxima(const LayerRows& own, std::span<const LayerRows> others, int i,
-                                hn::Vec<F32> floor) {
+// Which of the Lanes samples from i on are maxima above `floor`. The cheapest comparisons come first, since
+// few samples pass them.
+HWY_INLINE hn::Mask<F32> maxima_mask(const LayerRows& own, std::span<const LayerRows> others, int i,
+                                     hn::Vec<F32> floor) {
   const F32 d;
   const auto centre = hn::LoadU(d, own[1] + i);
   const auto beside = hn::Max(hn::LoadU(d, own[1] + i - 1), hn::LoadU(d, own[1] + i + 1));
@@ -186,19 +188,19 @@ HWY_INLINE hn::Mask<F32> maxima(const LayerRows& own, std::span<const LayerRows>
 }
 
 int FindMaximaRow(const LayerRows& own, std::span<const LayerRows> others, int first, int last,
-                  float threshold, std::int32_t* found) {
+                  float threshold, std::int32_t* maxima) {
   const F32 d;
   int count = 0;
   const auto floor = hn::Set(d, threshold);
   for (int i = first; i < last; i += static_cast<int>(hn::Lanes(d))) {
-    const auto is_max = maxima(own, others, i, floor);
+    const auto is_max = maxima_mask(own, others, i, floor);
     if (hn::AllFalse(d, is_max)) continue;
-    // Few and far between: written one by one, since a masked store is slow on many processors.
+    // There are few maxima; they are written one by one, since a masked store is slow on many processors.
     std::uint64_t bits = 0;
     hn::StoreMaskBits(d, is_max, reinterpret_cast<std::uint8_t*>(&bits));
     for (; bits != 0; bits &= bits - 1) {
       const int k = i + std::countr_zero(bits);
-      if (k < last) found[count++] = k;
+      if (k < last) maxima[count++] = k;
     }
   }
   return count;
@@ -227,13 +229,13 @@ void hessian_response_row(const IntegralImage& integral, BoxFilter filter, int y
 }
 
 bool hessian_response_patch(const IntegralImage& integral, BoxFilter filter, int x, int y, int step,
-                            float not_above, ResponsePatch& patch) {
-  return HWY_DYNAMIC_DISPATCH(HessianResponsePatch)(integral, filter, x, y, step, not_above, patch);
+                            float limit, ResponsePatch& patch) {
+  return HWY_DYNAMIC_DISPATCH(HessianResponsePatch)(integral, filter, x, y, step, limit, patch);
 }
 
 int find_maxima_row(const LayerRows& own, std::span<const LayerRows> others, int first, int last,
-                    float threshold, std::int32_t* found) {
-  return HWY_DYNAMIC_DISPATCH(FindMaximaRow)(own, others, first, last, threshold, found);
+                    float threshold, std::int32_t* maxima) {
+  return HWY_DYNAMIC_DISPATCH(FindMaximaRow)(own, others, first, last, threshold, maxima);
 }
 
 std::int8_t laplacian_sign(const IntegralImage& integral, BoxFilter filter, int x, int y) {

@@ -15,7 +15,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using U16 = hn::FixedTag<std::uint16_t, 8>;
 using U32 = hn::FixedTag<std::uint32_t, 4>;
 
-// Sums of the first 1, 2, … 8 lanes: each step adds what lies 1, 2, 4 lanes before.
+// Sums of the first 1, 2, … 8 lanes: the three steps add the lane 1, 2 and 4 places before.
 HWY_INLINE hn::Vec<U16> running_sums(hn::Vec<U16> v) {
   const U16 d;
   v = hn::Add(v, hn::ShiftLeftLanes<1>(d, v));
@@ -23,7 +23,7 @@ HWY_INLINE hn::Vec<U16> running_sums(hn::Vec<U16> v) {
   return hn::Add(v, hn::ShiftLeftLanes<4>(d, v));
 }
 
-// below[x] = above[x] + grey[0] + … + grey[x], eight pixels at a time; eight of 255 fit 16 bits.
+// below[x] = above[x] + grey[0] + … + grey[x], eight pixels at a time; the sum of eight fits 16 bits.
 void IntegralRow(const std::uint8_t* grey, const std::uint32_t* above, std::uint32_t* below, int width_px) {
   const hn::FixedTag<std::uint8_t, 8> d8;
   const U16 d16;

@@ -59,8 +59,8 @@ void KeypointSelection::strongest(std::size_t count, std::vector<Feature>& out) 
 
 void KeypointSelection::strongest_spread(std::size_t count, const Region& region, std::vector<Feature>& out) {
   if (keypoints_.size() <= count) return strongest(count, out);
-  // The largest equal share that does not exceed `count` in sum: cells with fewer keypoints leave their
-  // places to the others.
+  // The largest share of a cell with which the sum does not exceed `count`. Cells with fewer keypoints than
+  // that leave the others a larger share.
   std::array<std::size_t, kCells> in_cell{};
   for (const Feature& keypoint : keypoints_) ++in_cell[cell_of(keypoint, region)];
   const auto taken = [&](std::size_t share) {

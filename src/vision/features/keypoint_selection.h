@@ -1,5 +1,7 @@
-// Which keypoints are kept: a bounded list while detecting, then at most N, spread over the image or simply
-// the strongest.
+// Which keypoints are kept: a list of bounded length during detection, then at most N of it, either spread
+// over the image or the strongest.
+//
+// Units: pixels; a keypoint is stronger if its response is larger.
 #pragma once
 
 #include <cstddef>
@@ -9,22 +11,26 @@
 
 namespace heel {
 
-/// Stronger first; position and scale break ties, so that the order never depends on how features were found.
+/// The order of keypoints. Position and scale break ties, so that it does not depend on the order of
+/// detection.
 bool stronger(const Feature& a, const Feature& b);
 
-/// Takes any number of keypoints and keeps the strongest `capacity` of them, at a cost bounded per keypoint:
-/// when twice that many have come in, the weaker half goes and the threshold rises to the weakest kept.
+/// Keeps at least the strongest `capacity` of any number of keypoints. When twice as many are stored, the
+/// weaker half is dropped and the threshold rises to the weakest that is kept; the mean cost of a keypoint is
+/// constant.
 class KeypointSelection {
  public:
   explicit KeypointSelection(std::size_t capacity);
 
+  /// Forgets all keypoints.
   void start(float threshold);
-  /// Keypoints that do not exceed this need not be added.
+  /// Keypoints whose response does not exceed this need not be added.
   float threshold() const { return threshold_; }
   void add(const Feature& keypoint);
 
-  /// At most `count` of those added, strongest first. Spread: the region is cut into a grid of cells that
-  /// take turns, each giving its strongest keypoint left, until `count` are chosen.
+  /// At most `count` of those added, strongest first. Spread: the region is divided into a grid of cells;
+  /// each cell contributes its strongest keypoints up to an equal share of `count`, and the strongest of the
+  /// rest fill it up.
   void strongest(std::size_t count, std::vector<Feature>& out);
   void strongest_spread(std::size_t count, const Region& region, std::vector<Feature>& out);
 

@@ -55,8 +55,8 @@ using namespace orientation_window;
 using F32 = hn::CappedTag<float, 16>;
 using I32 = hn::RebindToSigned<F32>;
 
-// atan2 to 1e-5 rad: the arctangent of the smaller over the larger by a minimax polynomial on [0, 1],
-// unfolded by octant (M. Abramowitz and I. Stegun, Handbook of Mathematical Functions, 4.4.47).
+// atan2 to 1e-5 rad: the arctangent of min / max by a minimax polynomial on [0, 1], mapped to the octant (M.
+// Abramowitz and I. Stegun, Handbook of Mathematical Functions, 4.4.47).
 HWY_INLINE hn::Vec<F32> arc_tangent(hn::Vec<F32> y, hn::Vec<F32> x) {
   const F32 d;
   const auto ax = hn::Abs(x), ay = hn::Abs(y);
@@ -73,7 +73,7 @@ HWY_INLINE hn::Vec<F32> arc_tangent(hn::Vec<F32> y, hn::Vec<F32> x) {
   return hn::IfThenElse(hn::Lt(y, hn::Zero(d)), hn::Neg(angle), angle);
 }
 
-// Weighted Haar responses from the grid, and the bin each one's angle falls into.
+// Weighted Haar responses from the grid, and the bin of each one's angle.
 void HaarResponses(const Patch& grid, Responses& dx, Responses& dy,
                    std::array<std::int32_t, kSide * kStride>& bin) {
   const F32 d;
@@ -135,7 +135,7 @@ float dominant_orientation(const IntegralImage& integral, const Feature& feature
       sum.dy += dy[i];
     }
   }
-  // Sums up to each bin, once round and a window further: a window is the difference of two.
+  // Cumulative sums over the circle and one window more: the sum of a window is the difference of two.
   std::array<Vector, kBins + kWindowBins> up_to;
   Vector total;
   for (std::size_t b = 0; b < up_to.size(); ++b) {

@@ -1,6 +1,9 @@
-// The dominant orientation of a feature (H. Bay et al., CVIU 2008, 4.1): Haar responses of side 4 s within a
-// radius of 6 s, weighted by a Gaussian, summed over a sliding window of π/3. The paper has s = sigma; a
-// little more makes it steadier.
+// The dominant orientation of a feature: Haar responses of side 4 s within a radius of 6 s, weighted by a
+// Gaussian and summed over a sliding window of π/3.
+//
+// Convention: from +x (right) towards +y (down). Units: radians.
+// Source: H. Bay et al., "Speeded-Up Robust Features (SURF)", CVIU 2008, 4.1. The paper has s = sigma; s =
+// 1.2 sigma is more repeatable.
 #pragma once
 
 #include "heel/features.h"
@@ -8,7 +11,7 @@
 
 namespace heel {
 
-/// From +x towards +y, in (−π, π]. 0 where there is no gradient at all.
+/// In (−π, π]; 0 where the image has no gradient.
 float dominant_orientation(const IntegralImage& integral, const Feature& feature);
 
 }  // namespace heel

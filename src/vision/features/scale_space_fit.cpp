@@ -6,8 +6,8 @@
 namespace heel {
 namespace {
 
-// Well over half a sample: box responses are far from quadratic, and a stricter limit rejects repeatable
-// peaks (on the Oxford pairs, repeatability .416 at 0.6 and .433 at 1.0).
+// In samples. More than half a sample, since box responses are far from quadratic and a stricter limit
+// rejects repeatable peaks (repeatability on the Oxford pairs: 0.416 at 0.6, 0.433 at 1.0).
 constexpr double kMaxOffset = 1.0;
 
 bool is_first_maximum(const ResponseCube& cube) {

@@ -1,5 +1,8 @@
-// Sub-sample position of a maximum of responses over column, row and layer: the peak of a quadratic through
-// its 27 neighbours (M. Brown and D. Lowe, "Invariant features from interest point groups", BMVC 2002).
+// The position of a maximum of responses between samples of column, row and layer: the peak of a quadratic
+// through the 27 samples round it.
+//
+// Convention: offsets from the middle sample, in samples and layers.
+// Source: M. Brown and D. Lowe, "Invariant features from interest point groups", BMVC 2002.
 #pragma once
 
 #include <array>
@@ -9,8 +12,7 @@
 
 namespace heel {
 
-/// Offsets from the middle sample: at most one sample, and half a layer, so that every sigma belongs to one
-/// layer of an octave.
+/// Offsets of at most one sample, and half a layer: so every sigma belongs to one layer of an octave.
 struct ScaleSpacePeak {
   float dx = 0.f, dy = 0.f, dlayer = 0.f;
   float response = 0.f;  ///< of the quadratic at the peak
@@ -19,8 +21,8 @@ struct ScaleSpacePeak {
 /// Responses of three neighbouring layers (finer, own, coarser): [layer][row][column].
 using ResponseCube = std::array<ResponsePatch, 3>;
 
-/// Nothing when the middle sample is not the maximum of the cube (of equals the first in layer, row and
-/// column order counts), when the quadratic has no peak, or when it lies too far off.
+/// None if the middle sample is not the maximum of the cube (among equals, the first in the order of layer,
+/// row and column is the maximum), if the quadratic has no peak, or if the peak is too far from the middle.
 std::optional<ScaleSpacePeak> fit_scale_space_peak(const ResponseCube& cube);
 
 }  // namespace heel

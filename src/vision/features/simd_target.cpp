@@ -23,16 +23,17 @@ HWY_AFTER_NAMESPACE();
 namespace heel {
 namespace {
 
-std::vector<std::int64_t> single(std::int64_t targets) {
+std::vector<std::int64_t> separated(std::int64_t targets) {
   std::vector<std::int64_t> all;
-  for (; targets != 0; targets &= targets - 1) all.push_back(targets & -targets);  // a lower bit is better
+  for (; targets != 0; targets &= targets - 1)
+    all.push_back(targets & -targets);  // lower bits are better sets
   return all;
 }
 
-// The static target is what the compiler was told every processor has. Highway does not count it as supported
-// where it goes with an extension nobody uses here: NEON with AES.
+// The static target is what the compiler assumes of every processor. Highway does not report it as supported
+// if it also names an extension that is not used here (NEON with AES).
 std::vector<std::int64_t> available() {
-  return single(HWY_TARGETS & (hwy::SupportedTargets() | HWY_STATIC_TARGET));
+  return separated(HWY_TARGETS & (hwy::SupportedTargets() | HWY_STATIC_TARGET));
 }
 
 std::vector<std::string_view> names_of(const std::vector<std::int64_t>& targets) {
@@ -51,7 +52,7 @@ const char* simd_target_name() {
 }
 
 std::vector<std::string_view> compiled_simd_targets() {
-  return names_of(single(HWY_TARGETS));
+  return names_of(separated(HWY_TARGETS));
 }
 
 std::vector<std::string_view> available_simd_targets() {

@@ -1,4 +1,4 @@
-// The instruction sets vision is compiled for, and which of them it runs with.
+// The instruction sets that vision is compiled for, and which of them it uses. Names are those of Highway.
 #pragma once
 
 #include <string_view>
@@ -6,20 +6,20 @@
 
 namespace heel {
 
-/// Highway's name for the one in use, e.g. "AVX2", "NEON", or "EMU128" for plain SSE2.
+/// The one in use, e.g. "AVX2", "NEON", or "EMU128" for plain SSE2.
 const char* simd_target_name();
 
-/// Those compiled in, whether this processor has them or not; best first.
+/// All that are compiled in, best first.
 std::vector<std::string_view> compiled_simd_targets();
 
-/// Those of them this processor has; best first, never empty.
+/// Those of them that this processor has, best first; never empty.
 std::vector<std::string_view> available_simd_targets();
 
-/// Lets vision run with one of the available only; false, and nothing changed, for any other name. Not while
-/// another thread is in a vision stage.
+/// Makes vision use the one of this name. False, and nothing is changed, if it is not available. No other
+/// thread may be in a vision stage.
 bool use_simd_target(std::string_view name);
 
-/// Undoes that.
+/// Makes vision use the best available again.
 void use_best_simd_target();
 
 }  // namespace heel

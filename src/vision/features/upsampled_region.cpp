@@ -16,15 +16,16 @@ bool UpsampledRegion::has_room_for(const Region& part) const {
   return kFactor * part.width_px <= max_width_px_ && kFactor * kFactor * width * height <= pixels_.size();
 }
 
-// Bilinear. Each new pixel's centre lies a quarter of a pixel from the nearest old one, so that the weights
-// are 3/4 and 1/4 in either direction: sixteenths in all, exact in integers. Edges are carried on outwards.
-FrameView UpsampledRegion::draw(const FrameView& frame, const Region& part) {
+// Bilinear. The centre of each new pixel lies a quarter of a pixel from that of the nearest old one, so the
+// weights are 3/4 and 1/4 in each direction: sixteenths, which integers hold exactly. Edge pixels are
+// repeated outwards.
+FrameView UpsampledRegion::upsample(const FrameView& frame, const Region& part) {
   part_ = part;
   const auto width = static_cast<std::size_t>(part.width_px);
   const auto stride = static_cast<std::size_t>(frame.stride_bytes);
   const std::uint8_t* first =
       frame.grey + static_cast<std::size_t>(part.y_px) * stride + static_cast<std::size_t>(part.x_px);
-  std::uint16_t* const quarters = row_.data() + 1;  // a column more on either side
+  std::uint16_t* const quarters = row_.data() + 1;  // one more column on each side
   for (int y = 0; y < kFactor * part.height_px; ++y) {
     const int near_y = y / 2, far_y = std::clamp(y % 2 == 0 ? near_y - 1 : near_y + 1, 0, part.height_px - 1);
     const std::uint8_t* const near_row = first + static_cast<std::size_t>(near_y) * stride;

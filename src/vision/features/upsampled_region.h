@@ -1,4 +1,6 @@
-// A part of a frame, drawn twice as large: so the smallest filter meets blobs of half its size.
+// A part of a frame enlarged by two, in which the smallest filter finds blobs of half its size.
+//
+// Convention: integer coordinates are pixel centres, in the frame and in the enlarged picture. Units: pixels.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +16,15 @@ class UpsampledRegion {
  public:
   static constexpr int kFactor = 2;
 
-  /// Takes all memory here, for a picture of at most this width and this many pixels: as large as a frame, so
-  /// that it costs no more, but taller, as a torso is.
+  /// Takes memory once, for an enlarged picture of at most this width and this many pixels. With the width
+  /// and area of a frame a search costs no more than a frame, and the picture may be taller than a frame, as
+  /// a torso is.
   UpsampledRegion(int max_width_px, std::size_t max_area_px);
 
   bool has_room_for(const Region& part) const;
-  /// `part` inside the frame, and not too large. The picture is valid until the next call; its pixel (x, y)
-  /// has its centre at that of the frame's (x_in_frame(x), y_in_frame(y)).
-  FrameView draw(const FrameView& frame, const Region& part);
+  /// `part` must lie inside the frame, and there must be room for it. The returned view is valid until the
+  /// next call; its pixel (x, y) lies at (x_in_frame(x), y_in_frame(y)) of the frame.
+  FrameView upsample(const FrameView& frame, const Region& part);
 
   float x_in_frame(float x_px) const { return in_frame(x_px, part_.x_px); }
   float y_in_frame(float y_px) const { return in_frame(y_px, part_.y_px); }

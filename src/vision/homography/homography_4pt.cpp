@@ -1,9 +1,8 @@
-// Through the projective basis (Hartley & Zisserman, 2nd ed., 2.3; P. Heckbert, "Fundamentals of texture
-// mapping and image warping", 1989): with M = [a1 a2 a3] and a4 = M λ, N = [b1 b2 b3] and b4 = N μ
-// (homogeneous points),
+// By the projective basis: with M = [a1 a2 a3] and a4 = M λ, N = [b1 b2 b3] and b4 = N μ (homogeneous
+// points),
 //   H = N diag(μi / λi) M⁻¹.
-// λi det M and μi det N are twice the signed areas of the triangles that a4 (b4) makes with two others, so
-// the degeneracy and orientation checks cost nothing extra.
+// λi det M and μi det N are twice the signed areas of the triangles of a4 (b4) with two of the others. The
+// checks of degeneracy and orientation use these areas and so cost nothing more.
 #include "vision/homography/homography_4pt.h"
 
 #include <Eigen/Geometry>

@@ -11,8 +11,8 @@
 namespace heel {
 namespace {
 
-// Of singular values, relative to the largest. With Hartley's normalisation well spread points give 1e-2;
-// at 1e-6 a millionth of a pixel decides the answer.
+// Of singular values, relative to the largest. Well spread points give 1e-2 after normalisation; at 1e-6 the
+// solution depends on a millionth of a pixel.
 constexpr double kRelativeTolerance = 1e-6;
 
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
@@ -43,7 +43,8 @@ Normalisation normalise(std::span<const PointPair> pairs, Eigen::Vector2d PointP
   double distance = 0.0;
   for (const PointPair& pair : pairs) distance += (pair.*point - normalisation.centre).norm();
   distance /= static_cast<double>(pairs.size());
-  normalisation.scale = std::sqrt(2.0) / distance;  // not finite when all points coincide; the caller checks
+  normalisation.scale =
+      std::sqrt(2.0) / distance;  // not finite if all points coincide; checked by the caller
   return normalisation;
 }
 
@@ -77,8 +78,8 @@ HomographyStatus homography_dlt(std::span<const PointPair> pairs, Eigen::Matrix3
   const Normalisation cur = normalise(pairs, &PointPair::cur_px);
   if (!std::isfinite(ref.scale) || !std::isfinite(cur.scale)) return HomographyStatus::Degenerate;
 
-  // The squared singular values of the design matrix, ascending. A second one near zero: more than one
-  // homography fits (three collinear points of four, all points on one line).
+  // The squared singular values of the design matrix, ascending. If the second is near zero, more than one
+  // homography fits (three of four points are collinear, or all points lie on one line).
   const Eigen::SelfAdjointEigenSolver<Matrix9d> solver(normal_matrix(pairs, ref, cur));
   const Vector9d& squared = solver.eigenvalues();
   const double tolerance2 = kRelativeTolerance * kRelativeTolerance;
@@ -87,12 +88,12 @@ HomographyStatus homography_dlt(std::span<const PointPair> pairs, Eigen::Matrix3
   const Vector9d h = solver.eigenvectors().col(0);
   Eigen::Matrix3d H;
   H << h(0), h(1), h(2), h(3), h(4), h(5), h(6), h(7), h(8);
-  // The one that fits maps the plane to a line (collinear in one view only).
+  // A singular solution maps the plane to a line (the points are collinear in one view only).
   const Eigen::Vector3d singular = Eigen::JacobiSVD<Eigen::Matrix3d>(H).singularValues();
   if (!(singular(2) > kRelativeTolerance * singular(0))) return HomographyStatus::Degenerate;
 
   H = cur.inverse_matrix() * H * ref.matrix();
-  // H(2,2) = 0 when the reference origin maps to infinity: then the scale is left, the sign made definite.
+  // H(2,2) = 0 if the reference origin maps to infinity; then H is scaled to norm 1.
   const double corner = H(2, 2);
   H /= std::abs(corner) > 1e-12 * H.norm() ? corner : H.norm();
   if (!H.allFinite()) return HomographyStatus::Degenerate;

@@ -17,19 +17,19 @@ using Vector9d = Eigen::Matrix<double, 9, 1>;
 using Matrix8d = Eigen::Matrix<double, 8, 8>;
 using Vector8d = Eigen::Matrix<double, 8, 1>;
 
-// Converged: far below what noise moves the cost by.
+// Converged when the decrease is far below the effect of noise on the cost.
 constexpr DescentLimits kHomographyDescent{.max_steps = 20, .converged = 1e-5, .max_damping = 1e8};
 
-/// The upper half, row by row.
+/// The upper half of a symmetric 3 × 3 matrix, row by row.
 using Symmetric3 = std::array<double, 6>;
 
 Symmetric3 symmetric_part(const Eigen::Matrix3d& A) {
   return {A(0, 0), A(0, 1), A(0, 2), A(1, 1), A(1, 2), A(2, 2)};
 }
 
-// A residual's derivative by the row-major entries of a 3 × 3 matrix Q, where it depends on Q through Q p
-// only, is M ⊗ pᵀ with M (2 × 3). Its normal matrix Mᵀ W M ⊗ p pᵀ is a product of two symmetric 3 × 3
-// matrices: 36 different numbers instead of 81, which is what is summed.
+// If a residual depends on a 3 × 3 matrix Q only through Q p, its derivative with respect to the row-major
+// entries of Q is M ⊗ pᵀ with M (2 × 3). Its normal matrix Mᵀ W M ⊗ p pᵀ is a product of two symmetric 3 × 3
+// matrices, which has 36 different numbers instead of 81. These are summed.
 class NormalEquations {
  public:
   void add_gradient(const Eigen::Vector3d& MtWr, const Eigen::Vector3d& p) {
@@ -65,18 +65,18 @@ double loss_px2(double error_px2, double limit_px2) {
   return error_px2 * (1.0 - x + x * x / 3.0);
 }
 
-/// Its derivative: a pair's weight.
+/// The derivative of the loss: the weight of a pair.
 double loss_weight(double error_px2, double limit_px2) {
   const double u = std::max(0.0, 1.0 - error_px2 / limit_px2);
   return u * u;
 }
 
-/// The loss over the pairs as the minimiser sees it; H(2,2) stays what it is.
+/// The loss over the pairs as a problem for levenberg_marquardt; H(2,2) is constant.
 struct LossDescent {
   std::span<const PointPair> pairs;
   double limit_px2;
 
-  /// Backwards, with p = H⁻¹ x_cur: d(H⁻¹ x) = −H⁻¹ dH p.
+  /// The backward direction uses d(H⁻¹ x) = −H⁻¹ dH p with p = H⁻¹ x_cur.
   GaussNewtonEquations<8> equations(const Eigen::Matrix3d& H) const {
     const Eigen::Matrix3d H_inverse = H.inverse();
     NormalEquations sums;
@@ -92,12 +92,12 @@ struct LossDescent {
       const double weight = loss_weight(error_px2, limit_px2);
       if (!(weight > 0.0)) continue;
 
-      // M = J, the projection's derivative, whose JᵀJ is mostly zeros and ones.
+      // Forward: M = J, the derivative of the projection. JᵀJ consists mostly of zeros and ones.
       const double i = 1.0 / q.z(), u = q.x() * i, v = q.y() * i, wii = weight * i * i;
       sums.add_product({wii, 0.0, -wii * u, wii, -wii * v, wii * (u * u + v * v)}, x);
-      const Eigen::Vector2d pull = weight * i * forward_px;
-      sums.add_gradient({pull.x(), pull.y(), -u * pull.x() - v * pull.y()}, x);
-      // M = −J H⁻¹.
+      const Eigen::Vector2d weighted = weight * i * forward_px;
+      sums.add_gradient({weighted.x(), weighted.y(), -u * weighted.x() - v * weighted.y()}, x);
+      // Backward: M = −J H⁻¹.
       const Matrix23d M = -projection_jacobian(p) * H_inverse;
       const Eigen::Vector3d m0 = M.row(0), m1 = M.row(1), w0 = weight * m0, w1 = weight * m1;
       sums.add_product({w0.x() * m0.x() + w1.x() * m1.x(), w0.x() * m0.y() + w1.x() * m1.y(),
@@ -127,10 +127,10 @@ double refine_homography(std::span<const PointPair> pairs, double limit_px2,
   return cost;
 }
 
-// Let r be a pair's forward residual and D the derivative of the backward map, so that the backward residual
-// is −D r to first order, and the cost's weight on r is W = I + DᵀD. Noise σ in both images gives r the
-// covariance σ² S, S = I + (DᵀD)⁻¹. The minimiser's covariance is σ² N⁻¹ (Σ Jᵀ W S W J) N⁻¹ with N = Σ Jᵀ W
-// J.
+// Let r be the forward residual of a pair and D the derivative of the backward map. To first order the
+// backward residual is −D r, and the cost gives r the weight W = I + DᵀD. Noise σ in both images gives r the
+// covariance σ² S with S = I + (DᵀD)⁻¹. The covariance of the minimiser is σ² N⁻¹ (Σ Jᵀ W S W J) N⁻¹ with N =
+// Σ Jᵀ W J.
 HomographyPrecision homography_precision(std::span<const PointPair> pairs,
                                          const Eigen::Matrix3d& H_cur_from_ref) {
   HomographyPrecision precision;

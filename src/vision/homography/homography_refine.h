@@ -1,5 +1,7 @@
-// Local refinement of a homography, and what its residuals say about its precision.
-// Convention: x_cur ~ H_cur_from_ref x_ref.
+// Refinement of a homography, and its precision from the residuals.
+//
+// Convention: x_cur ~ H_cur_from_ref x_ref; covariances of the entries are row-major. Units: pixels.
+// Source: R. Hartley and A. Zisserman, "Multiple View Geometry", 2nd ed., 4.5, 5.2, A6.2.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +13,11 @@ namespace heel {
 
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 
-/// Levenberg–Marquardt on Σ ρ(e) over `pairs`, e the squared symmetric transfer error (Hartley & Zisserman,
-/// 2nd ed., 4.5 and A6.2) and ρ Tukey's biweight loss: pairs with e ≥ limit_px2 have no say, those below it
-/// have less the nearer they come, so that none of them tips the result by crossing a threshold. An infinite
-/// limit is plain least squares. H(2,2) must not be near zero in the coordinates used: shift them to the
-/// points' centroid. Returns the final sum, px²; H is only ever replaced by a better one.
+/// Levenberg–Marquardt on Σ ρ(e) over `pairs`, where e is the squared symmetric transfer error and ρ Tukey's
+/// biweight loss. Pairs with e ≥ limit_px2 have no weight; below the limit the weight decreases continuously
+/// to zero, so that no pair changes the result abruptly by crossing a threshold. An infinite limit is plain
+/// least squares. H(2,2) must not be near zero: shift the coordinates to the points' centroid first. Returns
+/// the final sum, px²; H is replaced only by one of a smaller sum.
 double refine_homography(std::span<const PointPair> pairs, double limit_px2, Eigen::Matrix3d& H_cur_from_ref);
 
 struct HomographyPrecision {
@@ -25,8 +27,8 @@ struct HomographyPrecision {
 };
 
 /// First-order covariance of a homography that minimises the symmetric transfer error, for independent noise
-/// of equal size in both images, whose size is taken from the residuals (H&Z 5.2: the two directions share
-/// the same noise, so the inverse of the normal matrix alone would be too small).
+/// of equal size in both images. The size is estimated from the residuals. Both directions of a pair share
+/// the same noise (5.2), so the inverse of the normal matrix alone would be too small.
 HomographyPrecision homography_precision(std::span<const PointPair> pairs,
                                          const Eigen::Matrix3d& H_cur_from_ref);
 

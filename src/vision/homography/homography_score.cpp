@@ -5,9 +5,9 @@
 namespace heel {
 namespace {
 
-constexpr float kNowhere_px = 1e8f;  // a padding pair's distance from any image
+constexpr float kPadding_px = 1e8f;  // the coordinate of a padding pair, far from any image
 
-/// The adjugate: the inverse up to the positive factor det H (cheaper, and the same map).
+/// The inverse up to the positive factor det H: the same map, and cheaper.
 Eigen::Matrix3d adjugate(const Eigen::Matrix3d& H) {
   Eigen::Matrix3d inverse;
   inverse.row(0) = H.col(1).cross(H.col(2));
@@ -20,7 +20,7 @@ Eigen::Matrix3d adjugate(const Eigen::Matrix3d& H) {
 
 ScoreTable::ScoreTable(std::size_t max_pairs) {
   const std::size_t padded = (max_pairs + kLanes - 1) / kLanes * kLanes;
-  for (std::vector<float>* column : {&ref_x_, &ref_y_, &cur_x_, &cur_y_}) column->resize(padded, kNowhere_px);
+  for (std::vector<float>* column : {&ref_x_, &ref_y_, &cur_x_, &cur_y_}) column->resize(padded, kPadding_px);
 }
 
 void ScoreTable::clear() {
@@ -35,7 +35,7 @@ void ScoreTable::add(const Eigen::Vector2d& ref_px, const Eigen::Vector2d& cur_p
   ++size_;
   for (std::size_t i = size_; i % kLanes != 0; ++i) {  // fill up the last group of lanes
     ref_x_[i] = ref_y_[i] = 0.f;
-    cur_x_[i] = cur_y_[i] = kNowhere_px;
+    cur_x_[i] = cur_y_[i] = kPadding_px;
   }
 }
 
@@ -48,7 +48,7 @@ float ScoreTable::cost_px2(const Eigen::Matrix3d& H_cur_from_ref, float limit_px
   const float b0 = B(0, 0), b1 = B(0, 1), b2 = B(0, 2), b3 = B(1, 0), b4 = B(1, 1), b5 = B(1, 2),
               b6 = B(2, 0), b7 = B(2, 1), b8 = B(2, 2);
   const std::size_t tail =
-      (kLanes - size_ % kLanes) % kLanes;  // padding pairs, each of which costs the limit
+      (kLanes - size_ % kLanes) % kLanes;  // number of padding pairs; each costs the limit
   const float padding_cost = static_cast<float>(tail) * limit_px2;
 
   float sums[kLanes] = {};

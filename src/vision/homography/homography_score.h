@@ -1,4 +1,7 @@
-// Scores a homography against all pairs: the inner loop of RANSAC, laid out for the vector unit.
+// The cost of a homography over all pairs: the inner loop of RANSAC, laid out for SIMD.
+//
+// Convention: x_cur ~ H_cur_from_ref x_ref. Units: pixels, squared errors in px².
+// Source: MSAC: P. Torr and A. Zisserman, "MLESAC", CVIU 78(1), 2000.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +10,8 @@
 
 namespace heel {
 
-/// Point pairs as four columns of floats, in coordinates near their centroids (floats are exact enough there:
-/// 1e-4 px over a full-HD frame). Padded with pairs that fit no homography.
+/// Point pairs as four columns of floats, padded with pairs that fit no homography. Coordinates must be
+/// relative to the centroids: there floats are exact to 1e-4 px over a full-HD frame.
 class ScoreTable {
  public:
   explicit ScoreTable(std::size_t max_pairs);
@@ -16,10 +19,9 @@ class ScoreTable {
   void clear();
   void add(const Eigen::Vector2d& ref_px, const Eigen::Vector2d& cur_px);
 
-  /// MSAC (P. Torr and A. Zisserman, "MLESAC", CVIU 2000): Σ min(e, limit), e the squared symmetric transfer
-  /// error. A pair behind either camera (w ≤ 0) counts as an outlier, so H must have w > 0 on the plane seen.
-  /// Gives up as soon as the sum passes `stop_above`, which the result then exceeds too.
-  /// The order of the additions is fixed: the same on every machine.
+  /// Σ min(e, limit), where e is the squared symmetric transfer error. A pair behind a camera (w ≤ 0) is an
+  /// outlier, so H must have w > 0 on the visible plane. Stops as soon as the sum exceeds `stop_above`; the
+  /// result exceeds it then. The order of the additions is fixed: the same result on every machine.
   float cost_px2(const Eigen::Matrix3d& H_cur_from_ref, float limit_px2, float stop_above) const;
 
  private:

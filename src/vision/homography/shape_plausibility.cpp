@@ -30,7 +30,7 @@ double area2(const Outline& outline) {
   return sum;
 }
 
-/// Turns the same way as the reference at all four corners.
+/// All four corners turn in the direction of the reference's `orientation`.
 bool convex_like(const Outline& outline, double orientation) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Eigen::Vector2d edge = outline[(i + 1) % 4] - outline[i];
@@ -56,7 +56,7 @@ bool plausible_shape(const Eigen::Matrix3d& H_cur_from_ref, const Outline& outli
     w_max = i == 0 ? p.z() : std::max(w_max, p.z());
     outline_cur_px[i] = p.hnormalized();
   }
-  // Depths are proportional to w; H may come with either sign.
+  // Depths are proportional to w; H may have either sign.
   if (w_max < 0.0) {
     std::swap(w_min, w_max);
     w_min = -w_min;

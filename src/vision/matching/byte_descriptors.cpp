@@ -31,8 +31,7 @@ using F32 = hn::CappedTag<float, 16>;
 using U32 = hn::RebindToUnsigned<F32>;
 using U8 = hn::Rebind<std::uint8_t, F32>;
 
-// Added to a small number it leaves no place for a fraction, and a whole number's low byte where a float's
-// is.
+// Added to a small number, it rounds it to a whole number, whose low byte is then the low byte of the float.
 constexpr float kNoFraction = 12582912.f;  // 1.5 · 2²³
 
 void RoundToSteps(const Descriptor& descriptor, const DescriptorCentre& centre, float scale, Rounded& out) {
@@ -60,7 +59,7 @@ void RoundToSteps(const Descriptor& descriptor, const DescriptorCentre& centre, 
   out.excess = 0.5f * hn::GetLane(hn::SumOfLanes(d, excess2));
 }
 
-// Eight members' bytes, two elements after two elements: an 8 × 8 transposition of pairs at a time.
+// The bytes of eight members, stored as [pair of elements][member]: transpositions of 8 × 8 pairs.
 void PackMembers(const Rounded* members, std::int8_t* out) {
   const hn::FixedTag<std::uint16_t, 8> d;
   const hn::Repartition<std::uint32_t, decltype(d)> d2;
@@ -124,10 +123,10 @@ int in_product_units(float value) {
   return static_cast<int>(std::lround(value * kProductUnit));
 }
 
-/// Of some of them: any centre will do, and this one keeps elements small.
+/// The mean of a sample of about 64. Any centre is correct; this one makes elements small.
 DescriptorCentre mean_of(std::span<const Descriptor> descriptors, std::span<const std::int32_t> index) {
-  constexpr std::size_t kEnough = 64;
-  const std::size_t stride = index.size() / kEnough + 1;
+  constexpr std::size_t kSampleSize = 64;
+  const std::size_t stride = index.size() / kSampleSize + 1;
   DescriptorCentre mean{};
   float count = 0.f;
   for (std::size_t i = 0; i < index.size(); i += stride, count += 1.f) {

@@ -19,7 +19,7 @@ using I8 = hn::RebindToSigned<U8>;
 using I16 = hn::Repartition<std::int16_t, I8>;
 using U16 = hn::RebindToUnsigned<I16>;
 
-// a[2i] b[2i] + a[2i+1] b[2i+1] for bytes a ≤ 127, in 16 bits; Highway 1.0 has no name for it.
+// a[2i] b[2i] + a[2i+1] b[2i+1] for bytes a ≤ 127, in 16 bits. Highway 1.0 has no function for it.
 HWY_INLINE hn::Vec<I16> pair_products(hn::Vec<U8> a, hn::Vec<I8> b) {
 #if HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
   return hn::Vec<I16>{_mm_maddubs_epi16(a.raw, b.raw)};
@@ -40,7 +40,7 @@ HWY_INLINE hn::Vec<I16> pair_products(hn::Vec<U8> a, hn::Vec<I8> b) {
 #endif
 }
 
-// The elements of kByteTile refs, two by two, each pair as often as a vector holds it; and their excesses.
+// The elements of kByteTile refs in pairs, each pair repeated over a whole vector; and their excesses.
 struct WideRefs {
   HWY_ALIGN std::uint8_t pairs[CurBytes::kPairs][kByteTile][kMaxBytes];
   std::int16_t excess[kByteTile];
@@ -60,7 +60,7 @@ struct WideRefs {
   }
 };
 
-// Two vectors of members with the tile: eight sums are in flight, so that none waits for another.
+// Multiplies two vectors of members with the tile. Eight independent sums hide the latency of each addition.
 HWY_INLINE void multiply(const WideRefs& refs, const std::int8_t* members, const std::int16_t* offsets,
                          std::int16_t* products, std::size_t stride) {
   const U8 du;
@@ -81,7 +81,7 @@ HWY_INLINE void multiply(const WideRefs& refs, const std::int8_t* members, const
     e0 = hn::Add(e0, pair_products(e, x0));
     e1 = hn::Add(e1, pair_products(e, x1));
   }
-  // The sums have wrapped, and so have the offsets: what they differ by is right.
+  // Sums and offsets are modulo 2¹⁶; their difference is exact.
   const auto offset0 = hn::Load(d, offsets), offset1 = hn::Load(d, offsets + n);
   const auto store = [&](std::size_t t, hn::Vec<I16> low, hn::Vec<I16> high) {
     const auto excess = hn::Set(d, refs.excess[t]);

@@ -1,4 +1,7 @@
-// Inner products of descriptors in bytes, several refs with all curs at once, and what is asked of them.
+// Inner products of byte descriptors, several refs with all curs at a time, and searches in rows of them.
+//
+// Convention: a row holds the products of one ref with all curs, padded to whole blocks. Units: 1 /
+// kProductUnit.
 #pragma once
 
 #include <cstddef>
@@ -9,33 +12,33 @@
 
 namespace heel {
 
-/// Refs multiplied at a time.
+/// Number of refs multiplied at a time.
 inline constexpr std::size_t kByteTile = 4;
 
-/// Stands where there is no cur; less than any product.
+/// The product in padding places; less than any other.
 inline constexpr std::int16_t kAbsentProduct = -32767;
 
-/// products[t · padded + j]: (|a|² + |b|² − |a' − b'|²) / 2 in units of 1 / kProductUnit, with a = ref first
-/// + t and b = cur j, for the kByteTile refs from `first` on (the last one again where there are fewer) and
-/// every member of every block. An inner product a·b is the same of a and b themselves, and |a' − b'| differs
-/// from |a − b| by no more than the errors of both.
+/// products[t · padded + j] = (|a|² + |b|² − |a' − b'|²) / 2, where a is ref `first` + t, b is cur j, and a',
+/// b' are their rounded values, for kByteTile refs (the last one is repeated if there are fewer) and every
+/// member of every block. With a and b instead of a' and b' this is the inner product a·b, and |a' − b'|
+/// differs from |a − b| by at most the errors of both.
 void byte_products(const RefBytes& refs, std::size_t first, const CurBytes& curs, std::int16_t* products);
 
-/// The larger two of everything compared so far.
+/// The two largest products.
 struct TwoLargest {
   std::int16_t first = kAbsentProduct;
   std::int16_t second = kAbsentProduct;
 };
 
-/// Of one row of products; the size is a whole number of blocks.
+/// The two largest of one row; its size is a whole number of blocks.
 TwoLargest two_largest(std::span<const std::int16_t> row);
 
-/// The same for every cur, over the refs: takes `rows` rows of products, as byte_products gave them, into
-/// what is known of `size` curs.
+/// The two largest for each cur, over the refs: updates `first` and `second` of `size` curs with `rows` rows
+/// as written by byte_products.
 void keep_two_largest(const std::int16_t* products, std::size_t rows, std::size_t size, std::int16_t* first,
                       std::int16_t* second);
 
-/// Writes the places of all products above `limit` in `row`, in order, and returns how many. `out` has room
+/// Writes the index of every product of `row` above `limit`, in order, and returns how many. `out` has room
 /// for row.size().
 std::size_t places_above(std::span<const std::int16_t> row, std::int16_t limit, std::int32_t* out);
 

@@ -1,7 +1,7 @@
-// The matcher behind heel/matching.h: one exhaustive comparison a Laplacian sign, then ratio and mutual
-// check. Unit descriptors: |a − b|² = 2 − 2 a·b, so that the nearest has the largest inner product. All
-// products are formed of bytes first; how far those can be off is known, and whatever they leave open is
-// answered exactly.
+// The matcher of heel/matching.h: for each Laplacian sign one exhaustive comparison, then ratio test and
+// mutual check. For unit descriptors |a − b|² = 2 − 2 a·b: the nearest has the largest inner product. All
+// products are first computed from bytes, with known bounds of their error; only where these bounds leave a
+// decision open are floats compared.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,27 +14,27 @@
 namespace heel {
 namespace {
 
-constexpr float kRounding = 1e-5f;  // more than what sums of 64 floats are off by
-constexpr float kUnitsOff = 2.f;  // more than a product of bytes is off by, its excesses being whole numbers
+constexpr float kFloatError = 1e-5f;  // bounds the rounding error of a sum of 64 floats
+constexpr float kUnitError = 2.f;     // bounds the error of a byte product from rounding its excesses
 
-// What an exact inner product lies between.
+// Bounds of an exact inner product.
 struct Bounds {
-  float least, most;
+  float lower, upper;
 };
 
 float distance_of(float inner_product) {
   return std::sqrt(std::max(0.f, 2.f - 2.f * inner_product));
 }
 
-/// What a product of bytes that were moved by `error` in all leaves open: the distance is off by no more.
-Bounds exact_product(std::int16_t byte_product, float error) {
+/// Bounds of the exact product, from a byte product whose distance is wrong by at most `error`.
+Bounds product_bounds(std::int16_t byte_product, float error) {
   const float units = static_cast<float>(byte_product);
-  const float shortest = std::max(0.f, distance_of((units + kUnitsOff) / kProductUnit) - error);
-  const float longest = distance_of((units - kUnitsOff) / kProductUnit) + error;
-  return {1.f - 0.5f * longest * longest - kRounding, 1.f - 0.5f * shortest * shortest + kRounding};
+  const float shortest = std::max(0.f, distance_of((units + kUnitError) / kProductUnit) - error);
+  const float longest = distance_of((units - kUnitError) / kProductUnit) + error;
+  return {1.f - 0.5f * longest * longest - kFloatError, 1.f - 0.5f * shortest * shortest + kFloatError};
 }
 
-/// Always summed in the same order, so that every instruction set finds the same.
+/// Summed in a fixed order: the same to the bit on every instruction set.
 float inner_product(const Descriptor& a, const Descriptor& b) {
   std::array<float, 8> sums{};
   for (std::size_t k = 0; k < kDescriptorSize; k += sums.size())
@@ -58,14 +58,14 @@ void members_of_sign(const FeatureSet& set, std::size_t max_count, bool dark,
 }  // namespace
 
 struct Matcher::Impl {
-  // A ref, by its place among the members, and its nearest cur.
+  // A ref and its nearest cur, by their places among the members.
   struct Candidate {
     std::int32_t ref = 0, cur = -1;
     float product = -2.f;
-    float second = -2.f;  // the second largest is no less
+    float second = -2.f;  // a lower bound of the second largest
     std::int16_t byte_product = kAbsentProduct;
   };
-  // The products of one ref's bytes with all curs', and how far the distances they stand for can be off.
+  // The byte products of one ref with all curs, and a bound of the error of the distances they represent.
   struct Row {
     const Descriptor& ref;
     std::span<const std::int16_t> products;
@@ -107,26 +107,27 @@ struct Matcher::Impl {
   RefBytes ref_bytes;
   CurBytes cur_bytes;
   hwy::AlignedFreeUniquePtr<std::int16_t[]> products;               // of one tile of refs
-  hwy::AlignedFreeUniquePtr<std::int16_t[]> cur_first, cur_second;  // the larger two of every cur
+  hwy::AlignedFreeUniquePtr<std::int16_t[]> cur_first, cur_second;  // the two largest of every cur
   std::vector<std::int32_t> places, ref_members, cur_members;
   std::vector<Candidate> candidates;
 };
 
-/// Of all places whose products of bytes have `largest` as their largest: those where the largest exact
-/// product can be.
+/// All places where the largest exact product can be, if `largest` is the largest byte product of those
+/// considered.
 std::span<const std::int32_t> Matcher::Impl::places_near(const Row& row, std::int16_t largest) {
-  const float distance = distance_of(exact_product(largest, row.error).least) + row.error;
-  const float limit = std::floor((1.f - 0.5f * distance * distance - kRounding) * kProductUnit) - kUnitsOff;
+  const float distance = distance_of(product_bounds(largest, row.error).lower) + row.error;
+  const float limit =
+      std::floor((1.f - 0.5f * distance * distance - kFloatError) * kProductUnit) - kUnitError;
   const auto above = static_cast<std::int16_t>(std::max(limit, float{kAbsentProduct}));
   return {places.data(), places_above(row.products, above, places.data())};
 }
 
 bool Matcher::Impl::cannot_pass_ratio(const Row& row) const {
-  return cur_members.size() > 1 && !passes_ratio(exact_product(row.largest.first, row.error).most,
-                                                 exact_product(row.largest.second, row.error).least);
+  return cur_members.size() > 1 && !passes_ratio(product_bounds(row.largest.first, row.error).upper,
+                                                 product_bounds(row.largest.second, row.error).lower);
 }
 
-/// Of equals the first wins.
+/// Among equals the first is nearest.
 Matcher::Impl::Candidate Matcher::Impl::nearest_of(const Row& row, const FeatureSet& cur) {
   Candidate nearest;
   for (const std::int32_t place : places_near(row, row.largest.first)) {
@@ -146,9 +147,9 @@ bool Matcher::Impl::passes_ratio(const Row& row, const Candidate& nearest, const
   if (!passes_ratio(nearest.product, nearest.second)) return false;
   const bool largest = nearest.byte_product == row.largest.first;
   const std::int16_t others = largest ? row.largest.second : row.largest.first;
-  const Bounds second = exact_product(others, row.error);
-  if (passes_ratio(nearest.product, second.most)) return true;
-  if (!passes_ratio(nearest.product, second.least)) return false;
+  const Bounds second = product_bounds(others, row.error);
+  if (passes_ratio(nearest.product, second.upper)) return true;
+  if (!passes_ratio(nearest.product, second.lower)) return false;
   float exact = -2.f;
   for (const std::int32_t place : places_near(row, others)) {
     if (place == nearest.cur) continue;
@@ -184,9 +185,9 @@ bool Matcher::Impl::is_nearest_of_cur(const Candidate& candidate, const FeatureS
   const auto member = static_cast<std::size_t>(candidate.cur);
   const bool largest = candidate.byte_product == cur_first[member];
   const Bounds others =
-      exact_product(largest ? cur_second[member] : cur_first[member], error_with(ref_bytes.max_error()));
-  if (others.most < candidate.product) return true;
-  if (others.least > candidate.product) return false;
+      product_bounds(largest ? cur_second[member] : cur_first[member], error_with(ref_bytes.max_error()));
+  if (others.upper < candidate.product) return true;
+  if (others.lower > candidate.product) return false;
   const Descriptor& descriptor = descriptor_of(cur, cur_members[member]);
   for (std::size_t i = 0; i < ref_members.size(); ++i) {
     const float product = inner_product(descriptor_of(ref, ref_members[i]), descriptor);

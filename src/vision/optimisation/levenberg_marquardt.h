@@ -1,5 +1,9 @@
-// Levenberg–Marquardt: Gauss–Newton steps, damped along the diagonal until one lowers the cost (Marquardt
-// 1963).
+// Levenberg–Marquardt: Gauss–Newton steps whose diagonal is damped until a step lowers the cost.
+//
+// Convention: the cost is Σ rᵀ W r; an increment dx is applied by the problem itself. Units: those of the
+// problem.
+// Source: D. Marquardt, "An algorithm for least-squares estimation of nonlinear parameters", SIAM J. 11(2),
+// 1963.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -7,8 +11,7 @@
 
 namespace heel {
 
-/// Of the cost Σ rᵀ W r about one x: Gauss–Newton's equations N dx = −gradient, with N = Σ Jᵀ W J and
-/// gradient = Σ Jᵀ W r.
+/// The Gauss–Newton equations N dx = −gradient at one x, with N = Σ Jᵀ W J and gradient = Σ Jᵀ W r.
 template <int Size>
 struct GaussNewtonEquations {
   double cost = 0.0;
@@ -18,38 +21,39 @@ struct GaussNewtonEquations {
 
 struct DescentLimits {
   int max_steps = 30;
-  double converged = 1e-8;    ///< relative decrease of the cost below which it ends
-  double max_damping = 1e10;  ///< beyond it no step helps any more
+  double converged = 1e-8;    ///< ends when the relative decrease of the cost is smaller
+  double max_damping = 1e10;  ///< ends when the damping is larger: no step lowers the cost
 };
 
-/// Lowers the cost from the given `x` on; returns the cost reached, and x there. The problem offers
-///   GaussNewtonEquations<Size> equations(const X&);  X stepped(const X&, const Vector&);
-/// Nearly every step is taken, so the equations are made along with the cost of each.
+/// Lowers the cost, starting from `x`; returns the cost reached and replaces `x`. The problem has the members
+///   GaussNewtonEquations<Size> equations(const X&);
+///   X stepped(const X&, const Vector&);
+/// The equations are computed together with the cost of a trial step, since nearly every step is accepted.
 template <typename Problem, typename X>
 double levenberg_marquardt(const Problem& problem, const DescentLimits& limits, X& x) {
-  auto here = problem.equations(x);
+  auto current = problem.equations(x);
   double damping = 1e-4;
   for (int step = 0; step < limits.max_steps && damping < limits.max_damping; ++step) {
     double decrease = 0.0;
     bool improved = false;
     while (!improved && damping < limits.max_damping) {
-      auto damped = here.N;
+      auto damped = current.N;
       damped.diagonal() *= 1.0 + damping;
-      const X trial = problem.stepped(x, damped.ldlt().solve(-here.gradient));
-      const auto there = problem.equations(trial);
-      improved = there.cost < here.cost;
+      const X trial = problem.stepped(x, damped.ldlt().solve(-current.gradient));
+      const auto next = problem.equations(trial);
+      improved = next.cost < current.cost;
       if (improved) {
-        decrease = here.cost - there.cost;
-        here = there;
+        decrease = current.cost - next.cost;
+        current = next;
         x = trial;
         damping *= 0.1;
       } else {
         damping *= 10.0;
       }
     }
-    if (decrease <= limits.converged * here.cost) break;
+    if (decrease <= limits.converged * current.cost) break;
   }
-  return here.cost;
+  return current.cost;
 }
 
 }  // namespace heel

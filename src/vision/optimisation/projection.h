@@ -1,4 +1,4 @@
-// Derivative of the projection of a homogeneous point.
+// The derivative of the projection of a homogeneous point: (x, y, w) → (x/w, y/w).
 #pragma once
 
 #include <Eigen/Core>

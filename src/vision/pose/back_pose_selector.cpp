@@ -9,26 +9,26 @@
 namespace heel {
 namespace {
 
-// So many times better the plane must explain what is seen to be it: a picture, or a board to try heel with.
-constexpr double kFlatter = 1.25;
-constexpr double kFlatness =
-    4.0;  // then the odds of the curve are two in five, at twice as well one in sixteen
-constexpr double kLeastNoise_px = 0.3;  // no fit is better for less
+// The plane is selected if it explains the frame this many times better than the curved surface.
+constexpr double kPlaneAdvantage = 1.25;
+// The odds of the curved surface are the advantage to the power −4: 2 to 5 at 1.25 times, 1 to 16 at twice.
+constexpr double kAdvantageExponent = 4.0;
+constexpr double kMinNoise_px = 0.3;  // smaller residuals do not make a fit better
 
 BackSurface flat_surface(const ReferenceView& reference, const VisionConfig& config) {
-  const Eigen::Vector3d first = reference.K_inverse * reference.outline_px[0].homogeneous();
-  const Eigen::Vector3d last = reference.K_inverse * reference.outline_px[2].homogeneous();
+  const Eigen::Vector3d top_left = reference.K_inverse * reference.outline_px[0].homogeneous();
+  const Eigen::Vector3d bottom_right = reference.K_inverse * reference.outline_px[2].homogeneous();
   BackSurface surface;
-  surface.axis_x = 0.5 * (first.x() + last.x());
-  surface.axis_y = 0.5 * (first.y() + last.y());
-  surface.half_size = 0.5 * (last - first).head<2>();
+  surface.axis_x = 0.5 * (top_left.x() + bottom_right.x());
+  surface.axis_y = 0.5 * (top_left.y() + bottom_right.y());
+  surface.half_size = 0.5 * (bottom_right - top_left).head<2>();
   if (reference.distance_m > 0.0) surface.shape_sigma = config.back_shape_sigma_m / reference.distance_m;
   return surface;
 }
 
-/// How well a pose explains what is seen: by many pairs and little error.
-double explained(std::size_t pairs, const FrontalPose& pose) {
-  return static_cast<double>(pairs) / std::max(kLeastNoise_px, pose.motion.noise_px);
+/// How well a pose explains the frame: it is better with more pairs and with smaller residuals.
+double explanation(std::size_t pairs, const FrontalPose& pose) {
+  return static_cast<double>(pairs) / std::max(kMinNoise_px, pose.motion.noise_px);
 }
 
 }  // namespace
@@ -47,17 +47,18 @@ BackPoseSelector::BackPoseSelector(const ReferenceView& reference, const Eigen::
   curved_.bend_sigma = config.back_curvature_sigma_1_m * reference.distance_m;
 }
 
-FrontalPose BackPoseSelector::estimate(const PlaneSolution& seen, TemplateMatcher& matcher,
+FrontalPose BackPoseSelector::estimate(const PlaneSolution& plane, TemplateMatcher& matcher,
                                        const FeatureGrid& frame) {
-  FrontalProblem problem{seen.inliers, K_ref_, K_cur_, seen.H_cur_from_ref, centre_px_, flat_};
-  FrontalPose of_plane = frontal_estimator_.estimate(problem, seen.motion);
+  FrontalProblem problem{plane.inliers, K_ref_, K_cur_, plane.H_cur_from_ref, centre_px_, flat_};
+  FrontalPose of_plane = frontal_estimator_.estimate(problem, plane.motion);
   if (curved_.bend == 0.0) return of_plane;
   problem.surface = curved_;
   const CurvedSurfacePose of_curve =
-      surface_refiner_.refine(problem, frontal_estimator_.estimate(problem, seen.motion), matcher, frame);
-  const double better = explained(seen.inliers.size(), of_plane) / explained(of_curve.pairs, of_curve.pose);
-  if (!(better >= kFlatter)) return of_curve.pose;
-  const AlternativeHypothesis curved{of_curve.pose.motion, std::pow(better, -kFlatness)};
+      surface_refiner_.refine(problem, frontal_estimator_.estimate(problem, plane.motion), matcher, frame);
+  const double advantage =
+      explanation(plane.inliers.size(), of_plane) / explanation(of_curve.pairs, of_curve.pose);
+  if (!(advantage >= kPlaneAdvantage)) return of_curve.pose;
+  const AlternativeHypothesis curved{of_curve.pose.motion, std::pow(advantage, -kAdvantageExponent)};
   inflate_covariance({&curved, 1}, of_plane);
   return of_plane;
 }

@@ -1,5 +1,7 @@
-// Steps 7 and 8's last part: from a motion of the plane to the pose of the back that was seen, be it curved,
-// as backs are, or flat, as a picture or a board held up.
+// From a motion of the template's plane to the pose of the back: of a curved surface, as backs are, or of a
+// plane, as a picture or a board is. The model that explains the frame better is selected.
+//
+// Convention: X_cur = R_cur_from_ref X_ref + t. Units: undistorted pixels, t/d.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,12 +15,12 @@
 #include "vision/matching/template_matcher.h"
 #include "vision/pose/back_surface.h"
 #include "vision/pose/curved_surface_refiner.h"
-#include "vision/pose/motion_refine.h"
+#include "vision/pose/frontal_pose_estimator.h"
 #include "vision/template/reference_view.h"
 
 namespace heel {
 
-/// What both poses start from: the homography's inliers, and a motion of the plane that explains them.
+/// The start of both poses: the inliers of the homography, and a motion of the plane that explains them.
 struct PlaneSolution {
   std::span<const PointPair> inliers;  ///< undistorted pixels
   Eigen::Matrix3d H_cur_from_ref;
@@ -27,14 +29,15 @@ struct PlaneSolution {
 
 class BackPoseSelector {
  public:
-  /// Without a distance of the reference view the back's curvature has no scale: then it is a plane, and its
-  /// deviations are those of pixels alone. `reference` is to outlive this. Memory is taken once.
+  /// `reference` must outlive this. If its distance is unknown, the curvature in units of the distance is
+  /// unknown, too: then the back is modelled as a plane, and sigmas include the noise of pixels only. Memory
+  /// is taken once.
   BackPoseSelector(const ReferenceView& reference, const Eigen::Matrix3d& K_cur, const VisionConfig& config);
 
   BackPoseSelector(const BackPoseSelector&) = delete;
   BackPoseSelector& operator=(const BackPoseSelector&) = delete;
 
-  FrontalPose estimate(const PlaneSolution& seen, TemplateMatcher& matcher, const FeatureGrid& frame);
+  FrontalPose estimate(const PlaneSolution& plane, TemplateMatcher& matcher, const FeatureGrid& frame);
 
  private:
   Eigen::Matrix3d K_ref_, K_cur_;

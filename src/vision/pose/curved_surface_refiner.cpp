@@ -165,7 +165,7 @@ std::span<const AlternativeHypothesis> CurvedSurfaceRefiner::alternatives_to(con
   for (const Fit& fit : fits) {
     if (fit.support <= 0.0) break;
     const auto same_yaw = [&](const FrontalMotion& other) {
-      return yaw_between(fit.motion, other) < kSameYaw_rad;
+      return yaw_difference_rad(fit.motion, other) < kSameYaw_rad;
     };
     if (same_yaw(chosen) ||
         std::any_of(alternatives_.begin(), alternatives_.end(),

@@ -14,7 +14,7 @@
 #include "vision/matching/template_matcher.h"
 #include "vision/pose/alternative_hypotheses.h"
 #include "vision/pose/back_surface.h"
-#include "vision/pose/motion_refine.h"
+#include "vision/pose/frontal_pose_estimator.h"
 
 namespace heel {
 

@@ -1,5 +1,5 @@
-// The paper's way from eight solutions to one: same side (four), points in front of both cameras (two), known
-// normal (one).
+// The choice of one solution of eight, as in the paper (PRASA 2010): both cameras on the same side of the
+// plane (four remain), points in front of both cameras (two), normal nearest to the known one (one).
 #include <Eigen/Geometry>
 
 #include "heel/motion.h"
@@ -7,9 +7,9 @@
 namespace heel {
 namespace {
 
-/// Whether most of the points lie in front of both cameras. A solution and its twin (−t, −n) have exactly
-/// complementary points in front, so two of four remain. Most, not all: near pure rotation noise turns the
-/// solutions' normals anywhere, and the horizon of one may pass through the region.
+/// Whether most of the points lie in front of both cameras. The points in front for a solution (t, n) are
+/// exactly those behind for (−t, −n), so two of four solutions remain. Most, not all: near pure rotation
+/// noise may turn a normal to any direction, and the horizon of that plane may cross the region.
 bool in_front(const PlaneMotion& motion, std::span<const Eigen::Vector2d> ref_normalised) {
   std::size_t visible = 0;
   for (const Eigen::Vector2d& point : ref_normalised) {

@@ -53,7 +53,7 @@ void add(PlaneMotions& motions, const Svd& svd, const Solution& solution, double
   motion.same_side = same_side;
 }
 
-/// Every sign of n' = (x1, 0, x3), in both cases of d'. Where x1 or x3 is zero its two signs are one.
+/// All signs of n' = (x1, 0, x3), in both cases of d'. A zero has one sign only.
 void add_all_signs(PlaneMotions& motions, const Svd& svd, double x1, double x3) {
   for (const bool same_side : {true, false}) {
     for (const double e1 : {1.0, -1.0}) {
@@ -74,17 +74,18 @@ PlaneMotions decompose_plane_motion(const Eigen::Matrix3d& A, double relative_to
   if (!A.allFinite()) return motions;
   const double sign = A.determinant() < 0.0 ? -1.0 : 1.0;
   const Eigen::JacobiSVD<Eigen::Matrix3d> decomposition(sign * A, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  // A copy: GCC 12 takes what a reference shows for uninitialised.
+  // A copy: with a reference GCC 12 warns of an uninitialised value.
   // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
   const Eigen::Vector3d singular = decomposition.singularValues();
-  if (!(singular(2) > relative_tolerance * singular(0))) return motions;  // singular: a plane seen edge-on
+  if (!(singular(2) > relative_tolerance * singular(0)))
+    return motions;  // singular: the plane is seen edge-on
   const Svd svd{decomposition.matrixU(), decomposition.matrixV(), singular / singular(1)};
 
   const double d1 = svd.d(0), d2 = svd.d(1), d3 = svd.d(2);
   const double range = (d1 - d3) * (d1 + d3);
   if (d1 - d3 <= relative_tolerance * d2) {
-    // d1 = d2 = d3, d' > 0: R' = I, t' = 0, n' undetermined. (d' < 0 would put the second camera at the first
-    // one's mirror image in a plane that is anywhere.)
+    // d1 = d2 = d3, d' > 0: R' = I, t' = 0, n' undetermined. (With d' < 0 the second camera would be the
+    // mirror image of the first in an undetermined plane.)
     motions.kind = PlaneMotionCase::PureRotation;
     motions.count = 1;
     motions.motions[0].R_cur_from_ref = svd.U * svd.V.transpose();
@@ -92,8 +93,9 @@ PlaneMotions decompose_plane_motion(const Eigen::Matrix3d& A, double relative_to
   }
   double x1 = std::sqrt((d1 - d2) * (d1 + d2) / range);  // Eq. (12)
   double x3 = std::sqrt((d2 - d3) * (d2 + d3) / range);  // Eq. (12)
-  // x1 and x3 grow with the square root of the gap between two singular values, so "equal" is asked of them:
-  // what a case's boundary changes in the answer is of the order of the tolerance, not of its root.
+  // x1 and x3 grow with the square root of the gap between two singular values. The tolerance is applied to
+  // them, not to the gap: so the error at the boundary of a case is of the order of the tolerance, not of its
+  // square root.
   motions.kind = PlaneMotionCase::Distinct;
   if (x1 <= relative_tolerance) {
     motions.kind = PlaneMotionCase::TwoEqual;

@@ -2,6 +2,7 @@
 // a Single Camera for Use in a Human-Following Robot" (PRASA 2010): see PoseEstimator::Impl::steps.
 #include "heel/pose_estimator.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <optional>
 #include <span>

@@ -3,36 +3,36 @@
 namespace heel {
 namespace {
 
-// After this long without a sighting the target may be anywhere, nearer or farther.
-constexpr TimeNs kForgotten_ns = kNsPerS / 2;
+// A detection older than this does not limit the search: the target may be anywhere by now.
+constexpr TimeNs kMaxPredictionAge_ns = kNsPerS / 2;
 
 }  // namespace
 
 PoseTracker::PoseTracker(const ShirtTemplate& shirt, const CameraModel& camera, const VisionConfig& config)
     : estimator_(shirt, camera, config), config_(config) {}
 
-/// A frame that is older than the last one found comes from a source that has begun again.
-bool PoseTracker::expects_it_in(const FrameView& frame) const {
-  const TimeNs age_ns = frame.header.t_capture_ns - last_.t_capture_ns;
-  return config_.tracking && last_.found() && age_ns >= 0 && age_ns <= kForgotten_ns;
+/// A frame older than the last detection comes from a source that has started again.
+bool PoseTracker::predicts_view_in(const FrameView& frame) const {
+  const TimeNs age_ns = frame.header.t_capture_ns - last_found_.t_capture_ns;
+  return config_.tracking && last_found_.found() && age_ns >= 0 && age_ns <= kMaxPredictionAge_ns;
 }
 
-PoseEstimate PoseTracker::search(const FrameView& frame) {
+PoseEstimate PoseTracker::search_whole_frame(const FrameView& frame) {
   const PoseEstimate pose = estimator_.estimate(frame);
   if (!estimator_.needs_upsampled_pass(pose)) return pose;
-  const PoseEstimate closer =
+  const PoseEstimate upsampled =
       estimator_.estimate(frame, estimator_.expected_view(pose, frame.header.t_capture_ns));
-  return closer.found() ? closer : pose;
+  return upsampled.found() ? upsampled : pose;
 }
 
 PoseEstimate PoseTracker::estimate(const FrameView& frame) {
   PoseEstimate pose;
-  if (expects_it_in(frame)) {
-    pose = estimator_.estimate(frame, estimator_.expected_view(last_, frame.header.t_capture_ns));
+  if (predicts_view_in(frame)) {
+    pose = estimator_.estimate(frame, estimator_.expected_view(last_found_, frame.header.t_capture_ns));
     pose.tracked = pose.found();
   }
-  if (!pose.found()) pose = search(frame);
-  if (pose.found()) last_ = pose;
+  if (!pose.found()) pose = search_whole_frame(frame);
+  if (pose.found()) last_found_ = pose;
   return pose;
 }
 

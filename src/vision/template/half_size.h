@@ -1,4 +1,6 @@
-// An image at half its size: what the camera would see of a flat scene from twice the distance.
+// An image at half its size: what a camera would see of a flat scene from twice the distance.
+//
+// Convention: row-major grey levels. Units: pixels.
 #pragma once
 
 #include <cstdint>

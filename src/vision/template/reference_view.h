@@ -1,4 +1,6 @@
-// The reference view: the template as the steps of vision need it.
+// The reference view: the template, prepared for the steps of vision.
+//
+// Convention: the plane z = d in the reference camera, normal (0,0,1). Units: undistorted pixels, metres.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +14,7 @@
 namespace heel {
 
 struct ReferenceView {
-  /// Throws heel::Error when the template has no camera or too few features to be followed.
+  /// Throws heel::Error if the template has no camera, or too few features to be followed.
   ReferenceView(const ShirtTemplate& shirt, const VisionConfig& config);
 
   FeatureSet set;
@@ -20,10 +22,10 @@ struct ReferenceView {
   Outline outline_px;               ///< the region's undistorted corners, clockwise from the top left
   Eigen::Vector2d centre_px;        ///< undistorted centre of the region
   Eigen::Matrix3d K, K_inverse;
-  double distance_m = 0.0;  ///< 0: not known
+  double distance_m = 0.0;  ///< 0: unknown
 };
 
-/// Throws heel::Error naming `whose` camera it is when it has no size or focal length.
+/// Throws heel::Error if the camera has no size or focal length; `whose` names it in the message.
 void require_camera(const CameraModel& camera, const char* whose);
 
 }  // namespace heel

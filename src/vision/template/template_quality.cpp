@@ -1,7 +1,7 @@
 // The features of a template, and how well it can be followed.
 //
-// The verdict is a rehearsal: the view itself, made smaller, is searched and matched as a frame would be, and
-// since the scaling is known, every match is known to be right or wrong.
+// One part of the verdict is a trial: the reference view at half its size is searched and matched as a frame
+// is. Since the scaling is known, each match is known to be right or wrong.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,16 +18,17 @@
 namespace heel {
 namespace {
 
-// A descriptor covers 20 sigma; one larger than the region by half would describe what is round the shirt.
+// A descriptor covers 20 sigma: at this limit 1.7 times the shorter side of the region. A larger one would
+// mainly describe the background.
 constexpr float kSigmaPerRegionSide = 1.f / 12.f;
 constexpr int kMaxOctaves = 4;
 constexpr float kLargestSigmaOfFirstOctave_px = 3.2f;  // doubles with every octave
 
-constexpr int kRehearsalFeatures = 1000;  // as many as a frame has
+constexpr int kTrialFeatures = 1000;      // as many as a frame has
 constexpr double kFarScale = 0.5;         // half_size: a view from twice the distance
-constexpr float kTwinDistance = 0.3f;
+constexpr float kSimilarDistance = 0.3f;  // between descriptors
 
-// What a template must have. Eight inliers are the least that vision takes for a shirt (vision.min_inliers).
+// What a template must have. A detection needs eight inliers (vision.min_inliers).
 constexpr int kMinSide_px = 32;
 constexpr int kMinFeatures = 24;
 constexpr double kMinSpread = 0.4;
@@ -57,7 +58,7 @@ FrameView view_of(const std::uint8_t* grey, int width_px, int height_px) {
   return view;
 }
 
-/// Share of a 4 × 4 grid over the region that holds a feature.
+/// Share of the cells of a 4 × 4 grid over the region that hold a feature.
 double spread_of(const FeatureSet& set, const Region& roi) {
   constexpr int kCells = 4;
   std::array<bool, kCells * kCells> holds{};
@@ -79,35 +80,35 @@ float distance_between(const Descriptor& a, const Descriptor& b) {
   return std::sqrt(sum);
 }
 
-/// Share of the features that have a twin elsewhere on the shirt. A second view changes a descriptor by 0.2
-/// to 0.4 or so; with another as near as that, the ratio test cannot tell the two apart.
-double twin_share(const FeatureSet& set) {
-  int twins = 0;
+/// Share of the features with a similar feature elsewhere on the shirt. In another view a descriptor changes
+/// by 0.2 to 0.4; if another descriptor is as near as that, the ratio test cannot distinguish the two.
+double self_similarity_of(const FeatureSet& set) {
+  int similar = 0;
   for (std::size_t i = 0; i < set.features.size(); ++i) {
     const Feature& one = set.features[i];
     for (std::size_t j = 0; j < set.features.size(); ++j) {
       const Feature& other = set.features[j];
       const float apart_px = std::hypot(one.x_px - other.x_px, one.y_px - other.y_px);
       if (one.laplacian != other.laplacian || apart_px < 2.f * one.sigma_px) continue;
-      if (distance_between(set.descriptors[i], set.descriptors[j]) < kTwinDistance) {
-        ++twins;
+      if (distance_between(set.descriptors[i], set.descriptors[j]) < kSimilarDistance) {
+        ++similar;
         break;
       }
     }
   }
-  return static_cast<double>(twins) / static_cast<double>(std::max<std::size_t>(set.features.size(), 1));
+  return static_cast<double>(similar) / static_cast<double>(std::max<std::size_t>(set.features.size(), 1));
 }
 
-/// How many of the template's features are found again, and matched to the right ones, in the same view from
-/// twice the distance. Only the region is searched: what else a frame would show is not known here.
-int recognised_from_twice_the_distance(const ShirtTemplate& shirt, const FeatureSet& taught) {
+/// How many of the template's features are correctly matched to those of the view at half its size, as from
+/// twice the distance. Only the region is searched, since the background of later frames is unknown.
+int correct_matches_at_half_size(const ShirtTemplate& shirt, const FeatureSet& taught) {
   const HalfSizeImage half = half_size(shirt.grey, shirt.camera.width_px, shirt.camera.height_px);
   const Region region{static_cast<int>(shirt.roi.x_px * kFarScale),
                       static_cast<int>(shirt.roi.y_px * kFarScale),
                       static_cast<int>(std::ceil(shirt.roi.width_px * kFarScale)),
                       static_cast<int>(std::ceil(shirt.roi.height_px * kFarScale))};
   FeatureSettings settings = template_settings(shirt);
-  settings.max_features = kRehearsalFeatures;
+  settings.max_features = kTrialFeatures;
   FeatureSet seen;
   FeatureExtractor(half.width_px, half.height_px, settings)
       .extract(view_of(half.grey.data(), half.width_px, half.height_px), region, seen);
@@ -120,7 +121,7 @@ int recognised_from_twice_the_distance(const ShirtTemplate& shirt, const Feature
            ratio < 1.7;
   };
   std::vector<Match> matches;
-  Matcher(static_cast<int>(taught.features.size()), kRehearsalFeatures, MatchSettings{})
+  Matcher(static_cast<int>(taught.features.size()), kTrialFeatures, MatchSettings{})
       .match(taught, seen, matches);
   return static_cast<int>(std::count_if(matches.begin(), matches.end(), [&](const Match& match) {
     return same(taught.features[static_cast<std::size_t>(match.ref)],
@@ -137,8 +138,8 @@ int recognised_from_twice_the_distance(const ShirtTemplate& shirt, const Feature
   return text;
 }
 
-/// The first thing that makes it hopeless; empty when nothing does.
-std::string objection(const ShirtTemplate& shirt, const TemplateVerdict& verdict) {
+/// The first reason why the template cannot be followed; empty: it can.
+std::string reason_against(const ShirtTemplate& shirt, const TemplateVerdict& verdict) {
   const Region& roi = shirt.roi;
   if (std::min(roi.width_px, roi.height_px) < kMinSide_px) {
     return format(
@@ -188,11 +189,11 @@ TemplateVerdict judge_template(const ShirtTemplate& shirt) {
   verdict.features = static_cast<int>(taught.features.size());
   if (verdict.features > 0) {
     verdict.spread = spread_of(taught, shirt.roi);
-    verdict.self_similarity = twin_share(taught);
+    verdict.self_similarity = self_similarity_of(taught);
     verdict.coarse_share =
-        static_cast<double>(recognised_from_twice_the_distance(shirt, taught)) / verdict.features;
+        static_cast<double>(correct_matches_at_half_size(shirt, taught)) / verdict.features;
   }
-  verdict.reason = objection(shirt, verdict);
+  verdict.reason = reason_against(shirt, verdict);
   verdict.usable = verdict.reason.empty();
   return verdict;
 }

@@ -10,7 +10,7 @@
 #include "heel/motion.h"
 #include "heel/shirt_template.h"
 #include "heel/vision_config.h"
-#include "vision/pose/motion_refine.h"
+#include "vision/pose/frontal_pose_estimator.h"
 #include "vision/pose/scene.h"
 
 namespace {

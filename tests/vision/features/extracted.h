@@ -1,4 +1,4 @@
-// Features of a made image.
+// Features of a synthetic image.
 #pragma once
 
 #include "heel/features.h"

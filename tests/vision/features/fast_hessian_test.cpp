@@ -1,4 +1,4 @@
-// The extractor against made truth: where blobs are, how large, of which sign; and frames at the limits.
+// The extractor on blobs of known place, size and sign, and on frames of extreme size and content.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace heel::test {
 namespace {
 
-// Box filters answer most to a Gaussian blob somewhat wider than the sigma they are named after.
+// The response of a box filter is largest for a Gaussian blob somewhat wider than the filter's sigma.
 constexpr double kFoundSigma = 0.745;
 
 TEST(FeaturesDetector, FindsTheCentreScaleAndSignOfABlob) {
@@ -35,7 +35,7 @@ TEST(FeaturesDetector, FindsTheCentreScaleAndSignOfABlob) {
   }
 }
 
-TEST(FeaturesDetector, SurvivesFramesAtTheLimits) {
+TEST(FeaturesDetector, AcceptsFramesOfExtremeSizeAndContent) {
   FeatureSettings settings;
   settings.octaves = 4;
   settings.max_features = 200;
@@ -62,7 +62,7 @@ TEST(FeaturesDetector, SurvivesFramesAtTheLimits) {
   }
 }
 
-TEST(FeaturesDetector, RefusesSettingsAndFramesItIsNotMadeFor) {
+TEST(FeaturesDetector, RefusesSettingsOutOfRangeAndTooLargeFrames) {
   FeatureSettings settings;
   settings.octaves = 5;
   EXPECT_THROW(FeatureExtractor(64, 64, settings), Error);
@@ -74,7 +74,7 @@ TEST(FeaturesDetector, RefusesSettingsAndFramesItIsNotMadeFor) {
   EXPECT_THROW(extractor.extract(TestImage(65, 64).view(), features), Error);
 }
 
-TEST(FeaturesDetector, LooksOnlyInsideTheRegionAndFindsTheSameThere) {
+TEST(FeaturesDetector, SearchesOnlyTheRegionAndFindsTheSameThere) {
   const BlobField field(320, 240, 150, 3);
   const auto image = image_of(320, 240, field);
   FeatureSettings settings;

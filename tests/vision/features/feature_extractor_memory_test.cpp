@@ -1,4 +1,4 @@
-// After reserve(), extracting and matching take no memory.
+// After reserve(), extracting and matching allocate nothing.
 #include <gtest/gtest.h>
 
 #include "heel/features.h"
@@ -9,8 +9,8 @@
 namespace heel::test {
 namespace {
 
-TEST(FeaturesMemory, ExtractAndMatchTakeNone) {
-  if (!counts_allocations()) GTEST_SKIP() << "the sanitizer's allocator stands in for the counting one";
+TEST(FeaturesMemory, ExtractAndMatchAllocateNothing) {
+  if (!counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   const TestImage noise = noise_image(320, 240, 1);
   const TestImage texture = image_of(320, 240, BlobField(320, 240, 300, 2));
   FeatureSettings settings{.octaves = 4, .max_features = 100, .threshold = 1e-6f, .oriented = true};

@@ -1,4 +1,4 @@
-// Features on pairs of images with known geometry: made ones, and the real ones of the test data.
+// Features on pairs of images with known geometry: synthetic ones, and real ones of the test data.
 #include "support/oxford_pairs.h"
 
 #include <gtest/gtest.h>
@@ -111,7 +111,7 @@ struct RealPair {
 TEST(FeaturesRealPairs, MatchTheOxfordImages) {
   for (const char* set : {"graf", "boat", "leuven"}) HEEL_NEEDS_TEST_DATA(oxford_folder(set));
   const FeatureSettings settings{.octaves = 3, .max_features = 500, .oriented = true, .spread = false};
-  // Floors a little below what was measured when this was written.
+  // Lower bounds a little below what was measured when this was written.
   for (const RealPair& pair : {RealPair{"graf", 2, 170, 0.85},
                                {"graf", 3, 60, 0.7},
                                {"boat", 2, 190, 0.85},

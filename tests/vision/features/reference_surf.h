@@ -1,5 +1,5 @@
-// SURF as the paper defines it (H. Bay et al., CVIU 2008), in double precision, straight from the pixels,
-// with no integral image and nothing shared with the fast path: what the fast path is held to.
+// The reference implementation of SURF: as the paper defines it (H. Bay et al., CVIU 2008), in double
+// precision, directly from the pixels, without an integral image and without code of the fast implementation.
 #pragma once
 
 #include <algorithm>
@@ -43,8 +43,8 @@ inline ReferenceHessian reference_hessian(const TestImage& image, int x, int y, 
   return {dxx * dyy - 0.81 * dxy * dxy, dxx + dyy};
 }
 
-/// Sum over the rectangle [x0, x1) × [y0, y1) of square pixels, pixel (i, j) covering i ± ½, j ± ½, the
-/// border pixels going on for ever.
+/// Sum over the rectangle [x0, x1) × [y0, y1) of square pixels, pixel (i, j) covering i ± ½, j ± ½. Border
+/// pixels are repeated outwards.
 inline double fractional_box_sum(const TestImage& image, double x0, double y0, double x1, double y1) {
   double sum = 0.0;
   for (int y = static_cast<int>(std::floor(y0 + 0.5)); y - 0.5 < y1; ++y) {
@@ -96,7 +96,7 @@ inline std::array<double, 64> reference_descriptor(const TestImage& image, doubl
   return descriptor;
 }
 
-/// The orientation as orientation.h defines it: every window of π/3 that begins at a response is tried.
+/// The orientation as orientation.h defines it: every window of π/3 that begins at a response is evaluated.
 inline double reference_orientation(const TestImage& image, double x_px, double y_px, double sigma_px) {
   struct Response {
     double dx, dy, angle;

@@ -1,5 +1,5 @@
-// The fast path held to the plain one (reference_surf.h), stage by stage, and to itself on every instruction
-// set.
+// The fast implementation against the reference implementation (reference_surf.h), stage by stage, and
+// against itself on every instruction set.
 #include "vision/features/reference_surf.h"
 
 #include <gmock/gmock.h>
@@ -78,7 +78,7 @@ TEST(FeaturesReference, HessianRowsEqualThePaperToSixDigits) {
   }
 }
 
-TEST(FeaturesReference, ResponsePatchesAreTheRowsOwn) {
+TEST(FeaturesReference, ResponsePatchesEqualTheRows) {
   const TestImage image = noise_image(211, 203, 6);
   const IntegralImage integral = integral_of(image);
   HessianRowWork work(image.width_px);
@@ -106,7 +106,7 @@ TEST(FeaturesReference, ResponsePatchesAreTheRowsOwn) {
   }
 }
 
-/// Every sample of every layer computed and looked at; keypoints of octave 0 from top to bottom.
+/// Every sample of every layer computed and compared; keypoints of octave 0 from top to bottom.
 std::vector<Feature> keypoints_of_octave_0(const IntegralImage& integral, float threshold) {
   const int width = integral.width_px(), height = integral.height_px();
   HessianRowWork work(width);
@@ -150,9 +150,9 @@ std::vector<Feature> keypoints_of_octave_0(const IntegralImage& integral, float 
   return keypoints;
 }
 
-// The detector computes its outer layers only where it must, sparsely or by the row: blobs leave most of them
-// out, noise has maxima everywhere, and a checkerboard's stand in rows, with and without ties.
-TEST(FeaturesReference, DetectorAgreesWithLookingAtEverySample) {
+// The detector computes its outer layers only where needed, round single samples or by the row: few samples
+// with blobs, all with noise, whole rows with a checkerboard, which also has ties.
+TEST(FeaturesReference, DetectorAgreesWithComparingEverySample) {
   const auto board = [](int period, double unevenness) {
     return image_of(150, 110, [&](double x, double y) {
       const bool dark = (static_cast<int>(x) / period + static_cast<int>(y) / period) % 2 != 0;
@@ -176,7 +176,7 @@ TEST(FeaturesReference, DetectorAgreesWithLookingAtEverySample) {
   }
 }
 
-TEST(FeaturesReference, DescriptorsEqualThePlainOnes) {
+TEST(FeaturesReference, DescriptorsEqualTheReference) {
   const TestImage image = textured(160, 120, 3);
   const IntegralImage integral = integral_of(image);
   for (const auto& [x, y, sigma] : {std::tuple{80.3f, 61.7f, 1.6f},
@@ -203,7 +203,7 @@ TEST(FeaturesReference, DescriptorsEqualThePlainOnes) {
   }
 }
 
-TEST(FeaturesReference, OrientationIsNearThePlainOne) {
+TEST(FeaturesReference, OrientationIsNearTheReference) {
   const TestImage image = textured(200, 200, 4);
   const IntegralImage integral = integral_of(image);
   FeatureExtractor extractor(image.width_px, image.height_px, {.max_features = 60});
@@ -214,7 +214,7 @@ TEST(FeaturesReference, OrientationIsNearThePlainOne) {
     const double expected = reference_orientation(image, feature.x_px, feature.y_px, feature.sigma_px);
     near += angle_between(dominant_orientation(integral, feature), expected) < 5.0 * std::numbers::pi / 180.0;
   }
-  // The rest have two windows of nearly equal length, between which 5° bins may decide otherwise.
+  // The others have two windows of nearly equal length; with bins the other one may be the longest.
   ASSERT_GT(features.features.size(), 30U);
   EXPECT_GE(near, static_cast<int>(0.9 * static_cast<double>(features.features.size())));
 }
@@ -233,7 +233,7 @@ TEST(FeaturesReference, OrientationTurnsWithThePicture) {
   }
 }
 
-TEST(FeaturesReference, OneProgramHoldsEveryInstructionSet) {
+TEST(FeaturesReference, OneProgramContainsEveryInstructionSet) {
 #if defined(__x86_64__)
   EXPECT_THAT(compiled_simd_targets(), ::testing::ElementsAre("AVX3", "AVX2", "SSE4", "SSSE3", "EMU128"));
   EXPECT_EQ(available_simd_targets().back(), "EMU128");  // plain SSE2, which every x86-64 processor has

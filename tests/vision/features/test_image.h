@@ -1,4 +1,4 @@
-// Images made for tests, in grey levels 0…255, and their view as a frame.
+// Synthetic images in grey levels 0…255, and their view as a frame.
 #pragma once
 
 #include <algorithm>
@@ -60,8 +60,8 @@ inline TestImage noise_image(int width, int height, unsigned seed) {
   return image;
 }
 
-/// Blobs of many sizes and both signs: texture with something to find at every scale. The field is a function
-/// of position, so that it can be sampled through any geometric change.
+/// Blobs of many sizes and both signs: texture with features at every scale. It is a function of position, so
+/// that it can be sampled through any geometric transformation.
 class BlobField {
  public:
   BlobField(int width, int height, int count, unsigned seed) {

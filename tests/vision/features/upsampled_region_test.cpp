@@ -1,4 +1,4 @@
-// A part of the frame looked at in a picture twice as large.
+// A part of the frame, enlarged by two and searched.
 #include "vision/features/upsampled_region.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace heel::test {
 namespace {
 
-/// The frame's grey level at any place of `part`, bilinear; beyond its edge as at the edge.
+/// The grey level at any place of `part`, bilinear; beyond the edge that of the edge.
 double level_at(const TestImage& image, const Region& part, double x, double y) {
   const auto at = [&](double column, double row) {
     return static_cast<double>(
@@ -27,7 +27,7 @@ double level_at(const TestImage& image, const Region& part, double x, double y) 
          v * ((1 - u) * at(left, top + 1) + u * at(left + 1, top + 1));
 }
 
-TEST(UpsampledRegion, IsTheBilinearPictureOfItsPart) {
+TEST(UpsampledRegion, IsTheBilinearEnlargementOfItsPart) {
   const TestImage image = noise_image(90, 70, 3);
   UpsampledRegion enlarged(90, 90 * 70);
   for (const Region& part :
@@ -45,7 +45,7 @@ TEST(UpsampledRegion, IsTheBilinearPictureOfItsPart) {
   }
 }
 
-TEST(UpsampledRegion, HasRoomForAQuarterOfThePictureTallerOrNot) {
+TEST(UpsampledRegion, HasRoomForAQuarterOfTheFramesArea) {
   const UpsampledRegion enlarged(90, 90 * 70);
   EXPECT_TRUE(enlarged.has_room_for({5, 5, 45, 35}));
   EXPECT_TRUE(enlarged.has_room_for({0, 0, 22, 70}));
@@ -54,7 +54,7 @@ TEST(UpsampledRegion, HasRoomForAQuarterOfThePictureTallerOrNot) {
   EXPECT_FALSE(enlarged.has_room_for({0, 0, 23, 70}));
 }
 
-TEST(FeaturesClosely, FindsABlobTooSmallForTheSmallestFilterWhereItIs) {
+TEST(UpsampledFeatures, FindsABlobTooSmallForTheSmallestFilter) {
   const Blob blob{61.3, 48.8, 1.3, 120.0};
   const auto image = image_of(240, 200, [&](double x, double y) { return 128.0 + blob(x, y); });
   const Region region{40, 30, 45, 40};
@@ -70,12 +70,12 @@ TEST(FeaturesClosely, FindsABlobTooSmallForTheSmallestFilterWhereItIs) {
   EXPECT_LT(feature.sigma_px, 1.6f);
 }
 
-// The same scene from half as near and looked at upsample: mostly the same features, half as large, and alike
-// enough in their descriptors to be matched.
-TEST(FeaturesClosely, SeesInHalfThePictureWhatTheWholeOneShows) {
+// The same scene from twice the distance, upsampled: mostly the same features at half the size, with
+// descriptors similar enough to be matched.
+TEST(UpsampledFeatures, AreThoseOfTheSceneAtTwiceTheSize) {
   const BlobField field(240, 200, 400, 5);
   const TestImage whole = image_of(240, 200, field);
-  const auto far = image_of(240, 200, [&](double x, double y) {  // each pixel covers four of the whole
+  const auto far = image_of(240, 200, [&](double x, double y) {  // each pixel covers four of the larger image
     double sum = 0.0;
     for (const double dy : {-0.5, 0.5})
       for (const double dx : {-0.5, 0.5}) sum += 0.25 * field(2.0 * x + 0.5 + dx, 2.0 * y + 0.5 + dy);
@@ -105,7 +105,7 @@ TEST(FeaturesClosely, SeesInHalfThePictureWhatTheWholeOneShows) {
       << "of " << near_features.features.size();
 }
 
-TEST(FeaturesClosely, ARegionTooLargeToEnlargeIsLookedAtAsItIs) {
+TEST(UpsampledFeatures, ARegionTooLargeToUpsampleIsSearchedAsItIs) {
   const TestImage image = image_of(160, 120, BlobField(160, 120, 150, 8));
   FeatureSettings settings;
   const FeatureSet plain = extract(image, settings, {10, 10, 120, 90});
@@ -115,8 +115,8 @@ TEST(FeaturesClosely, ARegionTooLargeToEnlargeIsLookedAtAsItIs) {
   EXPECT_EQ(upsample.descriptors, plain.descriptors);
 }
 
-// As the region of a torso is: its picture is twice as tall as the frame.
-TEST(FeaturesClosely, FindsTheSameInATallRegionAsInItsParts) {
+// A region of the shape of a torso: upsampled it is twice as tall as the frame.
+TEST(UpsampledFeatures, AreTheSameInATallRegionAndInItsParts) {
   const TestImage image = image_of(240, 200, BlobField(240, 200, 600, 12));
   FeatureSettings settings;
   settings.upsample = true;
@@ -143,7 +143,7 @@ TEST(FeaturesClosely, FindsTheSameInATallRegionAsInItsParts) {
   }
 }
 
-TEST(FeaturesClosely, KeepsToTheRegionAndTheScalesAsked) {
+TEST(UpsampledFeatures, LieInTheRequestedRegionAndScales) {
   const TestImage image = image_of(240, 200, BlobField(240, 200, 600, 9));
   for (const Region& region : {Region{-20, -20, 70, 60}, Region{190, 160, 80, 80}, Region{50, 40, 50, 30}}) {
     FeatureSettings settings;

@@ -125,7 +125,7 @@ TEST(HomographyEstimator, SameInputSameResultToTheBit) {
   HomographyEstimator first(120, RansacSettings{}), second(150, RansacSettings{});
   std::vector<std::uint8_t> mask;
   const RobustHomography a = first.estimate(p.pairs, mask);
-  second.estimate(other.pairs, mask);  // what came before leaves no trace
+  second.estimate(other.pairs, mask);  // earlier calls have no effect
   const RobustHomography b = second.estimate(p.pairs, mask);
   EXPECT_EQ(a.H_cur_from_ref, b.H_cur_from_ref);
   EXPECT_EQ(a.covariance, b.covariance);
@@ -139,7 +139,7 @@ TEST(HomographyEstimator, StopsEarlyWhenMostPairsAgree) {
   EXPECT_LT(estimator.estimate(problem(5, 200, 0.5, 0.5).pairs, mask).iterations, 250);
 }
 
-TEST(HomographyEstimator, NamesWhatIsWrong) {
+TEST(HomographyEstimator, NamesTheReason) {
   HomographyEstimator estimator(100, RansacSettings{});
   std::vector<std::uint8_t> mask;
   EXPECT_EQ(estimator.estimate({}, mask).status, HomographyStatus::TooFewPairs);
@@ -151,7 +151,7 @@ TEST(HomographyEstimator, NamesWhatIsWrong) {
   const std::vector<PointPair> same(50, PointPair{{1, 2}, {3, 4}});
   EXPECT_EQ(estimator.estimate(same, mask).status, HomographyStatus::Degenerate);
 
-  // Six pairs that have nothing to do with each other: at most an accident of five.
+  // Six unrelated pairs: at most five agree by chance.
   int no_consensus = 0;
   for (std::uint64_t seed = 1; seed <= 50; ++seed)
     no_consensus += estimator.estimate(problem(seed, 6, 1.0, 0.0).pairs, mask).status != HomographyStatus::Ok;
@@ -171,7 +171,7 @@ TEST(HomographyEstimator, MirroredPlaneIsNotAView) {
   EXPECT_TRUE(result.status != HomographyStatus::Ok || result.inliers < 20);
 }
 
-TEST(HomographyEstimator, PairsBeyondItsMemoryAreLeftOut) {
+TEST(HomographyEstimator, IgnoresPairsBeyondItsMemory) {
   const Problem p = problem(8, 300, 0.2, 0.5);
   HomographyEstimator estimator(100, RansacSettings{});
   std::vector<std::uint8_t> mask;

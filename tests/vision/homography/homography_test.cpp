@@ -1,4 +1,4 @@
-// The solvers without robustness: DLT, four points, refinement and its covariance.
+// The solvers that RANSAC is made of: DLT, four points, refinement and its covariance.
 #include "heel/homography.h"
 
 #include <gtest/gtest.h>
@@ -90,7 +90,8 @@ RC_GTEST_PROP(Homography4pt, ExactAndSignedLikeTheTruth, (std::uint64_t seed)) {
     RC_ASSERT((H * ref[i].homogeneous()).z() > 0.0);
     RC_ASSERT((mapped(H, ref[i]) - cur[i]).norm() < 1e-6);
   }
-  RC_ASSERT(corner_error_px(H, view.H) < 0.1);  // kCollinear bounds how far four exact points may mislead
+  RC_ASSERT(corner_error_px(H, view.H) <
+            0.1);  // four points that pass kCollinear amplify rounding errors by a bounded factor
 }
 
 TEST(Homography4pt, RefusesLinesMirrorsAndFolds) {
@@ -124,7 +125,7 @@ TEST(RefineHomography, FindsTheMinimumOfTheSymmetricTransferError) {
     Eigen::Matrix3d H;
     ASSERT_EQ(heel::homography_dlt(pairs, H), HomographyStatus::Ok);
     const double cost = heel::refine_homography(pairs, kNoLimit, H);
-    // No entry can be changed, either way, to its advantage.
+    // A change of any entry, in either direction, increases the cost.
     for (int i = 0; i < 8; ++i) {
       for (const double relative : {1e-4, -1e-4}) {
         Eigen::Matrix3d other = H;
@@ -138,9 +139,9 @@ TEST(RefineHomography, FindsTheMinimumOfTheSymmetricTransferError) {
   }
 }
 
-// Normalised error squared of the four corners of the region, over many trials: mean and spread as the stated
-// covariance says.
-TEST(HomographyPrecision, CovarianceIsHonest) {
+// The squared error of the four corners of the region, normalised by the stated covariance, over many trials:
+// its mean and spread are those of χ².
+TEST(HomographyPrecision, CovarianceIsThatOfTheErrors) {
   constexpr int kTrials = 600;
   for (const auto& [noise_cur, noise_ref] : {std::pair{0.5, 0.5}, std::pair{1.0, 1.0}}) {
     double sum_squared = 0.0, noise = 0.0;
@@ -160,7 +161,7 @@ TEST(HomographyPrecision, CovarianceIsHonest) {
       const Eigen::Matrix<double, 8, 8> covariance = precision.covariance.topLeftCorner<8, 8>();
       sum_squared += error.dot(covariance.fullPivLu().solve(error));
     }
-    // χ² with 8 degrees of freedom a trial; the noise estimate's own spread adds a little.
+    // χ² with 8 degrees of freedom for each trial; the spread of the noise estimate adds a little.
     const double mean = sum_squared / kTrials;
     EXPECT_NEAR(mean, 8.0, 8.0 * 0.12) << "noise " << noise_cur;
     EXPECT_NEAR(noise, noise_cur, 0.05 * noise_cur);

@@ -52,7 +52,7 @@ TEST(ShapePlausibility, SqueezedMirroredAndFoldedAreRefused) {
 
 TEST(ShapePlausibility, LocalScaleIsTheMagnification) {
   EXPECT_NEAR(heel::local_scale(scaling(2.0, 8.0), {100, 100}), 4.0, 1e-12);
-  // Against a small square mapped point by point.
+  // Compared with a small square, mapped point by point.
   heel::test::Random random(9);
   const Eigen::Matrix3d H = heel::test::random_view(random, heel::test::plain_camera()).H;
   const Eigen::Vector2d at(300, 200), dx(1e-3, 0), dy(0, 1e-3);

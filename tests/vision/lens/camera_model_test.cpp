@@ -32,7 +32,7 @@ TEST(CameraModel, KHoldsTheIntrinsics) {
   EXPECT_DOUBLE_EQ(pixel.z(), 1.0);
 }
 
-TEST(CameraModel, WithoutDistortionPixelsStay) {
+TEST(CameraModel, WithoutDistortionPixelsDoNotChange) {
   const CameraModel camera = plain_camera();
   const Eigen::Vector2d pixel(12.25, 400.5);
   EXPECT_EQ(camera.undistort_px(pixel), pixel);
@@ -67,7 +67,7 @@ TEST(CameraModel, AgreesWithOpenCvBothWays) {
       const Eigen::Vector2d ours_again = camera.distort_px({undistorted[i].x, undistorted[i].y});
       EXPECT_NEAR(ours_again.x(), again[i].x, 1e-9) << "seed " << seed;
       EXPECT_NEAR(ours_again.y(), again[i].y, 1e-9) << "seed " << seed;
-      // OpenCV's fixed point does not always get there; where it did, it must be the same place.
+      // OpenCV's fixed-point iteration does not always converge; where it does, the result must be the same.
       if (cv::norm(again[i] - distorted[i]) > 1e-9) continue;
       EXPECT_NEAR(ours.x(), undistorted[i].x, 1e-7) << "seed " << seed;
       EXPECT_NEAR(ours.y(), undistorted[i].y, 1e-7) << "seed " << seed;
@@ -75,7 +75,8 @@ TEST(CameraModel, AgreesWithOpenCvBothWays) {
   }
 }
 
-// A pixel no direction maps to (beyond the fold of a strong barrel), and things that are no pixels at all.
+// Also pixels to which no direction maps (beyond the fold of a strong barrel distortion), and numbers that
+// are no pixels.
 RC_GTEST_PROP(CameraModel, UndistortIsTotal, (std::uint64_t seed)) {
   Random random(seed);
   CameraModel camera = plain_camera();
@@ -87,13 +88,13 @@ RC_GTEST_PROP(CameraModel, UndistortIsTotal, (std::uint64_t seed)) {
   const Eigen::Vector2d pixel(random.uniform(-2000, 3000), random.uniform(-2000, 3000));
   const Eigen::Vector2d result = camera.undistort_px(pixel);
   RC_ASSERT(result.allFinite());
-  // Never farther off than having done nothing, or the principal point.
+  // The error is never larger than that of the pixel itself or of the principal point.
   const double error = (camera.distort_px(result) - pixel).norm();
   const double from_centre = (Eigen::Vector2d(camera.cx, camera.cy) - pixel).norm();
   RC_ASSERT(error <= std::max((camera.distort_px(pixel) - pixel).norm(), from_centre * 1.02) + 1e-9);
 }
 
-TEST(CameraModel, NotANumberStaysOne) {
+TEST(CameraModel, NotANumberRemainsNotANumber) {
   CameraModel camera = plain_camera();
   camera.k1 = -0.2;
   EXPECT_FALSE(camera.undistort_px({std::numeric_limits<double>::quiet_NaN(), 3.0}).allFinite());

@@ -24,7 +24,7 @@ using heel::GuidedMatchSettings;
 using heel::Match;
 using heel::PredictedFeature;
 
-/// A descriptor about `apart` away from the one with the same first direction.
+/// A descriptor at a distance of about `apart` from descriptor(direction).
 Descriptor descriptor(std::size_t direction, float apart = 0.f) {
   Descriptor d{};
   d[direction] = std::sqrt(1.f - apart * apart);
@@ -79,7 +79,7 @@ IndexPairs as_pairs(const std::vector<Match>& matches) {
   return pairs;
 }
 
-/// The same rules without any order of the frame's features.
+/// The same rules by trying every pair.
 std::vector<Match> by_trying_every_pair(const Scene& scene, const std::vector<PredictedFeature>& views) {
   const GuidedMatchSettings rules;
   std::map<int, Match> of_frame_feature;
@@ -108,12 +108,12 @@ std::vector<Match> by_trying_every_pair(const Scene& scene, const std::vector<Pr
   return matches;
 }
 
-TEST(GuidedMatcher, TakesTheNearestDescriptorWhereThePointShouldBe) {
+TEST(GuidedMatcher, TakesTheNearestDescriptorWithinTheRadius) {
   Scene scene;
   scene.add_ref(50, 40, 2.f, descriptor(0));
-  scene.add_cur(300, 80, 4.f, descriptor(0));        // identical, elsewhere
-  scene.add_cur(103, 82, 4.f, descriptor(0, 0.3f));  // here
-  scene.add_cur(98, 79, 4.f, descriptor(1));         // here, but another thing
+  scene.add_cur(300, 80, 4.f, descriptor(0));        // identical, outside the radius
+  scene.add_cur(103, 82, 4.f, descriptor(0, 0.3f));  // inside
+  scene.add_cur(98, 79, 4.f, descriptor(1));         // inside, but another descriptor
   const std::vector<Match> matches = scene.match();
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches[0].ref, 0);
@@ -121,7 +121,7 @@ TEST(GuidedMatcher, TakesTheNearestDescriptorWhereThePointShouldBe) {
   EXPECT_NEAR(matches[0].distance, 0.3f, 0.02f);
 }
 
-TEST(GuidedMatcher, RefusesWrongSignScalePlaceAndLooks) {
+TEST(GuidedMatcher, RefusesWrongSignScalePlaceAndDescriptor) {
   const auto one_candidate = [](double x, float sigma, const Descriptor& what, int laplacian) {
     Scene scene;
     scene.add_ref(50, 40, 2.f, descriptor(0));
@@ -138,7 +138,7 @@ TEST(GuidedMatcher, RefusesWrongSignScalePlaceAndLooks) {
   EXPECT_EQ(one_candidate(100, 4.f, descriptor(1), 1), 0u);
 }
 
-TEST(GuidedMatcher, RefusesTwoThatLookAlikeWithinTheRadius) {
+TEST(GuidedMatcher, RefusesTwoSimilarFeaturesWithinTheRadius) {
   Scene scene;
   scene.add_ref(50, 40, 2.f, descriptor(0));
   scene.add_cur(101, 80, 4.f, descriptor(0, 0.30f));
@@ -146,7 +146,7 @@ TEST(GuidedMatcher, RefusesTwoThatLookAlikeWithinTheRadius) {
   EXPECT_TRUE(scene.match().empty());
 }
 
-TEST(GuidedMatcher, AFrameFeatureIsGivenToTheNearestTemplateFeatureOnly) {
+TEST(GuidedMatcher, PairsAFrameFeatureWithTheNearestTemplateFeatureOnly) {
   Scene scene;
   scene.add_ref(50, 40, 2.f, descriptor(0, 0.4f));
   scene.add_ref(51, 40, 2.f, descriptor(0, 0.1f));
@@ -184,8 +184,8 @@ TEST(GuidedMatcher, AgreesWithTryingEveryPairAndAllocatesNothing) {
   EXPECT_EQ(as_pairs(out), as_pairs(by_trying_every_pair(scene, views)));
 }
 
-// What is undistorted may lie far outside the view, and what is predicted may not be there at all.
-TEST(GuidedMatcher, FindsPairsHoweverFarFeaturesLie) {
+// Undistorted features may lie far outside the view, and predictions may not be finite.
+TEST(GuidedMatcher, FindsPairsFarOutsideTheView) {
   heel::test::Random random(6);
   Scene scene;
   scene.H.setIdentity();

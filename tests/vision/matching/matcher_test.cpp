@@ -31,7 +31,7 @@ FeatureSet random_features(int count, unsigned seed) {
   return set;
 }
 
-/// Some of `ref`, shuffled and disturbed, among strangers.
+/// Some of `ref`, shuffled and with noise, among unrelated features.
 FeatureSet disturbed(const FeatureSet& ref, int strangers, double disturbance, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, disturbance / 8.0);
@@ -127,9 +127,9 @@ void expect_the_plain_matches(const FeatureSet& ref, const FeatureSet& cur, cons
   });
 }
 
-// Closer together than bytes can tell, so that everything is left to the exact look: from all but equal to
-// easily told apart.
-TEST(FeaturesMatcher, IsExactWhereBytesCannotTell) {
+// Descriptors so close together that bytes do not decide and floats must: from nearly equal to clearly
+// different.
+TEST(FeaturesMatcher, IsExactWhereBytesDoNotDecide) {
   for (const double apart : {0.01, 0.03, 0.1, 0.3}) {
     for (const float ratio : {0.8f, 0.97f, 2.f}) {
       SCOPED_TRACE(std::to_string(apart) + " apart, ratio " + std::to_string(ratio));
@@ -147,9 +147,9 @@ TEST(FeaturesMatcher, IsExactWhereBytesCannotTell) {
   }
 }
 
-// Elements that bytes do not reach, opposite descriptors, whose bytes' product is the least there is, and one
-// descriptor for all.
-TEST(FeaturesMatcher, IsExactForDescriptorsNoPictureGives) {
+// Elements outside the range of bytes, opposite descriptors, whose byte product is the smallest possible, and
+// one descriptor for all features.
+TEST(FeaturesMatcher, IsExactForExtremeDescriptors) {
   const auto of = [](std::size_t k, float value) {
     Descriptor descriptor{};
     descriptor[k] = value;

@@ -1,11 +1,11 @@
-// A curved back before a camera: what is seen of it, and the problem it poses.
+// A curved back in front of a camera: its visible points, and the pose problem they make.
 #pragma once
 
 #include <Eigen/LU>
 #include <vector>
 
 #include "vision/pose/back_surface.h"
-#include "vision/pose/motion_refine.h"
+#include "vision/pose/frontal_pose_estimator.h"
 #include "vision/pose/scene.h"
 
 namespace heel::test::curved {
@@ -24,7 +24,8 @@ inline const Eigen::Vector2d kCentre_px(320.0, 240.0);  // of the region in whic
 
 inline constexpr double kDistance_m = 1.5;
 
-/// A back at kDistance_m with the given curvature κ, which departs from its curve by `shape_sigma_m`.
+/// A back at kDistance_m with the given curvature κ; its shape changes by `shape_sigma_m`, one standard
+/// deviation.
 inline BackSurface back(double curvature_1_m, double shape_sigma_m = 0.0) {
   BackSurface surface;
   surface.bend = curvature_1_m * kDistance_m;
@@ -35,7 +36,8 @@ inline BackSurface back(double curvature_1_m, double shape_sigma_m = 0.0) {
   return surface;
 }
 
-/// Points of the region of `surface` seen in both views; `departures` times its five shapes added to it.
+/// Points of the region of `surface` visible in both views; the five shapes times `departures` are added to
+/// it.
 inline std::vector<PointPair> pairs_on(const BackSurface& surface, Random& random, const View& view,
                                        int count, double noise_px,
                                        const heel::Vector5d& departures = heel::Vector5d::Zero()) {
@@ -44,7 +46,7 @@ inline std::vector<PointPair> pairs_on(const BackSurface& surface, Random& rando
     const Eigen::Vector2d ref(random.uniform(220.0, 420.0), random.uniform(90.0, 390.0));
     const Eigen::Vector3d ray = K_inverse * ref.homogeneous();
     const Eigen::Matrix3d KR = K * view.R;
-    // The far side of a turned back is not seen.
+    // The far side of a turned back is not visible.
     if (heel::image_derivative(surface, K_inverse, KR, K * view.t_over_d, ray).determinant() <= 0.0) continue;
     const Eigen::Vector3d point =
         surface.point(ray) + departures.dot(surface.departures(ray)) * Eigen::Vector3d::UnitZ();

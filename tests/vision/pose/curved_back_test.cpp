@@ -1,4 +1,5 @@
-// The pose of a curved back: exact, honest and rarely mirrored where a plane's is not.
+// The pose of a curved back: exact without noise, with a correct sigma, and rarely mirrored where that of a
+// plane is.
 #include "vision/pose/curved_back.h"
 
 #include <gtest/gtest.h>
@@ -54,9 +55,9 @@ TEST(CurvedBack, ExactWithoutNoiseFromEitherMinimum) {
   }
 }
 
-// Of a back turned by 40° one half may be all that is matched. To a plane it is turned as that half is; and a
-// curvature that is not quite the person's still serves far better than none.
-TEST(CurvedBack, IsSeenAsTurnedAsItIs) {
+// Of a back turned by 40° often only one half is matched. The plane model finds the yaw of that half. The
+// curved model finds the yaw of the back, and even with a slightly wrong curvature its error is much smaller.
+TEST(CurvedBack, YawFromOneHalfIsThatOfTheWholeBack) {
   double plane_deg = 0.0, curved_deg = 0.0, wrong_curvature_deg = 0.0;
   constexpr int kTrials = 100;
   for (std::uint64_t seed = 1; seed <= kTrials; ++seed) {
@@ -81,9 +82,9 @@ TEST(CurvedBack, IsSeenAsTurnedAsItIs) {
   EXPECT_LT(std::abs(wrong_curvature_deg), 0.35 * std::abs(plane_deg));
 }
 
-// No back stays the curve. The departures are drawn as they are taken to be; the deviations that are stated
-// know of them, from anywhere and from where the template was taken.
-TEST(CurvedBack, StatedSigmaIsHonestWithFolds) {
+// The shape has changed since it was taught, by departures drawn from the model. The stated sigma includes
+// them, from any view and from that of the template.
+TEST(CurvedBack, StatedSigmaIncludesFolds) {
   constexpr int kTrials = 1600;
   const BackSurface surface = back(1.5, 0.005);
   double yaw = 0.0, noise_only = 0.0;
@@ -117,8 +118,8 @@ TEST(CurvedBack, StatedSigmaIsHonestWithFolds) {
   EXPECT_GT(within_3, 0.985 * kTrials);
 }
 
-// Where a plane's two minima are hardly to be told apart (three times the template's distance, nearly
-// frontal), a curved back's are.
+// Where the two minima of a plane are hardly distinguished (three times the template's distance, nearly
+// frontal), those of a curved back are.
 TEST(CurvedBack, IsRarelyMirrored) {
   constexpr int kTrials = 600;
   int flipped_plane = 0, flipped_curved = 0;
@@ -136,11 +137,11 @@ TEST(CurvedBack, IsRarelyMirrored) {
   }
   std::cout << "mirrored: " << flipped_plane << " of " << kTrials << " planes, " << flipped_curved
             << " curved backs\n";
-  EXPECT_GT(flipped_plane, 5);  // the case is as hard as it is meant to be
+  EXPECT_GT(flipped_plane, 5);  // the case is difficult, as intended
   EXPECT_LT(flipped_curved, flipped_plane / 5 + 1);
 }
 
-TEST(CurvedBack, TooLittleToGoByMakesLargeDeviationsNotNonsense) {
+TEST(CurvedBack, TooFewPairsGiveLargeButFiniteSigmas) {
   Random random(4);
   const View view = view_at(0.3, 1.5);
   FrontalPoseEstimator estimator(40);
@@ -155,7 +156,7 @@ TEST(CurvedBack, TooLittleToGoByMakesLargeDeviationsNotNonsense) {
     const std::vector<PointPair> some(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(few));
     EXPECT_TRUE(all_finite(estimator.estimate(problem_of(some, view, back(1.5)), motion_of(view)))) << few;
   }
-  // All on a vertical line: a back may turn about it as it likes.
+  // All on a vertical line: the rotation about it is not determined.
   for (PointPair& pair : pairs) {
     pair.ref_px.x() = 330.0;
     const Eigen::Vector3d point = back(1.5).point(K_inverse * pair.ref_px.homogeneous());

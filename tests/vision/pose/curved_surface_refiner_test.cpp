@@ -1,4 +1,4 @@
-// The whole back, found again from one facet of it; and what could as well be true.
+// The pose of the whole back from one facet of it, and its sigma where other poses fit as well.
 #include "vision/pose/curved_surface_refiner.h"
 
 #include <gtest/gtest.h>
@@ -18,12 +18,12 @@ using namespace heel::test::curved;
 using heel::test::Random;
 using heel::test::View;
 
-/// A back with a feature of its own looks at each of many places, and a frame that shows it among clutter.
+/// A back with features of unique descriptors, and a frame that shows it among clutter.
 struct FeaturedBack {
   static constexpr int kFeatures = 200, kClutter = 400;
   heel::FeatureSet reference, frame;
   std::vector<Eigen::Vector2d> reference_px, frame_px;
-  std::vector<PointPair> facet;  // what a homography takes: the middle third
+  std::vector<PointPair> facet;  // the pairs that agree on one plane: the middle third
 
   static heel::Descriptor random_descriptor(Random& random) {
     Eigen::Matrix<float, 64, 1> values;
@@ -62,7 +62,7 @@ struct FeaturedBack {
   }
 };
 
-/// A refiner for the template, and what it needs of the frame.
+/// A refiner for the template of `shown`, and what it needs of the frame.
 class RefinerFor {
  public:
   explicit RefinerFor(const FeaturedBack& shown)
@@ -118,8 +118,8 @@ TEST(CurvedSurfaceRefiner, FindsTheWholeBackFromOneFacetAndEitherMinimum) {
   EXPECT_LT(of_back_deg, 0.5 * of_facet_deg);
 }
 
-// Few features are seen again, and a strip of the back alone: the start is as wrong as noise makes it, both
-// its minima with it. What fits of the rest of the back still tells.
+// Few features are found again, and the start is based on a strip of the back only: both its minima are
+// wrong. The rest of the back determines the yaw.
 TEST(CurvedSurfaceRefiner, TriesTheWholeRangeOfYawWhereLittleFits) {
   const BackSurface surface = back(1.5);
   int wrong_start = 0;
@@ -127,12 +127,12 @@ TEST(CurvedSurfaceRefiner, TriesTheWholeRangeOfYawWhereLittleFits) {
     Random random(seed);
     const View view = view_at(random.uniform(-0.8, 0.8), 1.3);
     FeaturedBack shown(random, view, surface);
-    // Three of four frame features look like nothing known.
+    // Three of four frame features get unknown descriptors.
     for (std::size_t i = 0; i < FeaturedBack::kFeatures; ++i)
       if (i % 4 != 0) shown.frame.descriptors[i] = FeaturedBack::random_descriptor(random);
     RefinerFor refiner(shown);
 
-    // Both minima turned away from the truth about the strip in the middle.
+    // Both minima are rotated away from the truth about the strip in the middle.
     FrontalPose start = refiner.estimator.estimate(problem_of(shown.facet, view, surface), motion_of(view));
     const Eigen::Vector3d middle(0.0, 0.0, 1.0);
     for (heel::FrontalMotion* motion : {&start.motion, &start.other}) {
@@ -172,7 +172,7 @@ TEST(CurvedSurfaceRefiner, AllocatesNothing) {
   RefinerFor refiner(shown);
   const FrontalProblem problem = problem_of(shown.facet, view, back(1.5, 0.005));
   for (const bool few : {false, true}) {
-    // So few that the whole range of yaw is tried.
+    // So few match that the whole range of yaw is tried.
     for (std::size_t i = 0; few && i < FeaturedBack::kFeatures; ++i)
       if (i % 4 != 0) shown.frame.descriptors[i] = FeaturedBack::random_descriptor(random);
     const std::uint64_t before = heel::test::allocations_of_this_thread();
@@ -183,13 +183,13 @@ TEST(CurvedSurfaceRefiner, AllocatesNothing) {
   }
 }
 
-// No back is as curved as is assumed, and folds have moved it. The deviation knows, of one that is seen whole
-// and where a board hides all but a strip at its edge, and half of that is not found again: it looks much the
-// same turned otherwise.
-TEST(CurvedSurfaceRefiner, OwnsUpToWhatAStripOfTheBackCannotTell) {
+// The curvature differs from the assumed one, and folds have moved the points. The stated sigma covers the
+// error, both if the whole back is visible and if only half of the features of a strip at its edge are found:
+// then other yaws fit nearly as well.
+TEST(CurvedSurfaceRefiner, StatedSigmaCoversWhatAStripOfTheBackLeavesOpen) {
   constexpr int kTrials = 300;
   BackSurface assumed = back(1.5, 0.002);
-  assumed.bend_sigma = 0.35 * kDistance_m;  // of a curvature drawn evenly from 0.9 to 2.1
+  assumed.bend_sigma = 0.35 * kDistance_m;  // of a curvature drawn uniformly from 0.9 to 2.1
   for (const bool whole : {true, false}) {
     int beyond_3 = 0, beyond_3_without = 0, doubted = 0;
     for (std::uint64_t seed = 1; seed <= kTrials; ++seed) {
@@ -225,7 +225,7 @@ TEST(CurvedSurfaceRefiner, OwnsUpToWhatAStripOfTheBackCannotTell) {
   }
 }
 
-TEST(Rivals, AddWhatTheAnswerWouldBeOffBy) {
+TEST(AlternativeHypotheses, AddTheirExpectedSquaredError) {
   FrontalPose pose;
   pose.motion.R_cur_from_ref = heel::test::rotation(0.3, 0.0, 0.0);
   pose.motion.t_over_d = {0.1, 0.0, 0.2};
@@ -237,23 +237,23 @@ TEST(Rivals, AddWhatTheAnswerWouldBeOffBy) {
   EXPECT_EQ(pose.yaw_sigma_rad, alone.yaw_sigma_rad);
   EXPECT_EQ(pose.ambiguity, 0.0);
 
-  heel::AlternativeHypothesis rival;
-  rival.motion.R_cur_from_ref = heel::test::rotation(-0.1, 0.0, 0.0);
-  rival.motion.t_over_d = {0.2, 0.0, 0.2};
-  rival.odds = 0.25;  // true one time in five
-  inflate_covariance({&rival, 1}, pose);
+  heel::AlternativeHypothesis alternative;
+  alternative.motion.R_cur_from_ref = heel::test::rotation(-0.1, 0.0, 0.0);
+  alternative.motion.t_over_d = {0.2, 0.0, 0.2};
+  alternative.odds = 0.25;  // true one time in five
+  inflate_covariance({&alternative, 1}, pose);
   EXPECT_NEAR(pose.ambiguity, 0.2, 1e-12);
   EXPECT_NEAR(pose.yaw_sigma_rad, std::sqrt(0.02 * 0.02 + 0.2 * 0.4 * 0.4), 1e-9);
   EXPECT_NEAR(pose.t_over_d_sigma.x(), std::sqrt(0.01 * 0.01 + 0.2 * 0.1 * 0.1), 1e-12);
   EXPECT_NEAR(pose.t_over_d_sigma.z(), 0.03, 1e-12);
-  EXPECT_EQ(pose.yaw_rad, 0.3) << "the answer stays";
+  EXPECT_EQ(pose.yaw_rad, 0.3) << "the pose itself does not change";
 }
 
-TEST(Rivals, YawsAreComparedRoundTheCircle) {
+TEST(AlternativeHypotheses, YawDifferenceIsTakenRoundTheCircle) {
   FrontalMotion a, b;
   a.R_cur_from_ref = heel::test::rotation(3.0, 0.0, 0.0);
   b.R_cur_from_ref = heel::test::rotation(-3.0, 0.0, 0.0);
-  EXPECT_NEAR(heel::yaw_between(a, b), 2.0 * M_PI - 6.0, 1e-12);
+  EXPECT_NEAR(heel::yaw_difference_rad(a, b), 2.0 * M_PI - 6.0, 1e-12);
 }
 
 }  // namespace

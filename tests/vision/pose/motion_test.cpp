@@ -62,7 +62,8 @@ void expect_all_explain(const PlaneMotions& motions, const Eigen::Matrix3d& A, d
   }
 }
 
-RC_GTEST_PROP(PlaneMotion, DistinctHoldsTheTruthAmongEightThatAllExplainA, (std::uint64_t seed)) {
+RC_GTEST_PROP(PlaneMotion, DistinctGivesEightSolutionsThatExplainAWithTheTruthAmongThem,
+              (std::uint64_t seed)) {
   Random random(seed);
   const Eigen::Matrix3d R = random_rotation(random, 3.1);
   const Eigen::Vector3d t = random.uniform(0.1, 3.0) * random.direction();
@@ -124,8 +125,7 @@ TEST(PlaneMotion, FourAreOnTheSameSideAndTwoOfThemInFront) {
   EXPECT_GE(choice.second, 0);
 }
 
-// A second opinion: OpenCV decomposes by Malis and Vargas' closed form and returns the four same-side
-// solutions.
+// OpenCV uses another method, the closed form of Malis and Vargas, and returns the four same-side solutions.
 TEST(PlaneMotion, AgreesWithOpenCv) {
   int compared = 0;
   for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
@@ -162,7 +162,7 @@ TEST(PlaneMotion, TwoEqualIsATranslationAlongTheNormal) {
     Random random(seed);
     const Eigen::Matrix3d R = random_rotation(random, 1.0);
     const Eigen::Vector3d n = random.direction();
-    // t = k R n: A = R (I + k n nᵀ), singular values 1, 1, 1 + k. Away (k > 0) and nearer (k < 0).
+    // t = k R n: A = R (I + k n nᵀ), singular values 1, 1, 1 + k. Farther (k > 0) and nearer (k < 0).
     const double k = (seed % 2 == 0 ? 1.0 : -1.0) * random.uniform(0.05, 0.9);
     const Eigen::Vector3d t = k * R * n;
     const Eigen::Matrix3d A = R + t * n.transpose();
@@ -175,7 +175,7 @@ TEST(PlaneMotion, TwoEqualIsATranslationAlongTheNormal) {
   }
 }
 
-TEST(PlaneMotion, TwoEqualIsChosenRightly) {
+TEST(PlaneMotion, TwoEqualIsChosenCorrectly) {
   const Eigen::Matrix3d R = rotation(0.2, -0.1, 0.05);
   const Eigen::Vector3d t = -0.4 * R.col(2);
   const PlaneMotions motions = decompose_plane_motion(R + t * Eigen::RowVector3d(0, 0, 1));
@@ -197,7 +197,7 @@ TEST(PlaneMotion, AllEqualIsAPureRotation) {
     EXPECT_LT((motions.motions[0].R_cur_from_ref - R).norm(), 1e-9);
     EXPECT_EQ(motions.motions[0].t_over_d.norm(), 0.0);
   }
-  // The rotation is chosen although its normal is undetermined: the known one takes its place.
+  // The rotation is chosen although its normal is undetermined: the known normal is used instead.
   const MotionChoice choice = heel::choose_motion(decompose_plane_motion(rotation(0.3, 0.0, 0.0)), kRegion,
                                                   Eigen::Vector3d(0.6, 0.0, 0.8));
   EXPECT_EQ(choice.best, 0);
@@ -220,7 +220,7 @@ TEST(PlaneMotion, DegenerateMatricesGiveNoMotion) {
   EXPECT_EQ(heel::choose_motion(decompose_plane_motion(A), kRegion).best, -1);
 }
 
-// Either side of each boundary the answer changes by no more than the boundary's own width: no jump.
+// Across each boundary between two cases the solution changes by no more than the width of the boundary.
 TEST(PlaneMotion, ContinuousAcrossTheBoundaries) {
   for (const double tilt : {1e-9, 1e-8, 1e-7, 5e-7, 1e-6, 2e-6, 1e-5, 1e-4, 1e-3}) {
     const Eigen::Matrix3d R = rotation(0.1, 0.05, 0.0);

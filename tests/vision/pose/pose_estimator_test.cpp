@@ -1,4 +1,5 @@
-// The whole stage on rendered frames: a printed plane through two different, both distorting, lenses.
+// The whole vision stage on rendered frames: a printed plane through two different lenses, both with
+// distortion.
 #include "heel/pose_estimator.h"
 
 #include <gtest/gtest.h>
@@ -105,7 +106,7 @@ TEST(PoseEstimator, SameFrameSameEstimateToTheBit) {
   const Eigen::Matrix3d R = heel::test::rotation(-0.3, 0.0, 0.0);
   const cv::Mat frame = render(taught, homography(R, t_over_d_for(R, 0.0, 1.2)), 5);
   const PoseEstimate first = one.estimate(view_of(frame));
-  two.estimate(view_of(texture(77, 640, 480)));  // what came before leaves no trace
+  two.estimate(view_of(texture(77, 640, 480)));  // earlier frames have no effect
   const PoseEstimate second = two.estimate(view_of(frame));
   EXPECT_EQ(first.R_cur_from_ref, second.R_cur_from_ref);
   EXPECT_EQ(first.H_cur_from_ref, second.H_cur_from_ref);
@@ -134,7 +135,7 @@ TEST(PoseEstimator, RefusalsAreNamed) {
   for (int i = 0; i < 5; ++i) cv::circle(dots, {100 + 100 * i, 200 + 15 * i}, 6, 20, -1, cv::LINE_AA);
   EXPECT_EQ(estimator.estimate(view_of(dots)).reason, PoseReason::TooFewMatches);
 
-  // Found by features, but at a size the shirt cannot have where the robot may follow.
+  // Enough matches, but at a size that the shirt cannot have at the allowed distances.
   VisionConfig narrow = flat_shirt_config();
   narrow.distance_min_m = 0.6;
   narrow.distance_max_m = 0.8;
@@ -151,7 +152,7 @@ TEST(PoseEstimator, RefusalsAreNamed) {
             PoseReason::TooFewInliers);
 }
 
-TEST(PoseEstimator, ATemplateThatCannotBeFollowedIsRefusedBeforehand) {
+TEST(PoseEstimator, ConstructorRefusesATemplateThatCannotBeFollowed) {
   ShirtTemplate plain = shirt();
   std::fill(plain.grey.begin(), plain.grey.end(), std::uint8_t{128});
   EXPECT_THROW(PoseEstimator(plain, robot_camera(), VisionConfig{}), heel::Error);

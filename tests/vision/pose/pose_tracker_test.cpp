@@ -1,5 +1,4 @@
-// Tracking costs no detection and no accuracy: what it finds in the expected view, a search of everything
-// finds too.
+// Tracking loses no detection and no accuracy against a search of the whole frame.
 #include "heel/pose_tracker.h"
 
 #include <gtest/gtest.h>
@@ -44,14 +43,14 @@ Eigen::Matrix3d homography_of(const PoseEstimate& pose) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.H_cur_from_ref.data());
 }
 
-TEST(PoseTracker, FollowsTheBackAcrossTheViewAsWellAsASearchOfEverything) {
+TEST(PoseTracker, TracksTheBackAcrossTheViewAsWellAsASearchOfTheWholeFrame) {
   const ShirtTemplate taught = shirt();
   PoseTracker tracker(taught, robot_camera(), flat_shirt_config());
   PoseEstimator everywhere(taught, robot_camera(), flat_shirt_config());
   double tracked_error_px = 0.0, whole_error_px = 0.0;
   int frames = 0;
   for (; frames < 24; ++frames) {
-    // To the side at 0.9 rad/s of the view, turning and going away as it does.
+    // The back crosses the view at 0.9 rad/s, while it turns and moves away.
     const double share = frames / 24.0;
     const double x = -0.35 + 0.7 * share, yaw_rad = 0.6 * std::sin(6.0 * share), depth = 0.9 + 0.5 * share;
     const Eigen::Matrix3d R = heel::test::rotation(yaw_rad, 0.02, 0.0);
@@ -67,13 +66,13 @@ TEST(PoseTracker, FollowsTheBackAcrossTheViewAsWellAsASearchOfEverything) {
     tracked_error_px += heel::test::corner_error_px(homography_of(pose), truth);
     whole_error_px += heel::test::corner_error_px(homography_of(whole), truth);
   }
-  std::cout << "corner error tracked " << tracked_error_px / frames << " px, searching everything "
+  std::cout << "corner error tracked " << tracked_error_px / frames << " px, searching the whole frame "
             << whole_error_px / frames << " px\n";
   EXPECT_LT(tracked_error_px, 1.2 * whole_error_px);
 }
 
-// From three times as far as it was taught, where few of the template's features reach the smallest filter.
-TEST(PoseTracker, LooksCloselyAtAShirtFarAway) {
+// At three times the template's distance, where few of its features are as large as the smallest filter.
+TEST(PoseTracker, UpsamplesAShirtFarAway) {
   ShirtTemplate taught = shirt();
   taught.distance_m = 1.5;
   PoseTracker tracker(taught, robot_camera(), flat_shirt_config());
@@ -109,19 +108,19 @@ TEST(PoseTracker, AJumpIsFoundInTheSameFrame) {
   EXPECT_TRUE(tracker.estimate(frame_at(seen(taught, 0.2, 0.35, 1.2), 2)).tracked);
 }
 
-TEST(PoseTracker, LostAndForgottenItIsLookedForEverywhere) {
+TEST(PoseTracker, SearchesTheWholeFrameWhenTheLastDetectionIsOld) {
   const ShirtTemplate taught = shirt();
   PoseTracker tracker(taught, robot_camera(), flat_shirt_config());
   const cv::Mat view = seen(taught, 0.1, 0.0, 1.2), clutter = texture(9, 640, 480);
   EXPECT_TRUE(tracker.estimate(frame_at(view, 0)).found());
   EXPECT_FALSE(tracker.estimate(frame_at(clutter, 1)).found());
-  EXPECT_TRUE(tracker.estimate(frame_at(view, 2)).tracked) << "a blink is not forgetting";
+  EXPECT_TRUE(tracker.estimate(frame_at(view, 2)).tracked) << "one frame without a detection";
   const PoseEstimate later = tracker.estimate(frame_at(view, 2 + 16));
   EXPECT_TRUE(later.found());
   EXPECT_FALSE(later.tracked) << "after more than half a second";
 }
 
-TEST(PoseTracker, AFilmThatBeginsAgainIsSearchedWhole) {
+TEST(PoseTracker, SearchesTheWholeFrameWhenASourceStartsAgain) {
   const ShirtTemplate taught = shirt();
   PoseTracker tracker(taught, robot_camera(), flat_shirt_config());
   const cv::Mat view = seen(taught, 0.1, 0.0, 1.2);
@@ -131,7 +130,7 @@ TEST(PoseTracker, AFilmThatBeginsAgainIsSearchedWhole) {
   EXPECT_FALSE(again.tracked);
 }
 
-TEST(PoseTracker, StaysWithItsPersonWhenAnotherWearsTheSameShirt) {
+TEST(PoseTracker, KeepsItsPersonWhenAnotherWearsTheSameShirt) {
   const ShirtTemplate taught = shirt();
   const cv::Mat ours = seen(taught, 0.0, -0.28, 1.6), other = seen(taught, 0.0, 0.28, 1.6);
   cv::Mat both = ours.clone();
@@ -155,7 +154,7 @@ TEST(PoseTracker, WithoutTrackingItIsTheEstimator) {
   PoseTracker tracker(taught, robot_camera(), config);
   PoseEstimator estimator(taught, robot_camera(), config);
   for (int number = 0; number < 3; ++number) {
-    const cv::Mat view = seen(taught, 0.1 * number, 0.0, 1.0);  // near enough not to be looked at twice
+    const cv::Mat view = seen(taught, 0.1 * number, 0.0, 1.0);  // near enough not to be upsampled
     const PoseEstimate tracked = tracker.estimate(frame_at(view, number));
     const PoseEstimate whole = estimator.estimate(frame_at(view, number));
     EXPECT_FALSE(tracked.tracked);
@@ -164,7 +163,7 @@ TEST(PoseTracker, WithoutTrackingItIsTheEstimator) {
   }
 }
 
-TEST(PoseTracker, ExpectedViewGrowsWithTimeAndHoldsTheBack) {
+TEST(PoseTracker, ExpectedViewGrowsWithTimeAndContainsTheBack) {
   const ShirtTemplate taught = shirt();
   PoseEstimator estimator(taught, robot_camera(), flat_shirt_config());
   const PoseEstimate pose = estimator.estimate(frame_at(seen(taught, 0.3, 0.2, 1.0), 0));

@@ -1,4 +1,4 @@
-// Real pictures with known truth: the Oxford sets' homographies, and a person filmed from behind.
+// Real images with known truth: homographies of the Oxford sets, and a person filmed from behind.
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
@@ -16,7 +16,7 @@ using heel::PoseEstimate;
 using heel::ShirtTemplate;
 using heel::test::view_of;
 
-/// The camera is not known: any focal length gives the same homography.
+/// The camera is unknown, but every focal length gives the same homography.
 ShirtTemplate taught_from(const cv::Mat& image, const heel::Region& roi, bool oriented) {
   ShirtTemplate shirt;
   shirt.grey.assign(image.data, image.data + image.total());
@@ -71,8 +71,8 @@ INSTANTIATE_TEST_SUITE_P(Real, OxfordPairTest,
                                          Pair{"leuven", 5, false}, Pair{"leuven", 6, false}),
                          pair_name);
 
-// The knit back of frame 1000. Looking at the frames: it comes into view whole at about 925, walks away and
-// stands until 1175, and turns away until about 1185; nobody else in the film wears it.
+// The knitted back of frame 1000. By inspection of the frames: it is completely in view from about 925, walks
+// away and stands until 1175, and turns away until about 1185. No other person in the film wears it.
 TEST(PersonFromBehind, FoundWhereSheIsAndNowhereElse) {
   HEEL_NEEDS_TEST_DATA("person/one-by-one.mp4");
   std::vector<cv::Mat> frames;

@@ -1,5 +1,5 @@
-// A printed back before clutter, as the robot's camera sees it: the template's region as a plane that has
-// moved.
+// A printed back in front of clutter, as the robot's camera sees it: the template's region as a plane that
+// has moved.
 #pragma once
 
 #include <Eigen/LU>
@@ -57,7 +57,7 @@ inline heel::ShirtTemplate shirt() {
   return shirt;
 }
 
-/// What the robot's camera sees: the template's region as a plane moved by (R, t), clutter round it.
+/// The frame of the robot's camera: the template's region as a plane moved by (R, t), with clutter round it.
 inline cv::Mat render(const heel::ShirtTemplate& shirt, const Eigen::Matrix3d& H_cur_from_ref,
                       std::uint64_t clutter_seed) {
   const heel::CameraModel camera = robot_camera();
@@ -117,7 +117,7 @@ inline Eigen::Matrix3d homography(const Eigen::Matrix3d& R, const Eigen::Vector3
   return homography_of(template_camera().K(), robot_camera().K(), R, t_over_d);
 }
 
-/// The plane's centre at `depth` times the template's distance, straight ahead but for a little.
+/// The plane's centre at `depth` times the template's distance, almost straight ahead.
 inline Eigen::Vector3d t_over_d_for(const Eigen::Matrix3d& R, double x, double depth) {
   return Eigen::Vector3d(x * depth, 0.02 * depth, depth) - R * Eigen::Vector3d::UnitZ();
 }

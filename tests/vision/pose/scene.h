@@ -1,5 +1,5 @@
-// Made truth for the geometry's tests: cameras, motions in front of a plane, point pairs with noise and
-// outliers. Every case derives its own seed, so that a failure names it.
+// Synthetic truth for tests of geometry: cameras, motions in front of a plane, point pairs with noise and
+// outliers. Each case has its own seed, which a failure reports.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -53,7 +53,7 @@ inline Eigen::Vector2d mapped(const Eigen::Matrix3d& H, const Eigen::Vector2d& p
   return (H * point.homogeneous()).hnormalized();
 }
 
-/// The shirt, seen at `yaw` from about the template's distance: a view as following gives it.
+/// A view of the shirt as it occurs while following: at some yaw, from about the template's distance.
 struct View {
   Eigen::Matrix3d R;
   Eigen::Vector3d t_over_d;

@@ -1,4 +1,4 @@
-// The 2:1 reduction against OpenCV's, and what it does with odd sizes.
+// The reduction by two against OpenCV's, and odd sizes.
 #include "vision/template/half_size.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The verdict on made-up shirts whose worth is plain to the eye, and on the real ones.
+// The verdict on synthetic shirts of obvious quality, and on a real one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 constexpr int kWidth_px = 640;
 constexpr int kHeight_px = 480;
 
-/// A shirt of 160 × 200 px in the middle of an even grey wall, with sensor noise of one grey level.
+/// A shirt of 160 × 200 px in front of a uniform grey wall, with sensor noise of one grey level.
 ShirtTemplate shirt_with(const cv::Mat& cloth) {
   cv::Mat image(kHeight_px, kWidth_px, CV_8UC1, cv::Scalar(90));
   const cv::Rect place(220, 120, 160, 200);
@@ -45,7 +45,7 @@ cv::Mat plain(int grey = 130) {
   return cv::Mat(kHeight_px, kWidth_px, CV_8UC1, cv::Scalar(grey));
 }
 
-/// Blobs, bars and rings of many sizes: no two places alike.
+/// Blobs, bars and rings of many sizes: no two places are similar.
 cv::Mat print(std::uint64_t seed = 3) {
   cv::Mat cloth = plain();
   cv::RNG random(seed);
@@ -110,7 +110,7 @@ TEST(TemplateQuality, RefusesACheckBecauseItRepeats) {
   }
 }
 
-TEST(TemplateQuality, RefusesEvenGrainBecauseItLooksAlikeEverywhere) {
+TEST(TemplateQuality, RefusesUniformGrainBecauseItIsSimilarEverywhere) {
   cv::Mat grain(kHeight_px, kWidth_px, CV_32FC1);
   cv::RNG(11).fill(grain, cv::RNG::NORMAL, 0, 1);
   cv::Mat fine, coarse, cloth;
@@ -123,8 +123,8 @@ TEST(TemplateQuality, RefusesEvenGrainBecauseItLooksAlikeEverywhere) {
 }
 
 TEST(TemplateQuality, RefusesAPatternThatIsGoneAtTwiceTheDistance) {
-  // Small print: features, each unlike the others, that melt into the cloth when they are half as large. Set
-  // pixel by pixel, so that it is the same on every processor.
+  // Small print: each feature is different from the others, but at half the size none is left. Set pixel by
+  // pixel, so that it is the same on every processor.
   cv::Mat cloth = plain();
   cv::RNG random(5);
   constexpr int kMark_px = 7, kStep_px = 20;

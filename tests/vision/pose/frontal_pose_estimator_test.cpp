@@ -1,5 +1,5 @@
-// The pose against the known normal: accuracy, flips, and whether the stated sigma is honest.
-#include "vision/pose/motion_refine.h"
+// The pose of a plane of known normal: accuracy, flips, and whether the stated sigma is correct.
+#include "vision/pose/frontal_pose_estimator.h"
 
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ TEST(FrontalPose, ExactWithoutNoise) {
   }
 }
 
-TEST(FrontalPose, ReferenceViewItselfIsNoMotion) {
+TEST(FrontalPose, ReferenceViewItselfGivesNoMotion) {
   Random random(3);
   bool ok = false;
   const Outcome outcome = solve(inlier_pairs(random, Eigen::Matrix3d::Identity(), 50, 0.0, 0.0), ok);
@@ -65,10 +65,9 @@ TEST(FrontalPose, ReferenceViewItselfIsNoMotion) {
   EXPECT_LT(outcome.pose.motion.t_over_d.norm(), 1e-6);
 }
 
-// Mean of the normalised errors squared over n trials: χ²/n, within its 95 % band (± the band's widening by
-// the noise estimated from few residuals). No flips in this regime: large enough in the image, or turned
-// enough.
-TEST(FrontalPose, StatedSigmaIsHonest) {
+// The mean squared normalised error over n trials is χ²/n, within its 95 % band, which the noise estimate
+// from few residuals widens. The views are large enough in the image, or turned enough, that no flip occurs.
+TEST(FrontalPose, StatedSigmaIsThatOfTheErrors) {
   constexpr int kTrials = 800;
   double yaw = 0.0;
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
@@ -99,9 +98,9 @@ TEST(FrontalPose, StatedSigmaIsHonest) {
   EXPECT_LT(mean_abs_yaw, 0.7 * mean_abs_bare);
 }
 
-// Small in the image and nearly frontal, the two minima come close. What is chosen may be wrong, but then
-// sigma says so: errors beyond three sigma stay rare, and the ambiguity is seen.
-TEST(FrontalPose, AmbiguityShowsInSigma) {
+// If the plane is small in the image and nearly frontal, the two minima have similar costs, and the wrong one
+// may be chosen. Sigma includes that: errors beyond three sigma are rare, and the ambiguity is reported.
+TEST(FrontalPose, SigmaIncludesTheAmbiguity) {
   constexpr int kTrials = 600;
   int beyond = 0, flipped = 0, ambiguous = 0;
   double squared = 0.0;
@@ -123,7 +122,7 @@ TEST(FrontalPose, AmbiguityShowsInSigma) {
   std::cout << "far and frontal: " << flipped << " of " << kTrials << " flipped, " << ambiguous
             << " known to be ambiguous, " << beyond << " beyond 3 sigma; normalised error squared " << squared
             << "\n";
-  EXPECT_GT(flipped, 5);  // the case is as hard as it is meant to be
+  EXPECT_GT(flipped, 5);  // the case is difficult, as intended
   EXPECT_GT(ambiguous, flipped);
   EXPECT_LT(beyond, kTrials * 3 / 100);
   EXPECT_LT(squared, 2.0);
@@ -141,7 +140,7 @@ TEST(FrontalPose, MirroredStartKeepsTheCentreInPlace) {
   const Eigen::Vector3d centre = K.inverse() * Eigen::Vector3d(300.0, 200.0, 1.0);
   const Eigen::Vector3d here = view.R * centre + view.t_over_d;
   EXPECT_LT((other.R_cur_from_ref * centre + other.t_over_d - here).norm(), 1e-12);
-  // The same angle to the line of sight, on its other side.
+  // The same angle to the line of sight, on the other side.
   EXPECT_NEAR(other.R_cur_from_ref.col(2).dot(here), view.R.col(2).dot(here), 1e-12);
   EXPECT_GT((other.R_cur_from_ref.col(2) - view.R.col(2)).norm(), 1e-3);
 }

@@ -1,4 +1,4 @@
-#include "vision/pose/motion_refine.h"
+#include "vision/pose/frontal_pose_estimator.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -15,10 +15,10 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr int kStepsToMinimum = 30;
-constexpr double kLeastVariance = 1e-4;  // px²; no feature is placed better than to 0.01 px
-constexpr double kSameMinimum = 1e-3;    // √2 times the angle between them
-constexpr double kFarthest = 10.0;       // d, before anything is seen
-constexpr double kBehindCost = 1e12;     // px², of a point that would lie behind the camera
+constexpr double kMinVariance_px2 = 1e-4;  // no feature is placed more precisely than 0.01 px
+constexpr double kSameMinimum = 1e-3;      // √2 times the angle between two rotations
+constexpr double kPriorTOverD = 10.0;      // standard deviation of t/d without any pair
+constexpr double kBehindCost_px2 = 1e12;   // of a point behind the camera
 
 struct Pose {
   Eigen::Matrix3d R;
@@ -27,8 +27,8 @@ struct Pose {
 
 using WhitenedPair = FrontalPoseEstimator::WhitenedPair;
 
-/// Of a forward residual whose noise is 1 px in both images: its covariance is S = I + D Dᵀ, D = d cur / d
-/// ref, and L⁻¹ r with S = L Lᵀ has covariance I.
+/// L⁻¹ with S = L Lᵀ, where S = I + D Dᵀ is the covariance of a forward residual r if the noise is 1 px in
+/// both images, and D = d cur / d ref. L⁻¹ r has covariance I.
 Eigen::Matrix2d whitening(const Eigen::Matrix3d& H, const Eigen::Vector2d& ref_px) {
   const Eigen::Matrix2d D = projection_jacobian(H * ref_px.homogeneous()) * H.leftCols<2>();
   const Eigen::Matrix2d S = Eigen::Matrix2d::Identity() + D * D.transpose();
@@ -46,13 +46,12 @@ Pose turned_and_moved(const Pose& pose, const Vector6d& step) {
   return {turn * pose.R, pose.t + step.tail<3>()};
 }
 
-/// The problem as the minimiser sees it.
+/// The cost of the pose as a problem for levenberg_marquardt.
 struct PoseDescent {
   std::span<const WhitenedPair> pairs;
   FrontalPoseEstimator::Linearised& linearised;
 
-  /// Fills `linearised`, both residuals of a pair at a time; returns the cost. Points behind the camera have
-  /// no derivative.
+  /// Fills `linearised` and returns the cost. A point behind the camera has zero residual and derivative.
   double linearise(const Pose& pose) const {
     double cost = 0.0;
     Eigen::Index row = 0;
@@ -69,12 +68,12 @@ struct PoseDescent {
         by_z = -direction.x() * by_x - direction.y() * by_y;
         cost += residual.squaredNorm();
       } else {
-        cost += kBehindCost;
+        cost += kBehindCost_px2;
       }
       const auto set = [&](Eigen::Index column, const Eigen::Vector2d& by) {
         linearised.J.col(column).segment<2>(row) = by;
       };
-      set(0, r.y() * by_z - r.z() * by_y);  // a turn ω moves the point by ω × r
+      set(0, r.y() * by_z - r.z() * by_y);  // a rotation ω moves the point by ω × r
       set(1, r.z() * by_x - r.x() * by_z);
       set(2, r.x() * by_y - r.y() * by_x);
       set(3, by_x);
@@ -95,7 +94,7 @@ struct PoseDescent {
     return equations;
   }
 
-  /// Jᵀ J of what is linearised.
+  /// Jᵀ J at the linearised pose.
   Matrix6d normal_matrix() const {
     const auto J = linearised.J.topRows(rows());
     Matrix6d N;
@@ -106,28 +105,29 @@ struct PoseDescent {
 
   Eigen::Index rows() const { return 2 * static_cast<Eigen::Index>(pairs.size()); }
 
-  /// With N' = N / σ² + P, P the little that is known beforehand, the noise gives N'⁻¹. A departure of the
-  /// surface moves the minimum by −N'⁻¹ Σ Jᵀ (∂r/∂a) / σ²: the departures, known by their deviation only, add
-  /// the squares of that.
+  /// The noise gives N'⁻¹ with N' = N / σ² + P, where P is the prior's precision. A departure a of the
+  /// surface moves the minimum by −N'⁻¹ Σ Jᵀ (∂r/∂a) / σ²; each departure is N(0, 1) and adds the square of
+  /// that.
   Matrix6d covariance(const Pose& pose, double variance_px2) const {
     linearise(pose);
     const Eigen::Vector3d normal = pose.R.col(2);
-    Matrix6d by_departure = Matrix6d::Zero();
+    Matrix6d sum_by_departure = Matrix6d::Zero();
     Eigen::Index row = 0;
     for (const WhitenedPair& pair : pairs) {
       const Eigen::Vector3d ray = pose.R * (pair.point_ref / pair.point_ref.z());
       for (int axis = 0; axis < 2; ++axis, ++row) {
         const auto J = linearised.J.row(row);
-        Vector6d moved_px;
-        moved_px << J.tail<3>().dot(normal) * pair.departures, J.tail<3>().dot(ray) * pair.departure_of_bend;
-        by_departure += J.transpose() * moved_px.transpose();
+        Vector6d by_departure_px;
+        by_departure_px << J.tail<3>().dot(normal) * pair.departures,
+            J.tail<3>().dot(ray) * pair.departure_of_bend;
+        sum_by_departure += J.transpose() * by_departure_px.transpose();
       }
     }
     Matrix6d precision = normal_matrix() / variance_px2;
     precision.diagonal().head<3>().array() += 1.0 / (M_PI * M_PI);
-    precision.diagonal().tail<3>().array() += 1.0 / (kFarthest * kFarthest);
+    precision.diagonal().tail<3>().array() += 1.0 / (kPriorTOverD * kPriorTOverD);
     const Matrix6d of_noise = precision.ldlt().solve(Matrix6d::Identity());
-    const Matrix6d moved = of_noise * by_departure / variance_px2;
+    const Matrix6d moved = of_noise * sum_by_departure / variance_px2;
     return of_noise + moved * moved.transpose();
   }
 
@@ -153,8 +153,8 @@ PlaneMotion mirrored_motion(const FrontalProblem& problem, const FrontalMotion& 
   const Eigen::Vector3d centre_cur = motion.R_cur_from_ref * centre_ref + motion.t_over_d;
   const Eigen::Vector3d sight = centre_cur.normalized();
   const Eigen::Vector3d normal_cur = motion.R_cur_from_ref.col(2);
-  // Half a turn about the normal, then half a turn about the line of sight: twice the angle from one to the
-  // other.
+  // A half turn about the normal followed by a half turn about the line of sight is a rotation by twice the
+  // angle between the two.
   PlaneMotion other;
   other.R_cur_from_ref = half_turn_about(sight) * half_turn_about(normal_cur) * motion.R_cur_from_ref;
   other.t_over_d = centre_cur - other.R_cur_from_ref * centre_ref;
@@ -167,7 +167,8 @@ FrontalPoseEstimator::FrontalPoseEstimator(std::size_t max_pairs) : capacity_(ma
   linearised_.residuals.resize(2 * static_cast<Eigen::Index>(capacity_));
 }
 
-void FrontalPoseEstimator::load(const FrontalProblem& problem) {
+std::span<const FrontalPoseEstimator::WhitenedPair> FrontalPoseEstimator::whiten(
+    const FrontalProblem& problem) {
   const Eigen::Matrix3d K_ref_inverse = problem.K_ref.inverse(), K_cur_inverse = problem.K_cur.inverse();
   pairs_.clear();
   for (const PointPair& pair : problem.pairs.first(std::min(problem.pairs.size(), capacity_))) {
@@ -176,40 +177,42 @@ void FrontalPoseEstimator::load(const FrontalProblem& problem) {
                       whitening(problem.H_cur_from_ref, pair.ref_px) * problem.K_cur.topLeftCorner<2, 2>(),
                       problem.surface.departures(ray), problem.surface.departure_of_bend(ray)});
   }
+  return pairs_;
 }
 
 FrontalMotion FrontalPoseEstimator::refine(const FrontalProblem& problem, const PlaneMotion& start,
                                            int max_steps) {
-  load(problem);
-  return descend(start, max_steps);
+  return descend(whiten(problem), start, max_steps);
 }
 
-FrontalMotion FrontalPoseEstimator::descend(const PlaneMotion& start, int max_steps) {
+FrontalMotion FrontalPoseEstimator::descend(std::span<const WhitenedPair> pairs, const PlaneMotion& start,
+                                            int max_steps) {
   Pose pose{start.R_cur_from_ref, start.t_over_d};
   const double cost = levenberg_marquardt(
-      PoseDescent{pairs_, linearised_},
+      PoseDescent{pairs, linearised_},
       DescentLimits{.max_steps = max_steps, .converged = 1e-5, .max_damping = 1e10}, pose);
   FrontalMotion motion;
   motion.R_cur_from_ref = Eigen::Quaterniond(pose.R).normalized().toRotationMatrix();
   motion.t_over_d = pose.t;
   motion.cost_px2 = cost;
-  motion.noise_px = std::sqrt(cost / std::max(1.0, 2.0 * static_cast<double>(pairs_.size()) - 6.0));
+  motion.noise_px = std::sqrt(cost / std::max(1.0, 2.0 * static_cast<double>(pairs.size()) - 6.0));
   return motion;
 }
 
 FrontalPose FrontalPoseEstimator::estimate(const FrontalProblem& problem, const PlaneMotion& start) {
-  load(problem);
-  FrontalMotion chosen = descend(start, kStepsToMinimum);
-  FrontalMotion other = descend(mirrored_motion(problem, chosen), kStepsToMinimum);
+  const std::span<const WhitenedPair> pairs = whiten(problem);
+  FrontalMotion chosen = descend(pairs, start, kStepsToMinimum);
+  FrontalMotion other = descend(pairs, mirrored_motion(problem, chosen), kStepsToMinimum);
   if (other.cost_px2 < chosen.cost_px2) std::swap(chosen, other);
 
   FrontalPose pose;
   pose.motion = chosen;
   pose.other = other;
-  pose.covariance = PoseDescent{pairs_, linearised_}.covariance(
-      {chosen.R_cur_from_ref, chosen.t_over_d}, std::max(chosen.noise_px * chosen.noise_px, kLeastVariance));
+  pose.covariance = PoseDescent{pairs, linearised_}.covariance(
+      {chosen.R_cur_from_ref, chosen.t_over_d},
+      std::max(chosen.noise_px * chosen.noise_px, kMinVariance_px2));
   pose.yaw_rad = yaw_of_rotation(chosen.R_cur_from_ref);
-  // Two hypotheses of equal prior: their odds are exp(−Δχ²/2).
+  // The odds of two hypotheses of equal prior are exp(−Δχ²/2).
   const double chi2_excess =
       (other.cost_px2 - chosen.cost_px2) / std::max(chosen.noise_px * chosen.noise_px, 1e-12);
   const bool same = (chosen.R_cur_from_ref - other.R_cur_from_ref).norm() < kSameMinimum;
