@@ -15,6 +15,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr TimeNs kNow_ns = 100 * kNsPerS;
 constexpr TimeNs kTick_ns = 20 * kNsPerMs;
+constexpr double kTick_s = 0.02;
+const GateConfig kLimits;  // the defaults
 
 VelocityCommand command(double v_m_s, double yaw_rate_rad_s, TimeNs t_issued_ns = kNow_ns) {
   return {t_issued_ns, t_issued_ns + 200 * kNsPerMs, v_m_s, yaw_rate_rad_s, 0};
@@ -44,22 +46,25 @@ TEST(Gate, LetsAModestCommandThroughUntouched) {
 }
 
 TEST(Gate, SpeedIsLimitedAndSaysSo) {
-  const auto out = pass(command(9, -9), command(0.7, -1.0, kNow_ns - kTick_ns));
-  EXPECT_DOUBLE_EQ(out.v_m_s, 0.7);
-  EXPECT_DOUBLE_EQ(out.yaw_rate_rad_s, -1.0);
+  const double v_m_s = kLimits.v_max_m_s, yaw_rate_rad_s = -kLimits.yaw_rate_max_rad_s;
+  const auto out = pass(command(9, -9), command(v_m_s, yaw_rate_rad_s, kNow_ns - kTick_ns));
+  EXPECT_DOUBLE_EQ(out.v_m_s, v_m_s);
+  EXPECT_DOUBLE_EQ(out.yaw_rate_rad_s, yaw_rate_rad_s);
   EXPECT_EQ(out.limited_by, kGateSpeed);
 }
 
 TEST(Gate, SlewsFromThePresentCommand) {
-  const auto out = pass(command(0.7, 1.0), command(0.1, 0.0, kNow_ns - kTick_ns));
-  EXPECT_NEAR(out.v_m_s, 0.1 + 0.6 * 0.02, 1e-12);
-  EXPECT_NEAR(out.yaw_rate_rad_s, 2.5 * 0.02, 1e-12);
+  const auto out =
+      pass(command(kLimits.v_max_m_s, kLimits.yaw_rate_max_rad_s), command(0.1, 0.0, kNow_ns - kTick_ns));
+  EXPECT_NEAR(out.v_m_s, 0.1 + kLimits.acceleration_m_s2 * kTick_s, 1e-12);
+  EXPECT_NEAR(out.yaw_rate_rad_s, kLimits.yaw_acceleration_rad_s2 * kTick_s, 1e-12);
   EXPECT_EQ(out.limited_by, kGateAcceleration);
 }
 
 TEST(Gate, ReversalStopsAtZeroFirst) {
   EXPECT_EQ(pass(command(-0.5, 0), command(0.01, 0, kNow_ns - kTick_ns)).v_m_s, 0.0);
-  EXPECT_NEAR(pass(command(-0.5, 0), command(0.0, 0, kNow_ns - kTick_ns)).v_m_s, -0.012, 1e-12);
+  EXPECT_NEAR(pass(command(-0.5, 0), command(0.0, 0, kNow_ns - kTick_ns)).v_m_s,
+              -kLimits.acceleration_m_s2 * kTick_s, 1e-12);
 }
 
 TEST(Gate, FirstCommandAndFirstAfterAGapAreZero) {
@@ -70,17 +75,19 @@ TEST(Gate, FirstCommandAndFirstAfterAGapAreZero) {
 }
 
 TEST(Gate, ComesToRestWithinTheDeceleration) {
-  VelocityCommand last = command(0.7, -1.0, kNow_ns);
+  VelocityCommand last = command(kLimits.v_max_m_s, -kLimits.yaw_rate_max_rad_s, kNow_ns);
   TimeNs now_ns = kNow_ns;
   while (last.v_m_s != 0.0 || last.yaw_rate_rad_s != 0.0) {
     now_ns += kTick_ns;
     const auto next = apply_gate(command(0.7, -1.0, now_ns), last, StopStyle::ComeToRest, free_space(),
                                  now_ns, GateConfig{})
                           .command;
-    ASSERT_LE(last.v_m_s - next.v_m_s, 1.5 * 0.02 + 1e-12);
+    ASSERT_LE(last.v_m_s - next.v_m_s, kLimits.deceleration_m_s2 * kTick_s + 1e-12);
     last = next;
   }
-  EXPECT_LE(now_ns - kNow_ns, 500 * kNsPerMs);
+  const double longest_s = std::max(kLimits.v_max_m_s / kLimits.deceleration_m_s2,
+                                    kLimits.yaw_rate_max_rad_s / kLimits.yaw_acceleration_rad_s2);
+  EXPECT_LE(seconds_from_ns(now_ns - kNow_ns), longest_s + kTick_s);
 }
 
 TEST(Gate, AtOnceIsZeroNow) {

@@ -20,12 +20,23 @@ TEST(SessionConnect, WholeScriptInOrder) {
     bool has_value;
     int value;
   };
+  const RobotConfig c = bench_config();
   const Expected script[] = {
-      {CommandId::Sync0, false, 0},  {CommandId::Sync1, false, 0},  {CommandId::Sync2, false, 0},
-      {CommandId::Open, true, 1},    {CommandId::Stop, false, 0},   {CommandId::Config, true, 1},
-      {CommandId::SetV, true, 750},  {CommandId::SetA, true, 600},  {CommandId::SetA, true, -1500},
-      {CommandId::SetRv, true, 100}, {CommandId::SetRa, true, 180}, {CommandId::SetRa, true, -180},
-      {CommandId::Sonar, true, 1},   {CommandId::Vel, true, 0},     {CommandId::RVel, true, 0},
+      {CommandId::Sync0, false, 0},
+      {CommandId::Sync1, false, 0},
+      {CommandId::Sync2, false, 0},
+      {CommandId::Open, true, 1},
+      {CommandId::Stop, false, 0},
+      {CommandId::Config, true, 1},
+      {CommandId::SetV, true, c.v_limit_mm_s},
+      {CommandId::SetA, true, c.acceleration_mm_s2},
+      {CommandId::SetA, true, -c.deceleration_mm_s2},
+      {CommandId::SetRv, true, c.yaw_rate_limit_deg_s},
+      {CommandId::SetRa, true, c.yaw_acceleration_deg_s2},
+      {CommandId::SetRa, true, -c.yaw_acceleration_deg_s2},
+      {CommandId::Sonar, true, 1},
+      {CommandId::Vel, true, 0},
+      {CommandId::RVel, true, 0},
       {CommandId::Enable, true, 1},
   };
   ASSERT_GE(bench.robot.log.size(), std::size(script));
@@ -162,7 +173,8 @@ TEST(SessionConfig, MissingOrDamagedIsDoneWithout) {
     ASSERT_TRUE(bench.run_until(LinkPhase::Running));
     EXPECT_EQ(bench.count(Kind::ConfigMissing), 1);
     EXPECT_EQ(bench.session.state().checksum_errors, damaged ? 1u : 0u);
-    EXPECT_TRUE(bench.robot.log[bench.robot.find(CommandId::SetV)].is(CommandId::SetV, 750));
+    EXPECT_TRUE(
+        bench.robot.log[bench.robot.find(CommandId::SetV)].is(CommandId::SetV, bench_config().v_limit_mm_s));
   }
 }
 
@@ -175,10 +187,10 @@ TEST(SessionConfig, ControllersOwnLimitsAreNotExceeded) {
   ASSERT_TRUE(bench.run_until(LinkPhase::Running));
   const auto sent = [&](CommandId id, std::size_t i) { return bench.robot.received(id).at(i).value; };
   EXPECT_EQ(sent(CommandId::SetV, 0), 500);
-  EXPECT_EQ(sent(CommandId::SetA, 0), 600);
+  EXPECT_EQ(sent(CommandId::SetA, 0), bench_config().acceleration_mm_s2);
   EXPECT_EQ(sent(CommandId::SetA, 1), -1000);
   EXPECT_EQ(sent(CommandId::SetRv, 0), 90);
-  EXPECT_EQ(sent(CommandId::SetRa, 0), 180);
+  EXPECT_EQ(sent(CommandId::SetRa, 0), bench_config().yaw_acceleration_deg_s2);
 }
 
 TEST(SessionConfig, NotAskedWhenNotWanted) {

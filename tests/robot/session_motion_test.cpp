@@ -95,8 +95,8 @@ TEST(SessionMotion, NotANumberCountsAsZeroAndLimitsHold) {
   bench.v_m_s = -1e9;
   bench.yaw_rate_rad_s = 1e9;
   bench.run(0.2);
-  EXPECT_EQ(bench.robot.received(CommandId::Vel).back().value, -750);
-  EXPECT_EQ(bench.robot.received(CommandId::RVel).back().value, 100);
+  EXPECT_EQ(bench.robot.received(CommandId::Vel).back().value, -bench_config().v_limit_mm_s);
+  EXPECT_EQ(bench.robot.received(CommandId::RVel).back().value, bench_config().yaw_rate_limit_deg_s);
 }
 
 TEST(SessionMotion, AfterAGapTheFirstIsZero) {

@@ -42,13 +42,10 @@ std::string VideoScene::write_config(double gain_yaw_1_s, const std::string& cam
   text +=
       "mount_x_m = 0.15\nmount_z_m = 1.1\n"
       "[target]\nshirt = \"knit.heel\"\n"
-      "[control]\nrate_hz = 50\ngain_distance_1_s = 1.0\ngain_lateral_rad_s_m = 1.0\ngain_yaw_1_s = " +
+      "[control]\ngain_yaw_1_s = " +
       std::to_string(gain_yaw_1_s) +
-      "\ndeadband_distance_m = 0.05\nreverse = false\n"
-      "[supervisor]\ncertainty_follow = 0.1\ncertainty_drop = 0.06\nframes_to_follow = 3\n"
-      "target_timeout_s = 0.5\nframe_timeout_s = 0.4\n"
-      "[gate]\nv_max_m_s = 0.7\nyaw_rate_max_rad_s = 1.0\nacceleration_m_s2 = 0.6\n"
-      "deceleration_m_s2 = 1.5\nyaw_acceleration_rad_s2 = 2.5\n";
+      "\n"
+      "[supervisor]\ntarget_timeout_s = 0.5\nframe_timeout_s = 0.4\n";  // 10 frames a second
   if (!camera_source.empty())
     text +=
         "[robot]\naddress = \"pty:robot\"\nsync_retry_s = 0.2\n"

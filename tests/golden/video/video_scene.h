@@ -1,5 +1,6 @@
 // What the video's tests share: the person's video, a camera file, the template taught from it, and a
-// configuration with gains and limits of its own, so that tuning heel's defaults does not renew the golden.
+// configuration. It is the shipped one but for the yaw gain, which is larger so that the commands show the
+// yaw, and the time-outs of a camera with 10 frames a second.
 #pragma once
 
 #include <cstdint>
