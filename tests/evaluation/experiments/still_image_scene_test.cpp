@@ -85,6 +85,7 @@ TEST(OccludingBoard, HidesTheCommandedShareOfTheBack) {
 }
 
 TEST(StillImageCases, CoverWhatTheirNamesSay) {
+  ASSERT_GE(still_image_experiments().size(), 4U);
   for (const StillImageExperiment& experiment : still_image_experiments()) {
     const auto cases = experiment.cases(experiment.repeats);
     EXPECT_GE(cases.size(), 12U) << experiment.name;

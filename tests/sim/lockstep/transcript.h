@@ -13,6 +13,7 @@
 #include "sim/lockstep/lockstep.h"
 #include "sim/scene/truth_columns.h"
 #include "support/decisions.h"
+#include "support/pose_bytes.h"
 #include "support/temporary_folder.h"
 
 namespace heel::test {
@@ -41,8 +42,7 @@ class TranscriptObserver : public sim::LockstepObserver {
     for (std::uint32_t row = 0; frame.grey != nullptr && row < header.height_px; ++row)
       transcript["frames"].append(reinterpret_cast<const char*>(frame.grey) + row * frame.stride_bytes,
                                   header.width_px);
-    append(transcript["poses"], pose.reason, pose.yaw_rad, pose.yaw_sigma_rad, pose.certainty);
-    for (const double number : pose.H_cur_from_ref) append(transcript["poses"], number);
+    transcript["poses"] += pose_bytes(pose);
     append_truth(truth);
     record_.on_pose(frame, pose, truth);
     poses_found += pose.found();

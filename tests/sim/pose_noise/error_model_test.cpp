@@ -195,8 +195,10 @@ TEST_F(DrawnFromMadeUp, MeanAndSpreadAreTheModels) {
 }
 
 TEST_F(DrawnFromMadeUp, TheEstimateIsOfOnePiece) {
+  int found = 0;
   look(20, [&](const PoseEstimate& pose, const sim::Truth& truth) {
     if (!pose.found()) return;
+    ++found;
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(pose.R_cur_from_ref.data());
     const Eigen::Map<const Eigen::Vector3d> t(pose.t_over_d.data()), position(pose.position_m.data());
     EXPECT_NEAR(std::atan2(R(0, 2), R(2, 2)), pose.yaw_rad, 1e-9);
@@ -205,6 +207,7 @@ TEST_F(DrawnFromMadeUp, TheEstimateIsOfOnePiece) {
     const Eigen::Vector3d centre_ref(0.0, scenario_.camera.mount_z_m - truth.back_m.z(), 1.5);
     EXPECT_LT((R * centre_ref + 1.5 * t - position).norm(), 1e-9);
   });
+  EXPECT_GT(found, 10);
 }
 
 TEST_F(DrawnFromMadeUp, AnAvertedBackIsNeverFound) {

@@ -112,11 +112,12 @@ TEST_P(BothWorlds, GiveTheSameFollowingFigures) {
             << found << ", yaw deviation " << pictured.yaw_error_rad.deviation << " rad; without pictures "
             << fast.rms_m << ", " << fast.separation_m << ", " << fast.path_m << ", " << fast.found << ", "
             << fast.yaw_deviation_rad << "\n";
-  EXPECT_NEAR(fast.rms_m, pictured.lateral_m.rms, 0.02);
+  EXPECT_NEAR(fast.rms_m, pictured.lateral_m.rms, 0.01);
   EXPECT_NEAR(fast.separation_m, pictured.separation_m.mean, 0.05);
   EXPECT_NEAR(fast.path_m, pictured.robot_path_m, 0.03 * pictured.robot_path_m);
   EXPECT_NEAR(fast.found, found, 0.03);
-  EXPECT_NEAR(fast.yaw_deviation_rad, pictured.yaw_error_rad.deviation, 0.03);
+  // Both are about a degree; the model, fitted to other worlds, errs by less than a factor of 1.7.
+  EXPECT_LT(std::abs(std::log(fast.yaw_deviation_rad / pictured.yaw_error_rad.deviation)), std::log(1.7));
 }
 
 INSTANTIATE_TEST_SUITE_P(OnSharedScenarios, BothWorlds,

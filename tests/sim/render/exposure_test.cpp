@@ -77,8 +77,10 @@ TEST(FrameDelivery, SharesAreMet) {
   EXPECT_NEAR(dropped, 2000, 150);
   EXPECT_NEAR(late, 4000, 200);
   EXPECT_NEAR(std::sqrt(jitter2), 0.002, 0.0001);
-  // The same frame is delivered the same way; settings without faults cause none.
+  // Seed and number of a frame decide how it is delivered; settings without faults cause none.
   EXPECT_EQ(frame_delivery(settings, 3, 5).stamp_error_ns, frame_delivery(settings, 3, 5).stamp_error_ns);
+  EXPECT_NE(frame_delivery(settings, 4, 5).stamp_error_ns, frame_delivery(settings, 3, 5).stamp_error_ns);
+  EXPECT_NE(frame_delivery(settings, 3, 6).stamp_error_ns, frame_delivery(settings, 3, 5).stamp_error_ns);
   const FrameDelivery calm = frame_delivery({}, 3, 5);
   EXPECT_FALSE(calm.dropped);
   EXPECT_EQ(calm.delay_ns + calm.stamp_error_ns, 0);

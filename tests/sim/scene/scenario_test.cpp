@@ -201,7 +201,7 @@ TEST(Scenario, ShippedDemoHasAStraightAndBendsBothWays) {
 }
 
 TEST(Scenario, ShippedOnesSayWhatTheyShowAndNobodyWalksThroughThings) {
-  int files = 0;
+  int files = 0, obstacles = 0;
   for (const auto& entry : std::filesystem::directory_iterator(source_path("tools/heel-sim/scenarios"))) {
     if (entry.path().extension() != ".toml") continue;
     ++files;
@@ -209,6 +209,7 @@ TEST(Scenario, ShippedOnesSayWhatTheyShowAndNobodyWalksThroughThings) {
     const Scenario s = read_scenario(entry.path().string());
     EXPECT_EQ(s.name, name);
     EXPECT_FALSE(s.shows.empty()) << name;
+    obstacles += static_cast<int>(s.obstacles.size());
     std::vector<Walk> walks{Walk(s.person_start, s.path)};
     for (const PasserbySettings& passerby : s.passers_by) walks.emplace_back(passerby.start, passerby.path);
     EXPECT_LT(walks[0].duration_s() + s.walk_after_s + 1.0, s.duration_s) << name << ": ends before the walk";
@@ -228,6 +229,7 @@ TEST(Scenario, ShippedOnesSayWhatTheyShowAndNobodyWalksThroughThings) {
         }
   }
   EXPECT_GE(files, 15);
+  EXPECT_GT(obstacles, 0);
 }
 
 TEST(Scenario, ShippedCameraFileIsTheSimulatorsCamera) {

@@ -127,6 +127,8 @@ TEST(HomographyEstimator, SameInputSameResultToTheBit) {
   const RobustHomography a = first.estimate(p.pairs, mask);
   second.estimate(other.pairs, mask);  // earlier calls have no effect
   const RobustHomography b = second.estimate(p.pairs, mask);
+  ASSERT_EQ(a.status, HomographyStatus::Ok);
+  EXPECT_EQ(b.status, HomographyStatus::Ok);
   EXPECT_EQ(a.H_cur_from_ref, b.H_cur_from_ref);
   EXPECT_EQ(a.covariance, b.covariance);
   EXPECT_EQ(a.iterations, b.iterations);

@@ -185,9 +185,11 @@ TEST(FeaturesMatcher, NeverPairsOppositeSigns) {
   FeatureSet ref = random_features(40, 21);
   FeatureSet cur = ref;
   for (Feature& feature : cur.features) feature.laplacian = static_cast<std::int8_t>(-feature.laplacian);
-  Matcher matcher(40, 40, {});
+  Matcher matcher(40, 40,
+                  {.ratio = 2.f, .mutual = false});  // the nearest counts, however alike the second is
   std::vector<Match> matches;
   matcher.match(ref, cur, matches);
+  EXPECT_EQ(matches.size(), 40U);
   for (const Match& match : matches) {
     EXPECT_EQ(ref.features[static_cast<std::size_t>(match.ref)].laplacian,
               cur.features[static_cast<std::size_t>(match.cur)].laplacian);

@@ -97,6 +97,7 @@ TEST(TemplateQuality, RefusesStripes) {
     EXPECT_FALSE(verdict.usable) << "period " << period_px << ": " << verdict.features
                                  << " features, self-similar " << verdict.self_similarity << ", spread "
                                  << verdict.spread;
+    EXPECT_NE(verdict.reason, "") << "period " << period_px;
   }
 }
 
