@@ -1,4 +1,5 @@
-// Two visitors with one interface, so that the field order of a packet is written once, for reading and writing:
+// Two visitors with one interface, so that the field order of a packet is written once, for reading and
+// writing:
 //   template <class Visitor, class P> void visit_fields(Visitor& v, P& packet) { v.field(packet.a); … }
 // `field` is required, `tail` may be missing at the end.
 #pragma once

@@ -1,5 +1,5 @@
-// The byte line to the robot: a serial port, a pty or a TCP connection. Only open(), wait_readable() and drain() wait; only
-// opening and closing allocate memory.
+// The byte line to the robot: a serial port, a pty or a TCP connection. Only open(), wait_readable() and
+// drain() wait; only opening and closing allocate memory.
 #pragma once
 
 #include <cstddef>

@@ -134,7 +134,8 @@ TEST(ConfigLoad, NamesKeysThatNeedARestart) {
   after.camera.width_px = 320;
   after.control.law = "position";
   after.robot.sonar = !before.robot.sonar;
-  EXPECT_THAT(keys_needing_restart(before, after), ElementsAre("camera.width_px", "control.law", "robot.sonar"));
+  EXPECT_THAT(keys_needing_restart(before, after),
+              ElementsAre("camera.width_px", "control.law", "robot.sonar"));
 }
 
 /// The default of a key that is a number.

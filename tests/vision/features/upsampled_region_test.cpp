@@ -32,7 +32,7 @@ TEST(UpsampledRegion, IsTheBilinearEnlargementOfItsPart) {
   UpsampledRegion enlarged(90, 90 * 70);
   for (const Region& part :
        {Region{0, 0, 45, 35}, Region{45, 35, 45, 35}, Region{30, 0, 22, 70}, Region{20, 11, 1, 7}}) {
-    const FrameView view = enlarged.draw(image.view(), part);
+    const FrameView view = enlarged.upsample(image.view(), part);
     ASSERT_EQ(view.header.width_px, static_cast<std::uint32_t>(2 * part.width_px));
     ASSERT_EQ(view.header.height_px, static_cast<std::uint32_t>(2 * part.height_px));
     for (int y = 0; y < 2 * part.height_px; ++y)
