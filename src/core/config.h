@@ -10,7 +10,7 @@
 namespace heel {
 
 struct CameraConfig {
-  std::string source = "v4l2:/dev/heel-camera";  ///< v4l2:PATH, libcamera:ID, file:PATH, sim:NAME
+  std::string source = "v4l2:/dev/heel-camera";  ///< camera address, KIND:REST
   std::string info = "camera.yaml";              ///< camera_info YAML
   std::string format = "auto";                   ///< auto, YUYV, GREY, NV12, RGB3, BGR3, MJPG
   int width_px = 640;
@@ -44,7 +44,7 @@ struct EstimateConfig {
 
 struct ControlConfig {
   double rate_hz = 50.0;
-  std::string law = "view";           ///< view, position: control/follow_law_factory.h
+  std::string law = "view";           ///< name of the control law
   double gain_distance_1_s = 1.0;     ///< v = gain · t_z error (m → m/s)
   double gain_lateral_rad_s_m = 1.0;  ///< yaw rate from t_x error
   double gain_yaw_1_s = 0.8;    ///< yaw rate from yaw error; control/proportional_law.h says how it is chosen
