@@ -1,5 +1,5 @@
-// The real heeld with a real video at its camera, in real time over a pty to the real simulated robot: what
-// arrives at the robot is the golden of the lock step, within what a busy machine may shift it.
+// heeld with a recorded video for its camera, in real time over a pty to heel-sim: what arrives at the robot
+// is the golden file of the lock step, within what a busy machine may shift it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,8 +17,6 @@
 
 namespace heel::test {
 namespace {
-
-using test::Process;
 
 constexpr int kFirst = 890;  // some seconds before the back is seen: the line is to stand by then
 constexpr int kLast = 1195;
@@ -82,17 +80,17 @@ void drive(const VideoScene& scene, double gain_yaw_1_s) {
   Process robot({HEEL_SIM_PROGRAM, "--robot", "pty:" + scene.file("robot"), "--exact", "--wire",
                  scene.file("wire.hex")},
                 scene.file("robot.log"));
-  ASSERT_TRUE(robot.says("ready at", 10.0)) << robot.output();
+  ASSERT_TRUE(robot.says("ready at")) << robot.output();
   Process daemon({HEELD_PROGRAM, "--config", config}, scene.file("heeld.log"));
   const double video_s = (kLast - kFirst + 1) / kVideoRate_Hz;
-  ASSERT_EQ(daemon.wait(video_s + 60.0), 0) << daemon.output() << robot.output();
-  ASSERT_TRUE(robot.says("closed", 2.0)) << daemon.output() << robot.output();
+  ASSERT_EQ(daemon.wait(video_s + kPatience_s), 0) << daemon.output() << robot.output();
+  ASSERT_TRUE(robot.says("closed")) << daemon.output() << robot.output();
   robot.signal(SIGTERM);
-  ASSERT_EQ(robot.wait(5.0), 0) << robot.output();
+  ASSERT_EQ(robot.wait(), 0) << robot.output();
 }
 
 TEST_F(VideoDrivesHeeld, AndTheRobotReceivesTheGoldenCommands) {
-  // Whoever holds the processors for long makes heeld rest, rightly. Such a run says nothing of its commands.
+  // heeld stops the robot when a busy machine holds it up for long. Such a run shows nothing of its commands.
   constexpr double kHeldUp_s = 0.3;
   constexpr int kRuns = 3;
   for (int run = 1;; ++run) {

@@ -1,6 +1,7 @@
-// heel-sim over a real pty and a real TCP port, against a client of other make.
+// heel-sim over a pty and a TCP port, against a client that shares no code with it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -10,12 +11,12 @@
 #include "loopback/heel-sim/raw_client.h"
 #include "support/process.h"
 #include "support/temporary_folder.h"
+#include "support/text.h"
 
 namespace heel::test {
 namespace {
 
 constexpr int kOpen = 1, kClose = 2, kEnable = 4, kVel = 11, kConfig = 18, kHostBaud = 50;
-const std::vector<int> kSip{0x32, 0x33};
 
 bool motors_on(const Bytes& sip) {
   return (sip.at(16) & 1) != 0;
@@ -38,7 +39,7 @@ struct Sim {
   std::string address;
 };
 
-/// Both lines. "pty" stands for a fresh symlink.
+/// Both kinds of line, by name.
 class AnyLine : public testing::TestWithParam<const char*> {
  protected:
   std::string robot() const {
@@ -46,7 +47,8 @@ class AnyLine : public testing::TestWithParam<const char*> {
   }
   TemporaryFolder folder;
 };
-INSTANTIATE_TEST_SUITE_P(Lines, AnyLine, testing::Values("pty", "tcp"));
+INSTANTIATE_TEST_SUITE_P(Lines, AnyLine, testing::Values("pty", "tcp"),
+                         [](const auto& line) { return std::string(line.param); });
 
 TEST_P(AnyLine, SyncsOpensMovesStopsByWatchdogResumesAndCloses) {
   Sim sim(robot());
@@ -56,34 +58,27 @@ TEST_P(AnyLine, SyncsOpensMovesStopsByWatchdogResumesAndCloses) {
   EXPECT_NE(echo.find(std::string("Pioneer\0p3at-sh", 15)), std::string::npos);
 
   client.listen(0.3);
-  EXPECT_EQ(client.packets.size(), 3u) << "packets before OPEN";
+  EXPECT_TRUE(std::none_of(client.packets.begin(), client.packets.end(), is_sip)) << "SIPs before OPEN";
   client.send(kOpen, 1);
-  const Bytes first_sip = client.wait_for(kSip);
+  const Bytes first_sip = client.next_sip();
   ASSERT_FALSE(first_sip.empty());
   EXPECT_FALSE(motors_on(first_sip));
   client.send(kEnable, 1);
   client.send(kVel, 200);
-  client.listen(1.2);
-  const Bytes moving = client.wait_for(kSip);
-  ASSERT_FALSE(moving.empty());
-  EXPECT_EQ(moving[0], 0x33);
+  const auto moves_at_200 = [](const Bytes& body) { return is_moving_sip(body) && i16_at(body, 7) == 200; };
+  const Bytes moving =
+      client.wait_for([&](const Bytes& body) { return moves_at_200(body) && i16_at(body, 1) > 100; });
+  ASSERT_FALSE(moving.empty()) << "XPOS stays below 100 mm";
   EXPECT_TRUE(motors_on(moving));
-  EXPECT_EQ(i16_at(moving, 7), 200);
-  EXPECT_GT(i16_at(moving, 1), 100) << "XPOS, mm";
 
   EXPECT_TRUE(sim.process.says("watchdog stop"));
-  client.listen(1.5);
-  EXPECT_EQ(client.wait_for(kSip)[0], 0x32);
+  EXPECT_FALSE(client.wait_for([](const Bytes& body) { return body.at(0) == 0x32; }).empty());
   client.send(0);  // PULSE
-  client.listen(1.2);
-  EXPECT_EQ(i16_at(client.wait_for(kSip), 7), 200) << "the old motion resumes";
+  EXPECT_FALSE(client.wait_for(moves_at_200).empty()) << "the old motion does not resume";
 
   client.send(kClose);
   EXPECT_TRUE(sim.process.says("closed"));
-  client.listen(0.2);
-  const std::size_t before = client.packets.size();
-  client.listen(0.5);
-  EXPECT_EQ(client.packets.size(), before);
+  EXPECT_TRUE(client.falls_silent());
   for (const char* event : {"client connected", "synced", "opened", "enabled", "watchdog over"}) {
     EXPECT_NE(sim.process.output().find(event), std::string::npos) << event;
   }
@@ -95,17 +90,34 @@ TEST_P(AnyLine, AClientMayGoAndAnotherFindsTheRobotStillOpen) {
     RawClient first = RawClient::at(sim.address);
     ASSERT_TRUE(first.sync());
     first.send(kOpen);
-    ASSERT_FALSE(first.wait_for(kSip).empty());
+    ASSERT_FALSE(first.next_sip().empty());
   }
   ASSERT_TRUE(sim.process.says("client gone"));
-  sleep_s(1.5);
   RawClient second = RawClient::at(sim.address);
-  second.listen(0.06);
-  EXPECT_LE(second.raw.size(), 400u) << "what was sent while nobody listened came late";
-  ASSERT_FALSE(second.wait_for(kSip).empty());
+  ASSERT_FALSE(second.next_sip().empty());
   second.send(kClose);
-  second.listen(0.3);
+  EXPECT_TRUE(second.falls_silent());
   EXPECT_TRUE(second.sync());
+}
+
+TEST_P(AnyLine, AClientDoesNotGetWhatWasSentBeforeItCame) {
+  Sim sim(robot());
+  {
+    RawClient first = RawClient::at(sim.address);
+    ASSERT_TRUE(first.sync());
+    first.send(kOpen);
+    ASSERT_FALSE(first.next_sip().empty());
+  }
+  // The line carries 960 bytes a second. A busy machine may deliver some of them late, but not to each
+  // client.
+  std::size_t fewest = 1000;
+  for (int i = 0; i < 10 && fewest > 400; ++i) {
+    sleep_s(1.5);
+    RawClient client = RawClient::at(sim.address);
+    client.listen(0.06);
+    fewest = std::min(fewest, client.raw.size());
+  }
+  EXPECT_LE(fewest, 400u);
 }
 
 TEST_P(AnyLine, AHalfMadeHandshakeIsForgottenWhenItsClientGoes) {
@@ -114,7 +126,7 @@ TEST_P(AnyLine, AHalfMadeHandshakeIsForgottenWhenItsClientGoes) {
     RawClient client = RawClient::at(sim.address);
     EXPECT_TRUE(client.sync()) << "client " << i;
     client.hang_up();
-    sleep_s(0.1);
+    EXPECT_TRUE(eventually([&] { return occurrences(sim.process.output(), "client gone") > i; }));
   }
 }
 
@@ -122,30 +134,35 @@ TEST_P(AnyLine, PacketsTakeTheirLineTime) {
   Sim sim(robot());
   RawClient client = RawClient::at(sim.address);
   ASSERT_TRUE(client.sync());
-  const double start_s = monotonic_s();
-  client.send(kConfig, 1);
-  const Bytes config = client.wait_for({0x20});
-  ASSERT_FALSE(config.empty());
-  const double line_s = (9.0 + static_cast<double>(config.size()) + 5.0) / 960.0;
-  EXPECT_GT(monotonic_s() - start_s, line_s - 0.005);
-  EXPECT_LT(monotonic_s() - start_s, line_s + 0.5);
+  double longest_wait_s = 1.0;  // beyond the line time; a busy machine may spoil some attempts
+  for (int i = 0; i < 10 && longest_wait_s > 0.1; ++i) {
+    const double start_s = monotonic_s();
+    client.send(kConfig, 1);
+    const Bytes config = client.wait_for([](const Bytes& body) { return body.at(0) == 0x20; });
+    ASSERT_FALSE(config.empty());
+    const double line_s = (9.0 + static_cast<double>(config.size()) + 5.0) / 960.0;
+    const double elapsed_s = monotonic_s() - start_s;
+    EXPECT_GT(elapsed_s, line_s - 0.005);
+    longest_wait_s = std::min(longest_wait_s, elapsed_s - line_s);
+  }
+  EXPECT_LE(longest_wait_s, 0.1);
 }
 
 TEST_P(AnyLine, FaultsComeFromTheCommandLine) {
   Sim sim(robot(), {"--fault", "left_open@0", "--fault", "bumper@0.2=4"});
   ASSERT_TRUE(sim.process.says("fault bumper"));
   RawClient client = RawClient::at(sim.address);
-  client.wait_for(kSip);
-  EXPECT_EQ(client.wait_for(kSip).at(13), 4 << 1) << "front bumpers in the high byte";
+  const auto bumped = [](const Bytes& body) { return is_sip(body) && body.at(13) == 4 << 1; };
+  EXPECT_FALSE(client.wait_for(bumped).empty()) << "no front bumper in the high byte";
 }
 
 TEST_P(AnyLine, TruthHasARowEvery20Ms) {
   const std::string path = folder.file("truth.csv");
-  Sim sim(robot(), {"--truth", path, "--duration", "2.5", "--exact", "--fault", "left_open@0=300"});
+  Sim sim(robot(), {"--truth", path, "--duration", "5", "--exact", "--fault", "left_open@0=300"});
   ASSERT_NE(sim.address, "");
   {
-    RawClient client = RawClient::at(sim.address);
-    client.send(0);
+    const RawClient client = RawClient::at(sim.address);
+    client.send(0);  // PULSE: the robot drives
     EXPECT_EQ(sim.process.wait(), 0);
   }
   std::istringstream lines(heel::test::read_text(path));
@@ -164,7 +181,7 @@ TEST_P(AnyLine, TruthHasARowEvery20Ms) {
     ASSERT_EQ(rows.back().size(), column.size());
     EXPECT_NEAR(rows.back()[column["t_s"]], 0.02 * static_cast<double>(rows.size() - 1), 1e-6);
   }
-  EXPECT_GE(rows.size(), 125u);
+  EXPECT_GE(rows.size(), 250u);
   EXPECT_GT(rows.back()[column["robot_x_m"]], 0.1);
   EXPECT_EQ(rows.back()[column["robot_x_m"]], rows.back()[column["odom_x_m"]]);
 }
@@ -183,14 +200,14 @@ TEST(Pty, KeepsItsRateAndAWrongOneIsGarbageBothWays) {
   client.listen(0.4);
   EXPECT_TRUE(client.sync());
   client.send(kOpen);
-  ASSERT_FALSE(client.wait_for(kSip).empty());
+  ASSERT_FALSE(client.next_sip().empty());
   client.set_rate(B115200);
-  client.listen(0.1);
-  client.packets.clear();
-  const std::size_t raw_before = client.raw.size();
-  client.listen(0.5);
-  EXPECT_TRUE(client.packets.empty());
-  EXPECT_GT(client.raw.size(), raw_before) << "garbage is heard, not silence";
+  EXPECT_TRUE(eventually([&] {
+    client.packets.clear();
+    const std::size_t before = client.raw.size();
+    client.listen(0.5);
+    return client.packets.empty() && client.raw.size() > before;
+  })) << "not bytes without a good packet";
 }
 
 TEST(Pty, HostBaudAsTheAriaClientDoesIt) {
@@ -200,17 +217,21 @@ TEST(Pty, HostBaudAsTheAriaClientDoesIt) {
   client.set_rate(B9600);
   ASSERT_TRUE(client.sync());
   client.send(kOpen, 1);
-  ASSERT_FALSE(client.wait_for(kSip).empty());
-  client.send(kHostBaud, 2);
-  sleep_s(0.01);
-  client.set_rate(B38400);
-  sleep_s(0.01);
-  client.send(0);
-  EXPECT_FALSE(client.wait_for(kSip, 0.9).empty());
+  // The robot goes back to the old rate when the client comes too late at the new one, as on a busy machine.
+  bool kept = false;
+  for (int i = 0; i < 10 && !kept; ++i) {
+    client.set_rate(B9600);
+    ASSERT_FALSE(client.next_sip().empty());
+    client.send(kHostBaud, 2);
+    sleep_s(0.01);
+    client.set_rate(B38400);
+    sleep_s(0.01);
+    client.send(0);
+    kept = !client.next_sip(0.9).empty();
+  }
+  EXPECT_TRUE(kept);
   EXPECT_TRUE(sim.process.says("baud 38400"));
-  client.packets.clear();
-  client.listen(1.0);
-  EXPECT_GE(client.packets.size(), 8u);
+  for (int i = 0; i < 20; ++i) ASSERT_FALSE(client.next_sip().empty()) << "SIP " << i;
 }
 
 TEST(Pty, TheSymlinkGoesWithTheProcessAndAStaleOneIsReplaced) {
@@ -228,7 +249,7 @@ TEST(Pty, TheSymlinkGoesWithTheProcessAndAStaleOneIsReplaced) {
     killed.process.signal(SIGKILL);
     killed.process.wait();
   }
-  EXPECT_TRUE(std::filesystem::is_symlink(path)) << "nobody could remove it";
+  EXPECT_TRUE(std::filesystem::is_symlink(path)) << "a killed process cannot remove it";
   Sim again("pty:" + path);
   RawClient client = RawClient::at(again.address);
   EXPECT_TRUE(client.sync());
@@ -260,6 +281,7 @@ TEST(Tcp, ASecondClientWaitsUntilTheFirstHasGone) {
 }
 
 struct BadOption {
+  std::string name;
   std::vector<std::string> arguments;
   std::string complaint;
 };
@@ -274,18 +296,24 @@ TEST_P(BadOptions, AreRefusedByNameAndExpectation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Lines, BadOptions,
-    testing::Values(BadOption{{}, "--robot"},
-                    BadOption{{"--robot", "usb:1"}, "--robot usb:1: not an address (expected pty:PATH"},
-                    BadOption{{"--robot", "pty:"}, "not an address (expected pty:PATH"},
-                    BadOption{{"--robot", "tcp:seven"}, "'seven' is not a port (expected 0…65535)"},
-                    BadOption{{"--robot", "tcp:70000"}, "'70000' is not a port"},
-                    BadOption{{"--robot", "pty:/proc/version"}, "exists and is not a symlink"},
-                    BadOption{{"--robot", "pty:/no-such-folder/robot"}, "cannot make the symlink"},
-                    BadOption{{"--robot", "tcp:0", "--boot-baud", "1200"}, "--boot-baud"},
-                    BadOption{{"--robot", "tcp:0", "--fault", "drop"}, "fault 'drop': no start"},
-                    BadOption{{"--robot", "tcp:0", "--fualt", "drop@1"}, "--fualt"},
-                    BadOption{{"--robot", "tcp:0", "--truth", "/no-such-folder/t.csv"}, "cannot write"}));
+    CommandLines, BadOptions,
+    testing::Values(
+        BadOption{"NoRobot", {}, "--robot"},
+        BadOption{"AnUnknownLine", {"--robot", "usb:1"}, "--robot usb:1: not an address (expected pty:PATH"},
+        BadOption{"APtyWithoutAPath", {"--robot", "pty:"}, "not an address (expected pty:PATH"},
+        BadOption{
+            "APortThatIsNoNumber", {"--robot", "tcp:seven"}, "'seven' is not a port (expected 0…65535)"},
+        BadOption{"APortTooGreat", {"--robot", "tcp:70000"}, "'70000' is not a port"},
+        BadOption{"AFileInPlaceOfALink", {"--robot", "pty:/proc/version"}, "exists and is not a symlink"},
+        BadOption{
+            "AFolderThatIsMissing", {"--robot", "pty:/no-such-folder/robot"}, "cannot make the symlink"},
+        BadOption{"ABaudRateThatArcosLacks", {"--robot", "tcp:0", "--boot-baud", "1200"}, "--boot-baud"},
+        BadOption{"AFaultWithoutAStart", {"--robot", "tcp:0", "--fault", "drop"}, "fault 'drop': no start"},
+        BadOption{"AnOptionMisspelt", {"--robot", "tcp:0", "--fualt", "drop@1"}, "--fualt"},
+        BadOption{"ATruthFileThatCannotBe",
+                  {"--robot", "tcp:0", "--truth", "/no-such-folder/t.csv"},
+                  "cannot write"}),
+    [](const auto& option) { return option.param.name; });
 
 }  // namespace
 }  // namespace heel::test

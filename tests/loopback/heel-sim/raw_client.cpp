@@ -12,8 +12,6 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "support/process.h"
-
 namespace heel::test {
 namespace {
 
@@ -44,6 +42,14 @@ Bytes command(int id, int argument) {
   const auto magnitude = static_cast<unsigned>(std::abs(argument));
   return framed({byte(static_cast<unsigned>(id)), byte(argument < 0 ? 0x1B : 0x3B), byte(magnitude),
                  byte(magnitude / 256)});
+}
+
+bool is_sip(const Bytes& body) {
+  return body.at(0) == 0x32 || is_moving_sip(body);
+}
+
+bool is_moving_sip(const Bytes& body) {
+  return body.at(0) == 0x33;
 }
 
 int i16_at(const Bytes& body, std::size_t offset) {
@@ -94,7 +100,7 @@ void RawClient::send(const Bytes& bytes) const {
 
 bool RawClient::read_some(double timeout_s) {
   pollfd state{fd_, POLLIN, 0};
-  if (poll(&state, 1, std::max(1, static_cast<int>(timeout_s * 1e3))) <= 0) return false;
+  if (poll(&state, 1, static_cast<int>(timeout_s * 1e3)) <= 0) return false;
   std::array<std::uint8_t, 512> buffer{};
   const ssize_t size = read(fd_, buffer.data(), buffer.size());
   if (size <= 0) throw std::runtime_error("the robot hung up");
@@ -124,30 +130,43 @@ void RawClient::parse() {
 void RawClient::listen(double seconds) {
   const double end_s = monotonic_s() + seconds;
   for (double left_s = seconds; left_s > 0.0; left_s = end_s - monotonic_s()) read_some(left_s);
+  while (read_some(0.0)) {
+  }
 }
 
-Bytes RawClient::wait_for(const std::vector<int>& ids, double timeout_s) {
+Bytes RawClient::wait_for(const std::function<bool(const Bytes&)>& wanted, double timeout_s) {
   const double end_s = monotonic_s() + timeout_s;
-  std::size_t looked_at = packets.size();
+  std::size_t checked = packets.size();
   while (monotonic_s() < end_s) {
     read_some(0.05);
-    for (; looked_at < packets.size(); ++looked_at) {
-      if (std::find(ids.begin(), ids.end(), packets[looked_at][0]) != ids.end()) return packets[looked_at];
+    for (; checked < packets.size(); ++checked) {
+      if (wanted(packets[checked])) return packets[checked];
     }
   }
   return {};
 }
 
+Bytes RawClient::next_sip(double timeout_s) {
+  return wait_for(is_sip, timeout_s);
+}
+
 bool RawClient::sync() {
   for (int id = 0; id < 3; ++id) {
-    bool echoed = false;
-    for (int attempt = 0; attempt < 8 && !echoed; ++attempt) {
+    const bool echoed = eventually([&] {
       send(id);
-      echoed = !wait_for({id}, 0.5).empty();
-    }
+      return !wait_for([&](const Bytes& body) { return body.at(0) == id; }, 0.5).empty();
+    });
     if (!echoed) return false;
   }
   return true;
+}
+
+bool RawClient::falls_silent() {
+  return eventually([&] {
+    const std::size_t before = raw.size();
+    listen(0.5);
+    return raw.size() == before;
+  });
 }
 
 }  // namespace heel::test

@@ -1,4 +1,4 @@
-// A tiny ARCOS client that shares no code with heel: bytes built by hand, a parser of its own.
+// A small ARCOS client that shares no code with heel: it frames and parses packets itself.
 #pragma once
 
 #include <termios.h>
@@ -7,6 +7,8 @@
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "support/process.h"
 
 namespace heel::test {
 
@@ -35,12 +37,16 @@ class RawClient {
   void send(int id) const { send(framed({static_cast<std::uint8_t>(id)})); }
   void send(int id, int argument) const { send(command(id, argument)); }
 
-  /// Reads for this long; bodies of good packets go to `packets`.
+  /// Reads for this long, and then what has come by the end; bodies of good packets go to `packets`.
   void listen(double seconds);
-  /// Reads until a packet with one of these ids comes; its body, or empty after the timeout.
-  Bytes wait_for(const std::vector<int>& ids, double timeout_s = 3.0);
-  /// SYNC0…SYNC2, each sent again every 0.5 s; false when an echo is missing after 4 s.
+  /// Reads until a good packet comes whose body satisfies `wanted`; that body, or empty after the timeout.
+  Bytes wait_for(const std::function<bool(const Bytes&)>& wanted, double timeout_s = kPatience_s);
+  /// The next SIP, of whatever id.
+  Bytes next_sip(double timeout_s = kPatience_s);
+  /// SYNC0…SYNC2, each sent again every 0.5 s; false when an echo is missing.
   bool sync();
+  /// Reads until half a second passes without a byte; false when bytes come again and again.
+  bool falls_silent();
 
   std::vector<Bytes> packets;
   Bytes raw;  ///< everything read
@@ -54,6 +60,8 @@ class RawClient {
   Bytes unparsed_;
 };
 
+bool is_sip(const Bytes& body);
+bool is_moving_sip(const Bytes& body);
 int i16_at(const Bytes& body, std::size_t offset);
 
 }  // namespace heel::test

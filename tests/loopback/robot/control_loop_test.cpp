@@ -10,6 +10,7 @@
 #include "loopback/robot/robot_thread.h"
 #include "robot/p3at_geometry.h"
 #include "support/decisions.h"
+#include "support/process.h"
 
 namespace heel {
 namespace {
@@ -43,7 +44,7 @@ TEST(ControlLoopOverPty, TheRecordedInputsGiveTheRecordedDecisionsAgain) {
   };
   {
     std::jthread thread([&] { loop.run(); });
-    const TimeNs t_end_ns = monotonic_now_ns() + 10 * kNsPerS;
+    const TimeNs t_end_ns = monotonic_now_ns() + ns_from_seconds(test::kPatience_s);
     int moving = 0;
     for (std::uint64_t frame = 1; moving < 50 && monotonic_now_ns() < t_end_ns; ++frame) {
       poses.post(pose_of_frame(frame, monotonic_now_ns()));
