@@ -11,10 +11,16 @@
 
 #include <CLI/CLI.hpp>
 
+#include "evaluation/metrics/metrics.h"
+
 namespace heel::cli {
 
 inline constexpr int kExitNo = 1;
 inline constexpr int kExitBadInput = 2;
+
+/// Adds the options --max-out-of-view-s, --max-rms-m and --min-path-m. A run that does not meet them ends
+/// with exit status 1.
+void add_criteria_options(CLI::App& command, evaluation::FollowCriteria& criteria);
 
 /// Accepts finite numbers from `least` to `most`. (CLI::Range accepts "nan".)
 CLI::Validator number_from(double least, double most);

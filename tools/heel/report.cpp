@@ -56,12 +56,7 @@ void add_report_command(CLI::App& app) {
                    "holds truth.csv, ticks.csv and poses.csv; or experiments")
       ->required();
   command->add_flag("--json", options->json, "print the summary as JSON");
-  command->add_option("--max-out-of-view-s", options->criteria.max_out_of_view_s,
-                      "exit status 1 when longer");
-  command->add_option("--max-rms-m", options->criteria.max_rms_m,
-                      "exit status 1 when the paths lie farther apart");
-  command->add_option("--min-path-m", options->criteria.min_robot_path_m,
-                      "exit status 1 when the robot goes less far");
+  add_criteria_options(*command, options->criteria);
   command->callback([options] { run_report(*options); });
 }
 

@@ -107,12 +107,7 @@ void add_simulate_command(CLI::App& app) {
       ->add_option("--runs", options->runs,
                    "this many runs of one scenario with consecutive seeds, and statistics over them")
       ->check(CLI::Range(1, 100000));
-  command->add_option("--max-out-of-view-s", options->criteria.max_out_of_view_s,
-                      "limit: longest time in which the shirt is not found");
-  command->add_option("--max-rms-m", options->criteria.max_rms_m,
-                      "limit: RMS distance of the robot from the person's path");
-  command->add_option("--min-path-m", options->criteria.min_robot_path_m,
-                      "limit: shortest distance that the robot must drive");
+  add_criteria_options(*command, options->criteria);
   command->callback([options] { run_simulate(*options); });
 }
 

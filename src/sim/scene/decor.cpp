@@ -70,6 +70,23 @@ void draw_books(Canvas& canvas, double x, double y, double width, double height,
   }
 }
 
+struct Interval {
+  double low, high;
+};
+
+/// Discs of random place, radius and grey level all over the canvas.
+void draw_random_discs(Canvas& canvas, int count, const Interval& radius_texel, const Interval& grey,
+                       float opacity, Random& random) {
+  for (int i = 0; i < count; ++i) {
+    const double x = random.uniform(0, canvas.width());
+    const double y = random.uniform(0, canvas.height());
+    const double radius = random.uniform(radius_texel.low, radius_texel.high);
+    paint(
+        canvas, box_around(x, y, radius), static_cast<float>(random.uniform(grey.low, grey.high)),
+        [&](int px, int py) { return length(px - x, py - y) - radius; }, opacity);
+  }
+}
+
 }  // namespace
 
 Canvas draw_floor(std::uint64_t seed) {
@@ -81,14 +98,7 @@ Canvas draw_floor(std::uint64_t seed) {
       const float tone = static_cast<float>(random.uniform(95, 145));
       fill_box(canvas, tx + 1, ty + 1, kTile - 3, kTile - 3, tone);
     }
-  for (int i = 0; i < 2500; ++i) {
-    const double x = random.uniform(0, 1024);
-    const double y = random.uniform(0, 1024);
-    const double radius = random.uniform(1.5, 6);
-    paint(
-        canvas, box_around(x, y, radius), static_cast<float>(random.uniform(60, 180)),
-        [&](int px, int py) { return length(px - x, py - y) - radius; }, 0.6f);
-  }
+  draw_random_discs(canvas, 2500, {1.5, 6}, {60, 180}, 0.6f, random);
   add_grain(canvas, 6.0, random);
   return canvas;
 }
@@ -176,14 +186,7 @@ Canvas draw_screen(std::uint64_t seed) {
 Canvas draw_plaster(std::uint64_t seed) {
   Random random(seed);
   Canvas canvas(512, 512, static_cast<float>(random.uniform(140, 185)));
-  for (int i = 0; i < 400; ++i) {
-    const double x = random.uniform(0, 512);
-    const double y = random.uniform(0, 512);
-    const double radius = random.uniform(3, 22);
-    paint(
-        canvas, box_around(x, y, radius), static_cast<float>(random.uniform(110, 200)),
-        [&](int px, int py) { return length(px - x, py - y) - radius; }, 0.08f);
-  }
+  draw_random_discs(canvas, 400, {3, 22}, {110, 200}, 0.08f, random);
   add_grain(canvas, 4.0, random);
   return canvas;
 }
