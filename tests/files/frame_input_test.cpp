@@ -1,0 +1,80 @@
+// Frames from images, folders and videos: order, numbers, times, and which files count as images.
+#include "files/frame_input.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+#include <string>
+#include <vector>
+
+#include "files/image_file.h"
+#include "heel/error.h"
+#include "support/temporary_folder.h"
+
+namespace heel {
+namespace {
+
+class FrameInputTest : public ::testing::Test {
+ protected:
+  std::string image(const std::string& name, int grey) {
+    const std::string path = folder_.file(name);
+    cv::imwrite(path, cv::Mat(16, 32, CV_8UC1, cv::Scalar(grey)));
+    return path;
+  }
+  std::string video(int frames) {
+    const std::string path = folder_.file("video.avi");
+    cv::VideoWriter writer(path, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10.0,
+                           cv::Size(64, 48));
+    for (int i = 0; i < frames; ++i) writer.write(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(40 + 40 * i)));
+    return path;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(FrameInputTest, NumbersFramesAcrossAllInputs) {
+  std::filesystem::create_directory(folder_.file("walk"));
+  image("walk/10.png", 10);
+  image("walk/9.png", 9);
+  test::write_text(folder_.file("walk/notes.txt"), "not an image");
+  FrameInput input({folder_.file("walk"), video(3), image("last.png", 77)}, 5.0);
+  EXPECT_EQ(input.stated_frame_count(), 6U);
+  const std::vector<double> greys{9, 10, 40, 80, 120, 77};
+  const std::vector<double> times_s{0.0, 0.2, 0.4, 0.5, 0.6, 0.8};
+  InputFrame frame;
+  for (std::size_t i = 0; i < greys.size(); ++i) {
+    ASSERT_TRUE(input.next(frame)) << i;
+    EXPECT_EQ(frame.number, i);
+    EXPECT_NEAR(frame.t_s, times_s[i], 1e-6) << i;
+    EXPECT_NEAR(frame.grey.at<std::uint8_t>(8, 8), greys[i], 3) << "frame " << i << "; MJPEG is not exact";
+  }
+  EXPECT_FALSE(input.next(frame));
+}
+
+TEST_F(FrameInputTest, SkipsFramesWithoutChangingTheirNumbers) {
+  FrameInput input({image("first.png", 5), video(3)}, 5.0);
+  EXPECT_TRUE(input.skip(2));
+  InputFrame frame;
+  ASSERT_TRUE(input.next(frame));
+  EXPECT_EQ(frame.number, 2U);
+  EXPECT_NEAR(frame.grey.at<std::uint8_t>(8, 8), 80, 3);
+  EXPECT_FALSE(input.skip(2)) << "one frame is left";
+}
+
+TEST_F(FrameInputTest, AnImageIsKnownByItsEndingOrByItsContent) {
+  const std::string png = image("picture.png", 1);
+  std::filesystem::copy(png, folder_.file("without_ending"));
+  const std::string damaged = test::write_text(folder_.file("damaged.JPG"), "no image at all");
+  const std::string text = test::write_text(folder_.file("notes.txt"), "not an image");
+  EXPECT_TRUE(is_image_file(png));
+  EXPECT_TRUE(is_image_file(folder_.file("without_ending")));
+  EXPECT_TRUE(is_image_file(damaged));
+  EXPECT_FALSE(is_image_file(text));
+  EXPECT_THROW(read_grey_image(damaged), Error);
+  EXPECT_THROW(FrameInput({text}, 5.0), Error);
+}
+
+}  // namespace
+}  // namespace heel
