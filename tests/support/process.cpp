@@ -129,24 +129,32 @@ Outcome run_program(const std::vector<std::string>& argv, const std::string& out
 }
 
 NotifySocket::NotifySocket(const std::string& path) : path_(path) {
-  fd_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  fd_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   std::strncpy(address.sun_path, path.c_str(), sizeof address.sun_path - 1);
   if (bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     throw std::runtime_error("cannot bind " + path);
   }
+  reader_ = std::thread([this] { read_until_closed(); });
 }
 
 NotifySocket::~NotifySocket() {
+  shutdown(fd_, SHUT_RDWR);  // ends the reader's recv
+  reader_.join();
   close(fd_);
 }
 
-const std::vector<std::string>& NotifySocket::messages() {
+void NotifySocket::read_until_closed() {
   char text[4096];
   for (ssize_t size; (size = recv(fd_, text, sizeof text, 0)) > 0;) {
+    const std::scoped_lock lock(mutex_);
     messages_.emplace_back(text, static_cast<std::size_t>(size));
   }
+}
+
+std::vector<std::string> NotifySocket::messages() {
+  const std::scoped_lock lock(mutex_);
   return messages_;
 }
 

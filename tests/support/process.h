@@ -5,7 +5,9 @@
 
 #include <functional>
 #include <map>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace heel::test {
@@ -69,13 +71,17 @@ class NotifySocket {
 
   const std::string& path() const { return path_; }
   /// Every message so far, in order.
-  const std::vector<std::string>& messages();
+  std::vector<std::string> messages();
   bool receives(const std::string& text, double timeout_s = kPatience_s);
 
  private:
+  void read_until_closed();
+
   std::string path_;
   int fd_ = -1;
-  std::vector<std::string> messages_;
+  std::mutex mutex_;
+  std::vector<std::string> messages_;  // guarded by mutex_
+  std::thread reader_;  // as systemd does, it reads all the time: a full socket would block the sender
 };
 
 void sleep_s(double seconds);
