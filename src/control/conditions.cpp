@@ -6,7 +6,7 @@ namespace heel {
 namespace {
 
 bool link_is_up(LinkPhase phase) {
-  // Disabled is a live line with motors off, which has a reason of its own.
+  // In Disabled the line is up and the motors are off, which is a condition of its own.
   return phase == LinkPhase::Running || phase == LinkPhase::Disabled;
 }
 
@@ -14,28 +14,28 @@ bool older_than(TimeNs t_ns, TimeNs now_ns, double limit_s) {
   return now_ns - t_ns > ns_from_seconds(limit_s);
 }
 
-TimeNs newest_front_echo_ns(const RobotState& robot) {
+TimeNs newest_front_reading_ns(const RobotState& robot) {
   TimeNs newest_ns = 0;
   for (std::size_t i = 0; i < kSonars / 2; ++i) newest_ns = std::max(newest_ns, robot.sonar[i].t_ns);
   return newest_ns;
 }
 
-/// True while `active`, and for `hold_s` after it ended.
-bool held(bool active, bool& ever, TimeNs& t_last_ns, TimeNs now_ns, double hold_s) {
+/// True while `active` and for `hold_s` after the last time it was.
+bool held(bool active, bool& ever_active, TimeNs& t_last_active_ns, TimeNs now_ns, double hold_s) {
   if (active) {
-    ever = true;
-    t_last_ns = now_ns;
+    ever_active = true;
+    t_last_active_ns = now_ns;
   }
-  return active || (ever && !older_than(t_last_ns, now_ns, hold_s));
+  return active || (ever_active && !older_than(t_last_active_ns, now_ns, hold_s));
 }
 
 }  // namespace
 
-Conditions ConditionMonitor::observe(const ControlInput& input, MeasurementStatus news,
-                                     const SupervisorConfig& config, bool sonar_on) {
+Conditions ConditionMonitor::update(const ControlInput& input, MeasurementStatus measurement,
+                                    const SupervisorConfig& config, bool sonar_on) {
   const RobotState& robot = input.robot;
   const TimeNs now_ns = input.now_ns;
-  observe_target(input, news, config);
+  update_following(input, measurement, config);
 
   unsigned bits = 0;
   const auto set = [&bits](Condition condition, bool holds) {
@@ -46,11 +46,11 @@ Conditions ConditionMonitor::observe(const ControlInput& input, MeasurementStatu
   set(kStaleSip, !robot.has_sip || older_than(robot.odometry.t_ns, now_ns, config.sip_timeout_s));
   set(kStopButton, robot.stop_button || robot.e_stall);
   set(kMotorsOff, !robot.motors_enabled);
-  set(kBumper, held((robot.bumpers_front | robot.bumpers_rear) != 0, bumped_, t_last_bump_ns_, now_ns,
+  set(kBumper, held((robot.bumpers_front | robot.bumpers_rear) != 0, ever_bumped_, t_last_bump_ns_, now_ns,
                     config.bumper_hold_s));
-  set(kStall,
-      held(robot.stall_left || robot.stall_right, stalled_, t_last_stall_ns_, now_ns, config.bumper_hold_s));
-  set(kSonarSilent, sonar_on && older_than(newest_front_echo_ns(robot), now_ns, config.sonar_timeout_s));
+  set(kStall, held(robot.stall_left || robot.stall_right, ever_stalled_, t_last_stall_ns_, now_ns,
+                   config.bumper_hold_s));
+  set(kSonarSilent, sonar_on && older_than(newest_front_reading_ns(robot), now_ns, config.sonar_timeout_s));
   set(kStaleFrame, !input.has_pose || older_than(input.pose.t_capture_ns, now_ns, config.frame_timeout_s));
   set(kLowCertainty,
       !following_ && input.has_pose && input.pose.found() && input.pose.certainty < config.certainty_follow);
@@ -59,18 +59,18 @@ Conditions ConditionMonitor::observe(const ControlInput& input, MeasurementStatu
   return static_cast<Conditions>(bits);
 }
 
-void ConditionMonitor::observe_target(const ControlInput& input, MeasurementStatus news,
-                                      const SupervisorConfig& config) {
-  const double needed = following_ ? config.certainty_drop : config.certainty_follow;
-  if (news == MeasurementStatus::Accepted && input.pose.certainty >= needed) {
-    ++good_in_a_row_;
-    t_last_good_ns_ = input.pose.t_capture_ns;
-  } else if (news != MeasurementStatus::None) {
-    good_in_a_row_ = 0;
+void ConditionMonitor::update_following(const ControlInput& input, MeasurementStatus measurement,
+                                        const SupervisorConfig& config) {
+  const double least_certainty = following_ ? config.certainty_drop : config.certainty_follow;
+  if (measurement == MeasurementStatus::Accepted && input.pose.certainty >= least_certainty) {
+    ++good_frames_in_a_row_;
+    t_last_good_frame_ns_ = input.pose.t_capture_ns;
+  } else if (measurement != MeasurementStatus::None) {
+    good_frames_in_a_row_ = 0;
   }
-  const bool expired = older_than(t_last_good_ns_, input.now_ns, config.target_timeout_s);
-  if (expired) good_in_a_row_ = 0;  // frames with a long gap between them are not in a row
-  following_ = !expired && (following_ || good_in_a_row_ >= config.frames_to_follow);
+  const bool expired = older_than(t_last_good_frame_ns_, input.now_ns, config.target_timeout_s);
+  if (expired) good_frames_in_a_row_ = 0;  // frames with a long gap between them are not in a row
+  following_ = !expired && (following_ || good_frames_in_a_row_ >= config.frames_to_follow);
   ever_followed_ = ever_followed_ || following_;
 }
 

@@ -1,4 +1,4 @@
-// What may keep the robot at rest, as bits, and the little memory they need: hysteresis and hold times.
+// The conditions under which the robot must be at rest, as bits, with their hysteresis and hold times.
 #pragma once
 
 #include "core/config.h"
@@ -6,25 +6,26 @@
 
 namespace heel {
 
-/// Turns inputs into conditions. Following starts after `frames_to_follow` believed frames in a row at
-/// `certainty_follow`, goes on while believed frames at `certainty_drop` come, and ends when none has come
-/// for `target_timeout_s`.
+/// Finds the conditions that hold in a tick. A good frame is one that the estimator accepted with a certainty
+/// of at least `certainty_follow`, or `certainty_drop` while following. Following starts after
+/// `frames_to_follow` good frames in a row and ends when no good frame has come for `target_timeout_s`.
 class ConditionMonitor {
  public:
-  /// `sonar_on`: whether their silence is a fault.
-  Conditions observe(const ControlInput& input, MeasurementStatus news, const SupervisorConfig& config,
-                     bool sonar_on);
+  /// Once a tick. `sonar_on`: without readings from the sonars kSonarSilent holds.
+  Conditions update(const ControlInput& input, MeasurementStatus measurement, const SupervisorConfig& config,
+                    bool sonar_on);
 
  private:
-  void observe_target(const ControlInput& input, MeasurementStatus news, const SupervisorConfig& config);
+  void update_following(const ControlInput& input, MeasurementStatus measurement,
+                        const SupervisorConfig& config);
 
   bool following_ = false;
   bool ever_followed_ = false;
-  int good_in_a_row_ = 0;
-  TimeNs t_last_good_ns_ = 0;
-  bool bumped_ = false;  // ever: the hold time counts from the last touch
+  int good_frames_in_a_row_ = 0;
+  TimeNs t_last_good_frame_ns_ = 0;
+  bool ever_bumped_ = false;
   TimeNs t_last_bump_ns_ = 0;
-  bool stalled_ = false;
+  bool ever_stalled_ = false;
   TimeNs t_last_stall_ns_ = 0;
 };
 

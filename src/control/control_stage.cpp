@@ -1,4 +1,3 @@
-// One control tick: estimate → supervise → law → gate.
 #include "control/control_stage.h"
 
 #include <cmath>
@@ -26,34 +25,34 @@ struct ControlStage::Impl {
   double person_range_m(const TargetState& target) const;
   VelocityCommand wanted(const FollowInput& input) const;
 
-  // Only the parts in use, none of which holds text: taking over a configuration takes no memory.
-  SupervisorConfig supervisor;
-  GateConfig gate;
+  // The parts of the configuration in use. They hold no text, so that reconfigure() does not allocate.
+  SupervisorConfig supervisor_config;
+  GateConfig gate_config;
   CameraMount mount;
   bool sonar_on = true;
 
   TargetEstimator estimator;
   SonarObstacleMap obstacle_map;
   std::unique_ptr<FollowLaw> law;
-  ConditionMonitor monitor;
+  ConditionMonitor condition_monitor;
   VelocityCommand last_command;
   std::uint64_t ticks = 0;
   std::uint64_t reconnects = 0;
-  bool any_frame = false;
-  std::uint64_t last_frame = 0;
-  TimeNs t_last_frame_ns = 0;
+  bool any_pose = false;
+  std::uint64_t last_frame_sequence = 0;
+  TimeNs t_last_capture_ns = 0;
 };
 
 void ControlStage::Impl::reconfigure(const Config& config) {
-  supervisor = config.supervisor;
-  gate = config.gate;
+  supervisor_config = config.supervisor;
+  gate_config = config.gate;
   mount = mount_of(config.camera);
   sonar_on = config.robot.sonar;
   estimator.reconfigure(config);
   law->reconfigure(config);
 }
 
-/// After a reconnection odom begins anew, and with it everything expressed in it.
+/// During an interruption the robot may have moved: after it, what was kept in odom no longer holds.
 void ControlStage::Impl::update_robot(const RobotState& robot) {
   if (robot.reconnects != reconnects) {
     reconnects = robot.reconnects;
@@ -67,17 +66,17 @@ void ControlStage::Impl::update_robot(const RobotState& robot) {
 }
 
 MeasurementStatus ControlStage::Impl::update_target(const ControlInput& input) {
-  // By number and time: a film that begins again, or a single picture, counts from the same number anew.
-  const bool seen =
-      any_frame && input.pose.frame_sequence == last_frame && input.pose.t_capture_ns == t_last_frame_ns;
-  if (!input.has_pose || seen) return MeasurementStatus::None;
-  any_frame = true;
-  last_frame = input.pose.frame_sequence;
-  t_last_frame_ns = input.pose.t_capture_ns;
+  // Number and time: a video that is played again repeats its frame numbers.
+  const bool same_as_before = any_pose && input.pose.frame_sequence == last_frame_sequence &&
+                              input.pose.t_capture_ns == t_last_capture_ns;
+  if (!input.has_pose || same_as_before) return MeasurementStatus::None;
+  any_pose = true;
+  last_frame_sequence = input.pose.frame_sequence;
+  t_last_capture_ns = input.pose.t_capture_ns;
   return estimator.update(input.pose) ? MeasurementStatus::Accepted : MeasurementStatus::Rejected;
 }
 
-/// Camera to back, when the person is ahead; nobody there is infinitely far.
+/// Camera to back when the person is ahead of the camera, otherwise infinite.
 double ControlStage::Impl::person_range_m(const TargetState& target) const {
   const double x_m = target.x_m - mount.x_m;
   const double y_m = target.y_m - mount.y_m;
@@ -90,7 +89,7 @@ VelocityCommand ControlStage::Impl::wanted(const FollowInput& input) const {
   const WantedVelocity velocity = law->velocity(input);
   VelocityCommand command;
   command.t_issued_ns = input.now_ns;
-  command.t_expires_ns = input.now_ns + ns_from_seconds(gate.command_lifetime_s);
+  command.t_expires_ns = input.now_ns + ns_from_seconds(gate_config.command_lifetime_s);
   command.v_m_s = velocity.v_m_s;
   command.yaw_rate_rad_s = velocity.yaw_rate_rad_s;
   return command;
@@ -107,25 +106,26 @@ void ControlStage::reconfigure(const Config& config) {
 }
 
 TickRecord ControlStage::tick(const ControlInput& input) {
-  Impl& s = *impl_;
+  Impl& impl = *impl_;
   TickRecord record;
-  record.tick = s.ticks++;
+  record.tick = impl.ticks++;
   record.input = input;
 
-  s.update_robot(input.robot);
-  record.measurement = s.update_target(input);
-  record.target = s.estimator.at(input.now_ns);
-  record.conditions = s.monitor.observe(input, record.measurement, s.supervisor, s.sonar_on);
+  impl.update_robot(input.robot);
+  record.measurement = impl.update_target(input);
+  record.target = impl.estimator.predict(input.now_ns);
+  record.conditions =
+      impl.condition_monitor.update(input, record.measurement, impl.supervisor_config, impl.sonar_on);
   const Verdict verdict = supervise(record.conditions);
   record.stop_reason = verdict.reason;
-  const Clearances clearances{s.person_range_m(record.target),
-                              s.obstacle_map.obstacles_at(input.now_ns, input.robot.odometry)};
-  record.wanted = s.wanted({input.now_ns, record.target, input.robot, clearances.obstacles});
+  const Clearances clearances{impl.person_range_m(record.target),
+                              impl.obstacle_map.obstacles_at(input.now_ns, input.robot.odometry)};
+  record.wanted = impl.wanted({input.now_ns, record.target, input.robot, clearances.obstacles});
   const GateResult gated =
-      apply_gate(record.wanted, s.last_command, verdict.style, clearances, input.now_ns, s.gate);
+      apply_gate(record.wanted, impl.last_command, verdict.style, clearances, input.now_ns, impl.gate_config);
   record.free_distance_m = gated.free_distance_m;
   record.command = gated.command;
-  s.last_command = record.command;
+  impl.last_command = record.command;
   return record;
 }
 

@@ -1,6 +1,5 @@
-// The control stage: everything between the newest pose and the wire, as pure functions of their inputs and
-// `now`.
-//   estimate (target in odom) → supervise (table) → law (the paper's) → gate (last look) → command
+// The control stage: from the newest pose and the robot's state to the velocity command, once a tick.
+//   target in odom → conditions → supervisor's table → control law → gate → command
 #pragma once
 
 #include <memory>
@@ -11,8 +10,8 @@
 
 namespace heel {
 
-/// Owns the estimator's and the supervisor's memory; reads no clock, holds no device. The daemon's control
-/// thread and the lock-step simulator run the same code.
+/// Keeps the state of estimator, conditions and control law. Reads no clock and holds no device, so that the
+/// daemon's control thread and the lock-step simulator run the same code.
 class ControlStage {
  public:
   /// Throws heel::Error when `config.control.law` is not a control law.
@@ -25,7 +24,7 @@ class ControlStage {
   /// construction: another one would begin without the state that it needs while the robot drives.
   void reconfigure(const Config& config);
 
-  /// One tick. The record holds the verdict, the target, the wanted and the gated command.
+  /// One tick: the input, and everything that was decided.
   TickRecord tick(const ControlInput& input);
 
  private:

@@ -31,7 +31,7 @@ class FollowLaw {
 
   /// New gains and limits for the next tick; the state is kept.
   virtual void reconfigure(const Config& config) = 0;
-  /// odom has a new origin: forgets everything that is kept in odom.
+  /// The robot may have moved unobserved (the line was interrupted): forgets everything that is kept in odom.
   virtual void reset() = 0;
   /// One tick.
   virtual WantedVelocity velocity(const FollowInput& input) = 0;

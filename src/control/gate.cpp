@@ -6,7 +6,7 @@
 namespace heel {
 namespace {
 
-struct Motion {
+struct Velocity {
   double v_m_s = 0.0;
   double yaw_rate_rad_s = 0.0;
 };
@@ -15,29 +15,29 @@ bool finite(const VelocityCommand& command) {
   return std::isfinite(command.v_m_s) && std::isfinite(command.yaw_rate_rad_s);
 }
 
-/// `value` held to [low, high]; sets the bit when it had to be.
-double bounded(double value, double low, double high, GateLimit bit, unsigned& limited_by) {
+/// `value` clamped to [low, high]; sets the bit when that changes it.
+double clamped(double value, double low, double high, GateLimit bit, unsigned& limited_by) {
   const double result = std::clamp(value, low, high);
   if (result != value) limited_by |= bit;
   return result;
 }
 
-/// From `from` towards `to`, no faster than `gain_step` away from zero and `loss_step` towards it; a change
-/// of sign stops at zero first.
-double slewed(double from, double to, double gain_step, double loss_step) {
+/// From `from` towards `to`, by at most `speed_up_step` away from zero and `slow_down_step` towards it; a
+/// change of sign stops at zero first.
+double slewed(double from, double to, double speed_up_step, double slow_down_step) {
   const double sign = from < 0.0 || (from == 0.0 && to < 0.0) ? -1.0 : 1.0;
   const double now = sign * from;  // ≥ 0
-  const double aim = std::max(sign * to, 0.0);
-  return sign * std::clamp(aim, std::max(now - loss_step, 0.0), now + gain_step);
+  const double goal = std::max(sign * to, 0.0);
+  return sign * std::clamp(goal, std::max(now - slow_down_step, 0.0), now + speed_up_step);
 }
 
-/// Fastest approach from which half the deceleration still stops at `nearest_m`.
+/// The largest speed from which half the deceleration stops the robot `nearest_m` short.
 double approach_limit(double range_m, double nearest_m, const GateConfig& limits) {
   if (!(range_m > nearest_m)) return 0.0;
   return std::sqrt(limits.deceleration_m_s2 * (range_m - nearest_m));
 }
 
-Motion moving_at(const VelocityCommand& previous, TimeNs now_ns, const GateConfig& limits) {
+Velocity velocity_at(const VelocityCommand& previous, TimeNs now_ns, const GateConfig& limits) {
   if (!finite(previous) || now_ns > previous.t_expires_ns) return {};
   return {std::clamp(previous.v_m_s, -limits.v_max_m_s, limits.v_max_m_s),
           std::clamp(previous.yaw_rate_rad_s, -limits.yaw_rate_max_rad_s, limits.yaw_rate_max_rad_s)};
@@ -54,37 +54,37 @@ GateResult apply_gate(const VelocityCommand& wanted, const VelocityCommand& prev
   if (style == StopStyle::AtOnce) return result;
 
   unsigned limited_by = wanted.limited_by;
-  Motion aim{wanted.v_m_s, wanted.yaw_rate_rad_s};
+  Velocity goal{wanted.v_m_s, wanted.yaw_rate_rad_s};
   if (style == StopStyle::ComeToRest) {
-    aim = {};
+    goal = {};
   } else if (!finite(wanted)) {
     limited_by |= kGateNotFinite;
-    aim = {};
+    goal = {};
   } else if (now_ns > wanted.t_expires_ns) {
     limited_by |= kGateAge;
-    aim = {};
+    goal = {};
   }
-  aim.v_m_s = bounded(aim.v_m_s, -limits.v_max_m_s, limits.v_max_m_s, kGateSpeed, limited_by);
-  aim.yaw_rate_rad_s = bounded(aim.yaw_rate_rad_s, -limits.yaw_rate_max_rad_s, limits.yaw_rate_max_rad_s,
-                               kGateSpeed, limited_by);
-  aim.v_m_s =
-      bounded(aim.v_m_s, -limits.v_max_m_s, approach_limit(clearances.person_m, limits.separation_m, limits),
+  goal.v_m_s = clamped(goal.v_m_s, -limits.v_max_m_s, limits.v_max_m_s, kGateSpeed, limited_by);
+  goal.yaw_rate_rad_s = clamped(goal.yaw_rate_rad_s, -limits.yaw_rate_max_rad_s, limits.yaw_rate_max_rad_s,
+                                kGateSpeed, limited_by);
+  goal.v_m_s =
+      clamped(goal.v_m_s, -limits.v_max_m_s, approach_limit(clearances.person_m, limits.separation_m, limits),
               kGateSeparation, limited_by);
-  // The way the robot is to take must be free, and so must the way it is on until it has changed over.
-  const Motion now = moving_at(previous, now_ns, limits);
-  result.free_distance_m = std::min(clearances.obstacles.free_distance_m(aim.v_m_s, aim.yaw_rate_rad_s),
+  // Two arcs must be free: the one to drive, and the one that is driven until the velocity has changed.
+  const Velocity now = velocity_at(previous, now_ns, limits);
+  result.free_distance_m = std::min(clearances.obstacles.free_distance_m(goal.v_m_s, goal.yaw_rate_rad_s),
                                     clearances.obstacles.free_distance_m(now.v_m_s, now.yaw_rate_rad_s));
-  const double cautious_m_s = approach_limit(result.free_distance_m, limits.clearance_m, limits);
-  aim.v_m_s = bounded(aim.v_m_s, -cautious_m_s, cautious_m_s, kGateObstacle, limited_by);
+  const double obstacle_limit_m_s = approach_limit(result.free_distance_m, limits.clearance_m, limits);
+  goal.v_m_s = clamped(goal.v_m_s, -obstacle_limit_m_s, obstacle_limit_m_s, kGateObstacle, limited_by);
 
-  const bool stale = now_ns > previous.t_expires_ns;  // after a gap the first command is zero
-  const TimeNs gap_ns = stale ? 0 : std::clamp<TimeNs>(now_ns - previous.t_issued_ns, 0, kLongestSlew_ns);
+  const bool expired = now_ns > previous.t_expires_ns;  // the first command after a gap is zero
+  const TimeNs gap_ns = expired ? 0 : std::clamp<TimeNs>(now_ns - previous.t_issued_ns, 0, kLongestSlew_ns);
   const double dt_s = seconds_from_ns(gap_ns);
-  out.v_m_s = slewed(now.v_m_s, aim.v_m_s, limits.acceleration_m_s2 * dt_s, limits.deceleration_m_s2 * dt_s);
+  out.v_m_s = slewed(now.v_m_s, goal.v_m_s, limits.acceleration_m_s2 * dt_s, limits.deceleration_m_s2 * dt_s);
   const double yaw_step = limits.yaw_acceleration_rad_s2 * dt_s;
   out.yaw_rate_rad_s =
-      std::clamp(aim.yaw_rate_rad_s, now.yaw_rate_rad_s - yaw_step, now.yaw_rate_rad_s + yaw_step);
-  if (out.v_m_s != aim.v_m_s || out.yaw_rate_rad_s != aim.yaw_rate_rad_s) limited_by |= kGateAcceleration;
+      std::clamp(goal.yaw_rate_rad_s, now.yaw_rate_rad_s - yaw_step, now.yaw_rate_rad_s + yaw_step);
+  if (out.v_m_s != goal.v_m_s || out.yaw_rate_rad_s != goal.yaw_rate_rad_s) limited_by |= kGateAcceleration;
   out.limited_by = static_cast<std::uint8_t>(limited_by);
   return result;
 }

@@ -1,5 +1,5 @@
-// The last look before the wire. Whatever comes in, what goes out is finite, within the speed limits, within
-// reach of the command before it at the acceleration limits, and expires.
+// The last limits before the wire. Whatever the input is, the output is finite, within the speed limits,
+// reachable from the previous command within the acceleration limits, and expires.
 #pragma once
 
 #include <limits>
@@ -11,11 +11,10 @@
 
 namespace heel {
 
-/// `previous` is what the gate let through last; one that has expired, or none, counts as rest, and the first
-/// command after it is zero. Longer gaps between ticks than `kLongestSlew_ns` do not allow larger steps.
+/// A gap between ticks that is longer than this allows no larger change of velocity.
 inline constexpr TimeNs kLongestSlew_ns = 100 * kNsPerMs;
 
-/// What the robot must keep away from, now.
+/// What the robot must not come too near to, in this tick.
 struct Clearances {
   double person_m = std::numeric_limits<double>::infinity();  ///< camera to back, when the person is ahead
   SonarObstacles obstacles;
@@ -28,6 +27,8 @@ struct GateResult {
   double free_distance_m = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// `previous` is the gate's last command. One that has expired, or none, counts as rest, and the first
+/// command after it is zero.
 GateResult apply_gate(const VelocityCommand& wanted, const VelocityCommand& previous, StopStyle style,
                       const Clearances& clearances, TimeNs now_ns, const GateConfig& limits);
 

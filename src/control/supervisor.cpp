@@ -3,8 +3,8 @@
 namespace heel {
 namespace {
 
-// Why this order: what a person did on purpose, then what makes the robot's answers meaningless, then what it
-// touches, then what it cannot hear or see. The rows about seeing go from the most to the least specific.
+// The order: shutdown; no knowledge of the robot; motors off; contact; missing sensor data. The rows about
+// the target go from the most to the least specific.
 constexpr SupervisorRow kTable[] = {
     {kShutdown, StopReason::Shutdown, StopStyle::AtOnce},
     {kLinkDown, StopReason::LinkDown, StopStyle::AtOnce},

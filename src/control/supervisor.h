@@ -1,4 +1,5 @@
-// The supervisor: a table from conditions to the reason the robot rests, first row that applies.
+// The supervisor: a table from conditions to the reason why the robot is at rest. The first row that applies
+// counts.
 #pragma once
 
 #include <span>
@@ -11,7 +12,7 @@ namespace heel {
 enum class StopStyle : std::uint8_t {
   Go,          ///< not stopping
   ComeToRest,  ///< within the deceleration limits
-  AtOnce,      ///< zero on the wire now; the robot's own controller brakes
+  AtOnce,      ///< zero on the wire now; the robot's controller brakes
 };
 
 struct SupervisorRow {
@@ -28,7 +29,7 @@ struct Verdict {
 /// Highest priority first.
 std::span<const SupervisorRow> supervisor_table();
 
-/// Pure: the first row whose condition holds; following when none does.
+/// The first row whose condition holds; following when none does.
 Verdict supervise(Conditions conditions);
 
 }  // namespace heel

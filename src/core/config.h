@@ -17,10 +17,10 @@ struct CameraConfig {
   int height_px = 480;
   double rate_hz = 30.0;
   double exposure_ms = 0.0;     ///< 0: automatic
-  double focus = -1.0;          ///< driver units; −1: leave alone
+  double focus = -1.0;          ///< driver units; −1: as it is
   double gain = -1.0;           ///< driver units; −1: automatic
-  double file_speed = 1.0;      ///< file source: times its own rate; 0: as fast as asked
-  std::string at_end = "stop";  ///< a file source's last frame: stop (rest and exit) or loop
+  double file_speed = 1.0;      ///< file source: times its own rate; 0: each frame as soon as it is requested
+  std::string at_end = "stop";  ///< after a file source's last frame: stop (come to rest and exit) or loop
   // Mount: the camera's optical centre in the robot frame.
   double mount_x_m = 0.15;
   double mount_y_m = 0.0;
@@ -34,12 +34,12 @@ struct TargetConfig {
 };
 
 struct EstimateConfig {
-  double acceleration_m_s2 = 1.0;        ///< how hard the person changes speed, one standard deviation
-  double yaw_acceleration_rad_s2 = 0.8;  ///< how hard the person changes direction, one standard deviation
-  double position_sigma_m = 0.03;        ///< least standard deviation of a measured position
-  double yaw_sigma_rad = 0.03;           ///< least standard deviation of a measured yaw
-  double outlier_sigma = 5.0;            ///< a measurement farther off than this is a wild jump
-  int outliers_to_reset = 5;             ///< this many in a row are believed after all
+  double acceleration_m_s2 = 1.0;        ///< standard deviation of the person's acceleration
+  double yaw_acceleration_rad_s2 = 0.8;  ///< standard deviation of the person's yaw acceleration
+  double position_sigma_m = 0.03;        ///< smallest standard deviation of a measured position
+  double yaw_sigma_rad = 0.03;           ///< smallest standard deviation of a measured yaw
+  double outlier_sigma = 5.0;  ///< a measurement farther than this from the prediction is an outlier
+  int outliers_to_reset = 5;   ///< outliers in a row after which the estimate starts again
 };
 
 struct ControlConfig {
@@ -48,24 +48,24 @@ struct ControlConfig {
   double gain_distance_1_s = 1.0;     ///< v = gain · t_z error (m → m/s)
   double gain_lateral_rad_s_m = 1.0;  ///< yaw rate from t_x error
   double gain_yaw_1_s = 0.8;    ///< yaw rate from yaw error; control/proportional_law.h says how it is chosen
-  double setpoint_t_z_m = 0.0;  ///< added to the template's distance: + follows farther away
-  double setpoint_t_x_m = 0.0;  ///< + walks to the person's left
-  double setpoint_yaw_rad = 0.0;  ///< + circles to the person's right, still facing the person
+  double setpoint_t_z_m = 0.0;  ///< added to the template's distance: + follows from farther away
+  double setpoint_t_x_m = 0.0;  ///< + drives to the left of the person
+  double setpoint_yaw_rad = 0.0;  ///< + moves round to the right of the person, facing them
   double deadband_distance_m = 0.05;
   bool reverse = false;           ///< may drive backwards when the person comes nearer
-  double bearing_max_rad = 0.35;  ///< the person is kept within this angle of the optical axis
+  double bearing_max_rad = 0.35;  ///< largest angle between the person and the optical axis
   double bearing_gain_1_s = 2.0;  ///< how fast the bearing may approach that angle
 };
 
 struct SupervisorConfig {
-  double certainty_follow = 0.1;  ///< start following at this certainty …
-  double certainty_drop = 0.06;   ///< … and give up below this one (hysteresis)
-  int frames_to_follow = 3;       ///< consecutive good frames before the wheels turn
-  double target_timeout_s = 0.4;  ///< no pose this long: target lost
-  double frame_timeout_s = 0.3;   ///< no frame this long: camera stale
-  double sip_timeout_s = 0.5;     ///< no SIP this long: robot stale
-  double bumper_hold_s = 2.0;     ///< rest this long after a bumper or stall has cleared
-  double sonar_timeout_s = 1.0;   ///< no echo from the front sonars this long: they are silent
+  double certainty_follow = 0.1;  ///< following starts at this certainty …
+  double certainty_drop = 0.06;   ///< … and goes on at this one (hysteresis)
+  int frames_to_follow = 3;       ///< good frames in a row before the robot moves
+  double target_timeout_s = 0.4;  ///< no good frame for this long: target lost
+  double frame_timeout_s = 0.3;   ///< no frame for this long: camera silent
+  double sip_timeout_s = 0.5;     ///< no SIP for this long: robot silent
+  double bumper_hold_s = 2.0;     ///< time at rest after a bumper or stall has cleared
+  double sonar_timeout_s = 1.0;   ///< no reading of a front sonar for this long: sonars silent
 };
 
 struct GateConfig {
@@ -73,8 +73,8 @@ struct GateConfig {
   double yaw_rate_max_rad_s = 1.0;
   double acceleration_m_s2 = 0.6;
   double deceleration_m_s2 = 1.5;
-  double separation_m = 0.8;  ///< never drives nearer to the person than this
-  double clearance_m = 0.4;   ///< nor nearer to anything the sonars hear in its way, bumper to echo
+  double separation_m = 0.8;  ///< the robot drives no nearer to the person, camera to back
+  double clearance_m = 0.4;   ///< nor nearer to a sonar obstacle in its way, bumper to echo
   double yaw_acceleration_rad_s2 = 2.5;
   double command_lifetime_s = 0.2;
 };
@@ -83,7 +83,7 @@ struct RobotConfig {
   std::string address = "serial:/dev/heel-robot@38400";  ///< serial:PATH@BAUD, pty:PATH@BAUD, tcp:HOST:PORT
   bool sonar = true;
   bool request_config = true;
-  double config_wait_s = 1.0;  ///< go on without CONFIGpac after this
+  double config_wait_s = 1.0;  ///< longest wait for CONFIGpac
   double sync_retry_s = 1.0;
   double reconnect_s = 1.0;
   double dist_conv_factor = 1.0;   ///< mm per XPOS/YPOS unit: 1.0 p3at-sh, 0.465 p3at
@@ -101,7 +101,7 @@ struct TelemetryConfig {
 struct RuntimeConfig {
   std::string log_level = "info";
   std::string ready_after = "all";  ///< all (robot and first frame), robot, start: when systemd is told READY
-  bool realtime = true;             ///< ask for SCHED_FIFO and mlockall; go on without, saying so
+  bool realtime = true;             ///< request SCHED_FIFO and mlockall; without them, warn and go on
   int priority_control = 60;
   int priority_capture = 50;
   int priority_vision = 40;

@@ -1,5 +1,4 @@
-// The random numbers of everything that must repeat: the same seed gives the same numbers on every machine
-// and with every library.
+// Random numbers that repeat: the same seed gives the same numbers on every machine and with every library.
 #pragma once
 
 #include <cmath>
@@ -8,7 +7,7 @@
 
 namespace heel {
 
-/// Random (G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+/// SplitMix64 (G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -40,7 +39,8 @@ class Random {
   std::uint64_t state_;
 };
 
-/// An independent seed for one part of a simulated world, so that a new box does not change the shirt.
+/// A seed of its own for one part of a simulated world, so that a change of one part leaves the others as
+/// they are.
 inline std::uint64_t derived_seed(std::uint64_t seed, std::uint64_t part) {
   return Random(seed ^ (part * 0xd1342543de82ef95ULL)).next();
 }

@@ -5,6 +5,7 @@
 #include "robot/p3at_geometry.h"
 
 namespace heel {
+
 ControlLoop::ControlLoop(const Config& config, Mailbox<PoseEstimate>& poses, TelemetryQueues& queues)
     : link_(config.robot),
       stage_(config, p3at_geometry()),
@@ -15,8 +16,8 @@ ControlLoop::ControlLoop(const Config& config, Mailbox<PoseEstimate>& poses, Tel
 void ControlLoop::run() {
   deadline_.restart(monotonic_now_ns());
   while (!stop_.load(std::memory_order_relaxed)) {
-    const TimeNs lateness_ns = sleep_to_the_tick();
-    take_over_configuration();
+    const TimeNs lateness_ns = wait_for_tick();
+    apply_offered_configuration();
     tick(lateness_ns);
   }
   input_.shutdown = true;
@@ -38,9 +39,10 @@ void ControlLoop::shut_robot_down() {
   report_robot_events();
 }
 
-/// Returns how late it is. Until then bytes are stamped as they come.
-TimeNs ControlLoop::sleep_to_the_tick() {
-  link_.listen_until(deadline_.next_ns());
+/// Waits for the next deadline and returns the lateness. Meanwhile the robot's bytes are stamped as they
+/// arrive.
+TimeNs ControlLoop::wait_for_tick() {
+  link_.receive_until(deadline_.next_ns());
   const TimeNs now_ns = monotonic_now_ns();
   const TimeNs lateness_ns = deadline_.advance(now_ns);
   heartbeat_ns_.store(now_ns, std::memory_order_relaxed);
@@ -53,7 +55,7 @@ TimeNs ControlLoop::sleep_to_the_tick() {
   return lateness_ns;
 }
 
-void ControlLoop::take_over_configuration() {
+void ControlLoop::apply_offered_configuration() {
   const Config* config = offered_.exchange(nullptr, std::memory_order_acquire);
   if (config == nullptr) return;
   stage_.reconfigure(*config);

@@ -1,5 +1,5 @@
-// The control thread's body: at each deadline the newest pose and the newest packet become one command.
-// It is the only owner of the robot's line, and its last act is always STOP and CLOSE.
+// The body of the control thread: once a period, the newest pose and the robot's state become one command. It
+// alone uses the robot's line, and it always ends with STOP and CLOSE.
 #pragma once
 
 #include <atomic>
@@ -29,7 +29,7 @@ class ControlLoop {
   /// the call returns. False: the loop did not take it within the timeout.
   bool reconfigure(const Config& config, TimeNs timeout_ns);
 
-  // ── for the main thread ──
+  // For the main thread:
   /// True and the newest tick, when there is one not taken before.
   bool take_status(TickRecord& out) { return status_.take(out); }
   TimeNs heartbeat_ns() const { return heartbeat_ns_.load(std::memory_order_relaxed); }
@@ -37,9 +37,9 @@ class ControlLoop {
   std::string last_open_error() const { return link_.last_open_error(); }
 
  private:
-  TimeNs sleep_to_the_tick();
+  TimeNs wait_for_tick();
   void tick(TimeNs lateness_ns);
-  void take_over_configuration();
+  void apply_offered_configuration();
   void read_inputs(TimeNs now_ns);
   void report_robot_events();
   void publish(const TickRecord& record);

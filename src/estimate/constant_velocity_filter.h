@@ -1,4 +1,4 @@
-// A Kalman filter of N coordinates that keep their velocity but for white acceleration.
+// A Kalman filter of N coordinates whose velocity changes by white acceleration noise.
 // State s = (p, v); F = [I dt·I; 0 I]; Y. Bar-Shalom, X. Li, T. Kirubarajan, "Estimation with Applications to
 // Tracking and Navigation", 2001, section 6.2.2 (continuous white noise acceleration) and 5.2.3 (the filter).
 #pragma once
@@ -14,7 +14,7 @@ class ConstantVelocityFilter {
   using Vector = Eigen::Matrix<double, N, 1>;
   using Matrix = Eigen::Matrix<double, N, N>;
 
-  /// Begins at a measured position with unknown velocity around zero.
+  /// Starts at a measured position, with velocity zero ± velocity_sigma.
   void start(const Vector& position, const Matrix& R, double velocity_sigma) {
     state_.setZero();
     state_.template head<N>() = position;
@@ -23,7 +23,7 @@ class ConstantVelocityFilter {
     P_.template bottomRightCorner<N, N>() = velocity_sigma * velocity_sigma * Matrix::Identity();
   }
 
-  /// `acceleration_sigma`: standard deviation the velocity gathers in one second.
+  /// `acceleration_sigma`: standard deviation of the velocity's change in one second.
   void predict(double dt_s, double acceleration_sigma) {
     State2 F = State2::Identity();
     F.template topRightCorner<N, N>() = dt_s * Matrix::Identity();

@@ -15,7 +15,7 @@ Pose2 extrapolated(const Odometry& from, double dt_s) {
 
 namespace {
 
-Pose2 between(const Odometry& a, const Odometry& b, TimeNs t_ns) {
+Pose2 interpolated(const Odometry& a, const Odometry& b, TimeNs t_ns) {
   const double s = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
   return {a.x_m + s * (b.x_m - a.x_m), a.y_m + s * (b.y_m - a.y_m),
           a.heading_rad + s * (b.heading_rad - a.heading_rad)};
@@ -23,14 +23,14 @@ Pose2 between(const Odometry& a, const Odometry& b, TimeNs t_ns) {
 
 }  // namespace
 
-void OdometryHistory::push(const Odometry& odometry) {
+void OdometryHistory::add(const Odometry& odometry) {
   if (size_ > 0 && odometry.t_ns <= from_newest(0).t_ns) return;
   ring_[next_] = odometry;
   next_ = (next_ + 1) % kCapacity;
   if (size_ < kCapacity) ++size_;
 }
 
-std::optional<Pose2> OdometryHistory::at(TimeNs t_ns) const {
+std::optional<Pose2> OdometryHistory::pose_at(TimeNs t_ns) const {
   if (size_ == 0) return std::nullopt;
   const Odometry& newest = from_newest(0);
   if (t_ns >= newest.t_ns) {
@@ -39,7 +39,7 @@ std::optional<Pose2> OdometryHistory::at(TimeNs t_ns) const {
   }
   for (std::size_t back = 1; back < size_; ++back) {
     const Odometry& older = from_newest(back);
-    if (older.t_ns <= t_ns) return between(older, from_newest(back - 1), t_ns);
+    if (older.t_ns <= t_ns) return interpolated(older, from_newest(back - 1), t_ns);
   }
   return std::nullopt;
 }

@@ -1,4 +1,4 @@
-// The robot's recent path in odom, so that a frame can be placed where the robot was when it was taken.
+// The robot's recent poses in odom: where was the robot when a frame was taken?
 #pragma once
 
 #include <array>
@@ -10,23 +10,23 @@
 
 namespace heel {
 
-/// Where a robot is `dt_s` later that keeps its speed and yaw rate: the unicycle's arc, by its chord.
+/// The pose `dt_s` after `from` at constant speed and yaw rate (unicycle model).
 Pose2 extrapolated(const Odometry& from, double dt_s);
 
-/// A fixed ring of odometry, newest last. Does not allocate.
+/// A ring buffer of fixed size. Does not allocate.
 class OdometryHistory {
  public:
   static constexpr std::size_t kCapacity = 64;  ///< 6.4 s at the robot's usual 10 packets a second
-  /// Beyond the newest packet the robot is taken to keep its speed and yaw rate for at most this long.
+  /// Longest extrapolation after the newest packet.
   static constexpr TimeNs kMaxAhead_ns = 500 * kNsPerMs;
 
-  /// Keeps the packet unless it is not newer than the last one.
-  void push(const Odometry& odometry);
+  /// Adds a packet that is newer than the last one; ignores others.
+  void add(const Odometry& odometry);
   void clear() { size_ = 0; }
 
-  /// The robot in odom at `t_ns`: interpolated between packets, carried on along an arc after the newest.
-  /// Nothing when t_ns is older than the ring or too far ahead of it.
-  std::optional<Pose2> at(TimeNs t_ns) const;
+  /// The robot in odom at `t_ns`: interpolated between packets, extrapolated after the newest. No value when
+  /// `t_ns` is before the oldest packet kept, or more than kMaxAhead_ns after the newest.
+  std::optional<Pose2> pose_at(TimeNs t_ns) const;
 
  private:
   const Odometry& from_newest(std::size_t back) const {

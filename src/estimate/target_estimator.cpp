@@ -10,16 +10,16 @@
 namespace heel {
 namespace {
 
-// Spread of a new target's velocity: a person walks at about 1 m/s and turns at about 1 rad/s.
+// Standard deviations of a new target's velocity.
 constexpr double kStartSpeedSigma_m_s = 1.0;
 constexpr double kStartYawRateSigma_rad_s = 0.5;
-// A homography measures scale, hence range, to a few per cent and direction far better.
+// A homography measures scale, and so range, to a few per cent, and direction much better.
 constexpr double kRangeSigmaPerM = 0.02;
 constexpr double kAcrossSigmaPerM = 0.005;
-// A gap longer than this says nothing about where the person went: begin anew.
+// After a longer gap the filters start again from the measurement.
 constexpr TimeNs kLongestGap_ns = kNsPerS;
-// The target is carried on past its last frame no longer than this. Whoever walks goes on walking; whoever
-// turns is soon done with it.
+// Longest prediction after the last frame. A person who walks usually walks on; a person who turns soon stops
+// turning.
 constexpr TimeNs kLongestWalk_ns = 500 * kNsPerMs;
 constexpr TimeNs kLongestTurn_ns = 200 * kNsPerMs;
 
@@ -46,13 +46,13 @@ void TargetEstimator::reconfigure(const Config& config) {
 }
 
 void TargetEstimator::reset() {
-  path_.clear();
+  odometry_.clear();
   known_ = false;
   outliers_in_a_row_ = 0;
 }
 
 void TargetEstimator::add_odometry(const Odometry& odometry) {
-  path_.push(odometry);
+  odometry_.add(odometry);
 }
 
 void TargetEstimator::start(const Eigen::Vector2d& position_odom_m, double yaw_odom_rad,
@@ -65,19 +65,19 @@ void TargetEstimator::start(const Eigen::Vector2d& position_odom_m, double yaw_o
 }
 
 bool TargetEstimator::update(const PoseEstimate& pose) {
-  const auto sighting = measurement_from_pose(pose, mount_);
-  const auto robot = path_.at(pose.t_capture_ns);
+  const auto measurement = measurement_from_pose(pose, mount_);
+  const auto robot = odometry_.pose_at(pose.t_capture_ns);
   const TimeNs gap_ns = pose.t_capture_ns - t_capture_ns_;
-  if (!sighting || !robot || (known_ && gap_ns <= 0)) return false;
+  if (!measurement || !robot || (known_ && gap_ns <= 0)) return false;
 
-  const Eigen::Vector2d sight_m = rotation(robot->heading_rad) * sighting->position_m;
-  const Eigen::Vector2d position_m = Eigen::Vector2d(robot->x_m, robot->y_m) + sight_m;
-  const double yaw_rad = robot->heading_rad + sighting->yaw_rad;
-  const Eigen::Matrix2d R_position = position_covariance(sight_m, settings_.position_sigma_m);
-  const double yaw_sigma_rad = std::max(sighting->yaw_sigma_rad, settings_.yaw_sigma_rad);
+  const Eigen::Vector2d line_of_sight_m = rotation(robot->heading_rad) * measurement->position_m;
+  const Eigen::Vector2d position_m = Eigen::Vector2d(robot->x_m, robot->y_m) + line_of_sight_m;
+  const double yaw_rad = robot->heading_rad + measurement->yaw_rad;
+  const Eigen::Matrix2d R_position = position_covariance(line_of_sight_m, settings_.position_sigma_m);
+  const double yaw_sigma_rad = std::max(measurement->yaw_sigma_rad, settings_.yaw_sigma_rad);
   const Eigen::Matrix<double, 1, 1> R_yaw(yaw_sigma_rad * yaw_sigma_rad);
 
-  bool believed = true;
+  bool accepted = true;
   if (!known_ || gap_ns > kLongestGap_ns) {
     start(position_m, yaw_rad, R_position, R_yaw(0));
   } else {
@@ -86,44 +86,44 @@ bool TargetEstimator::update(const PoseEstimate& pose) {
     const Eigen::Vector2d d_position = position_m - position_.position();
     const Eigen::Matrix<double, 1, 1> d_yaw(wrap_angle_rad(yaw_rad - yaw_.position()(0)));
     const double gate = settings_.outlier_sigma * settings_.outlier_sigma;
-    const bool wild = position_.distance_squared(d_position, R_position) > gate ||
-                      yaw_.distance_squared(d_yaw, R_yaw) > gate;
-    if (!wild) {
+    const bool outlier = position_.distance_squared(d_position, R_position) > gate ||
+                         yaw_.distance_squared(d_yaw, R_yaw) > gate;
+    if (!outlier) {
       position_.correct(d_position, R_position);
       yaw_.correct(d_yaw, R_yaw);
       outliers_in_a_row_ = 0;
     } else if (++outliers_in_a_row_ >= settings_.outliers_to_reset) {
       start(position_m, yaw_rad, R_position, R_yaw(0));
     } else {
-      believed = false;
+      accepted = false;
     }
   }
   t_capture_ns_ = pose.t_capture_ns;
-  if (!believed) return false;
+  if (!accepted) return false;
   certainty_ = pose.certainty;
-  in_reference_view_m_ = sighting->in_reference_view_m;
+  in_reference_view_m_ = measurement->in_reference_view_m;
   return true;
 }
 
-TargetState TargetEstimator::at(TimeNs now_ns) const {
+TargetState TargetEstimator::predict(TimeNs now_ns) const {
   TargetState target;
-  const auto robot = path_.at(now_ns);
+  const auto robot = odometry_.pose_at(now_ns);
   if (!known_ || !robot) return target;
 
-  const auto ahead_s = [&](TimeNs longest_ns) {
+  const auto prediction_s = [&](TimeNs longest_ns) {
     return seconds_from_ns(std::clamp<TimeNs>(now_ns - t_capture_ns_, 0, longest_ns));
   };
   const Eigen::Vector2d position_odom_m =
-      position_.position() + ahead_s(kLongestWalk_ns) * position_.velocity();
-  const double yaw_odom_rad = yaw_.position()(0) + ahead_s(kLongestTurn_ns) * yaw_.velocity()(0);
+      position_.position() + prediction_s(kLongestWalk_ns) * position_.velocity();
+  const double yaw_odom_rad = yaw_.position()(0) + prediction_s(kLongestTurn_ns) * yaw_.velocity()(0);
 
   const Eigen::Matrix2d R_robot_from_odom = rotation(-robot->heading_rad);
   const Eigen::Vector2d position_m =
       R_robot_from_odom * (position_odom_m - Eigen::Vector2d(robot->x_m, robot->y_m));
   const double yaw_rad = wrap_angle_rad(yaw_odom_rad - robot->heading_rad);
 
-  // The camera has the person where the reference view has them, moved by the set points; the robot's own
-  // centre is behind the camera by the mount.
+  // At the goal the camera has the person where the reference view has them, moved by the set points. The
+  // mount leads from the camera to the robot's centre.
   const Eigen::Vector2d person_from_camera_m =
       in_reference_view_m_ + Eigen::Vector2d(set_points_.t_z_m, -set_points_.t_x_m);
   const Eigen::Vector2d person_from_robot_m = person_from_camera_m + Eigen::Vector2d(mount_.x_m, mount_.y_m);

@@ -1,5 +1,5 @@
-// The person in the odometry frame. Frames are placed where the robot was when they were taken; two
-// constant-velocity filters carry position and walking direction from frame to frame and on to `now`.
+// Estimates the person's pose in the odometry frame. A frame's measurement is placed by the robot's pose at
+// its capture time. Two constant-velocity filters, of position and of walking direction, smooth and predict.
 #pragma once
 
 #include "core/config.h"
@@ -15,16 +15,17 @@ class TargetEstimator {
  public:
   explicit TargetEstimator(const Config& config) { reconfigure(config); }
 
-  /// New thresholds and set points; what is known of the person is kept.
+  /// New thresholds and set points; the estimate is kept.
   void reconfigure(const Config& config);
-  /// Forgets the person and the path: odom has begun anew.
+  /// Forgets the person and the robot's path.
   void reset();
 
   void add_odometry(const Odometry& odometry);
-  /// True when the frame was believed: found, metric, newer than the last, placed in odom, not a wild jump.
+  /// True when the frame is accepted: the shirt was found, its distance is known, the frame is newer than the
+  /// last, the robot's pose at the capture time is known, and the measurement is no outlier.
   bool update(const PoseEstimate& pose);
-  /// The person and the pose to take, in the robot frame at `now_ns`.
-  TargetState at(TimeNs now_ns) const;
+  /// The person, and the pose that the robot is to take, in the robot frame at `now_ns`.
+  TargetState predict(TimeNs now_ns) const;
 
  private:
   void start(const Eigen::Vector2d& position_odom_m, double yaw_odom_rad, const Eigen::Matrix2d& R_position,
@@ -37,7 +38,7 @@ class TargetEstimator {
   };
   SetPoints set_points_;
 
-  OdometryHistory path_;
+  OdometryHistory odometry_;
   ConstantVelocityFilter<2> position_;  // odom, m
   ConstantVelocityFilter<1> yaw_;       // odom, rad, continuous
   bool known_ = false;

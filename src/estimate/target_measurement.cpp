@@ -26,7 +26,7 @@ std::optional<TargetMeasurement> measurement_from_pose(const PoseEstimate& pose,
   const Eigen::Map<const Eigen::Vector3d> position_m(pose.position_m.data());
   const Eigen::Matrix3d R_robot_from_cur = R_robot_from_camera(mount.pitch_rad);
 
-  // The centre c of the template obeys  position = R c + d (t/d)  with c_z = d, hence
+  // The centre c of the template satisfies  position = R c + d (t/d)  with c_z = d, so that
   //   d = e_z·Rᵀ position / (1 + e_z·Rᵀ (t/d)),
   // whose denominator is the present distance to the shirt's plane over d.
   const double plane_ratio = 1.0 + (R_cur_from_ref.transpose() * t_over_d).z();
@@ -37,18 +37,18 @@ std::optional<TargetMeasurement> measurement_from_pose(const PoseEstimate& pose,
   const Eigen::Vector3d position_robot_m =
       Eigen::Vector3d(mount.x_m, mount.y_m, mount.z_m) + R_robot_from_cur * position_m;
 
-  TargetMeasurement sighting;
-  sighting.position_m = position_robot_m.head<2>();
-  sighting.yaw_rad = std::atan2(walking.y(), walking.x());
-  sighting.yaw_sigma_rad = pose.yaw_sigma_rad;
-  sighting.in_reference_view_m = {d_m, -centre_ref_m.x()};
+  TargetMeasurement measurement;
+  measurement.position_m = position_robot_m.head<2>();
+  measurement.yaw_rad = std::atan2(walking.y(), walking.x());
+  measurement.yaw_sigma_rad = pose.yaw_sigma_rad;
+  measurement.in_reference_view_m = {d_m, -centre_ref_m.x()};
 
   constexpr double kLeastHorizontalShare = 0.2;  // a back tilted by more than 78° shows no direction
   const bool valid = plane_ratio > 0.0 && d_m > 0.0 && walking.head<2>().norm() > kLeastHorizontalShare &&
-                     sighting.position_m.allFinite() && sighting.in_reference_view_m.allFinite() &&
-                     std::isfinite(sighting.yaw_rad) && std::isfinite(sighting.yaw_sigma_rad);
+                     measurement.position_m.allFinite() && measurement.in_reference_view_m.allFinite() &&
+                     std::isfinite(measurement.yaw_rad) && std::isfinite(measurement.yaw_sigma_rad);
   if (!valid) return std::nullopt;
-  return sighting;
+  return measurement;
 }
 
 }  // namespace heel

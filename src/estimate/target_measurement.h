@@ -1,4 +1,4 @@
-// One frame's pose of the shirt, brought from the camera to the floor.
+// The person's position and walking direction on the floor, from one frame's pose of the shirt.
 //   camera frame  x right, y down, z forward        robot frame  x forward, y left, z up
 #pragma once
 
@@ -22,16 +22,16 @@ CameraMount mount_of(const CameraConfig& camera);
 /// Columns: the camera's axes in the robot frame, for an optical axis tilted up by pitch.
 Eigen::Matrix3d R_robot_from_camera(double pitch_rad);
 
-/// The person as one frame saw them, robot frame at capture.
+/// The person as measured in one frame, in the robot frame at the capture time.
 struct TargetMeasurement {
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< centre of the back
   double yaw_rad = 0.0;        ///< walking direction against the robot's heading, counter-clockwise +
-  double yaw_sigma_rad = 0.0;  ///< as vision states it
+  double yaw_sigma_rad = 0.0;  ///< from vision
   /// Where the reference view has the person: this far ahead of the camera and to its left.
   Eigen::Vector2d in_reference_view_m = Eigen::Vector2d::Zero();
 };
 
-/// Nothing when the pose was not found, is not metric, is not finite, or shows no walking direction (a back
+/// No value when the pose was not found, is not metric, is not finite, or shows no walking direction (a back
 /// that lies flat).
 std::optional<TargetMeasurement> measurement_from_pose(const PoseEstimate& pose, const CameraMount& mount);
 

@@ -1,4 +1,3 @@
-// See robot_link.h.
 #include "robot/robot_link.h"
 
 #include <algorithm>
@@ -8,8 +7,8 @@
 namespace heel {
 namespace {
 
-// More than this waiting in the driver means nobody takes it: adding would only make the robot obey old
-// commands when the line moves again.
+// With more than this unsent in the driver the line is stuck: more bytes would only make the robot execute
+// old commands when the line moves again.
 constexpr std::size_t kBacklogBytes = 200;
 constexpr TimeNs kStuck_ns = kNsPerS;
 constexpr TimeNs kShutdown_ns = 250 * kNsPerMs;
@@ -19,9 +18,9 @@ constexpr TimeNs kAdapter_ns = 20 * kNsPerMs;  // a USB adapter's own buffering
 
 RobotLink::RobotLink(const RobotConfig& config)
     : session_(config),
-      keeper_(parse_robot_address(config.address), ns_from_seconds(config.reconnect_s)),
+      connector_(parse_robot_address(config.address), ns_from_seconds(config.reconnect_s)),
       line_baud_(session_.wanted_baud()) {
-  keeper_.open(line_baud_);
+  connector_.open(line_baud_);
 }
 
 RobotLink::~RobotLink() {
@@ -29,7 +28,7 @@ RobotLink::~RobotLink() {
 }
 
 SerialLine* RobotLink::usable_line(TimeNs now_ns) {
-  SerialLine* const line = finished_ ? nullptr : keeper_.line();
+  SerialLine* const line = finished_ ? nullptr : connector_.line();
   if (line == nullptr) return nullptr;
   if (!line_up_) {
     line_up_ = true;
@@ -39,7 +38,7 @@ SerialLine* RobotLink::usable_line(TimeNs now_ns) {
   }
   if (session_.wanted_baud() != line_baud_) {
     line_baud_ = session_.wanted_baud();
-    keeper_.retune(line_baud_);
+    connector_.retune(line_baud_);
     return nullptr;
   }
   return line;
@@ -49,7 +48,7 @@ void RobotLink::lose_line(TimeNs now_ns) {
   line_up_ = false;
   session_.line_lost(now_ns);
   line_baud_ = session_.wanted_baud();
-  keeper_.open(line_baud_);
+  connector_.open(line_baud_);
 }
 
 void RobotLink::read_all(SerialLine& line, TimeNs now_ns) {
@@ -100,7 +99,7 @@ void RobotLink::write(const VelocityCommand& command, TimeNs now_ns) {
   write_pending(now_ns);
 }
 
-void RobotLink::listen_until(TimeNs deadline_ns) {
+void RobotLink::receive_until(TimeNs deadline_ns) {
   for (;;) {
     const TimeNs now_ns = monotonic_now_ns();
     if (now_ns >= deadline_ns) return;
@@ -117,7 +116,7 @@ void RobotLink::listen_until(TimeNs deadline_ns) {
 void RobotLink::shutdown(TimeNs now_ns) {
   if (finished_) return;
   SerialLine* const line = usable_line(now_ns);
-  const auto last_words = session_.close(now_ns);
+  const auto closing_bytes = session_.close(now_ns);
   finished_ = true;
   if (line == nullptr) return;
 
@@ -126,7 +125,7 @@ void RobotLink::shutdown(TimeNs now_ns) {
   // First the rest of a packet that was begun, or the robot would take STOP for its tail.
   for (auto rest :
        {std::span<const std::uint8_t>(pending_).subspan(pending_begin_, pending_end_ - pending_begin_),
-        last_words}) {
+        closing_bytes}) {
     while (!rest.empty() && left_ns() > 0) {
       const SerialLine::Transfer put = line->write(rest);
       if (put.status == SerialLine::Status::Lost) return;
@@ -136,7 +135,7 @@ void RobotLink::shutdown(TimeNs now_ns) {
   }
   line->drain(left_ns());
   // A driver counts as sent what it has handed to the adapter, and closing the line throws that away.
-  const TimeNs on_the_wire_ns = static_cast<TimeNs>(last_words.size()) * 10 * kNsPerS / line_baud_;
+  const TimeNs on_the_wire_ns = static_cast<TimeNs>(closing_bytes.size()) * 10 * kNsPerS / line_baud_;
   sleep_until_ns(monotonic_now_ns() + std::min(left_ns(), on_the_wire_ns + kAdapter_ns));
 }
 

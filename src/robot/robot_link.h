@@ -1,5 +1,5 @@
-// The robot as the control thread sees it: line and session together. Construct it before the real-time
-// threads start; then nothing here allocates, locks or waits, but for shutdown(), which is bounded.
+// The robot's line and the session on it, for the control thread. After construction nothing here allocates,
+// locks or waits, except shutdown(), which takes a bounded time.
 #pragma once
 
 #include <array>
@@ -29,19 +29,21 @@ class RobotLink {
   /// The end of the same tick, at the same `now_ns`: writes what the session makes of the command.
   void write(const VelocityCommand& command, TimeNs now_ns);
 
-  /// Instead of sleeping to the next tick: stamps bytes as they come, until `deadline_ns` of CLOCK_MONOTONIC.
-  /// A SIP stamped only at the tick would look up to a period younger than it is.
-  void listen_until(TimeNs deadline_ns);
+  /// Reads until `deadline_ns` of CLOCK_MONOTONIC, in place of sleeping to the next tick, and stamps the
+  /// bytes as they arrive. A SIP that is stamped only at the tick would appear up to a period newer than it
+  /// is.
+  void receive_until(TimeNs deadline_ns);
 
-  /// STOP, SONAR 0, CLOSE, drained: on every way out. Takes 0.3 s at most; the link is finished after it.
+  /// Sends STOP, SONAR 0 and CLOSE and waits until they are on the wire, 0.3 s at most. The link ends with
+  /// it.
   void shutdown(TimeNs now_ns);
 
   const RobotState& state() const { return session_.state(); }
   bool next_event(SessionEvent& event) { return session_.next_event(event); }
 
   /// Failed attempts to open the line, and the last reason; for threads that may lock and allocate.
-  std::uint64_t open_failures() const { return keeper_.failures(); }
-  std::string last_open_error() const { return keeper_.last_error(); }
+  std::uint64_t open_failures() const { return connector_.failures(); }
+  std::string last_open_error() const { return connector_.last_error(); }
 
  private:
   SerialLine* usable_line(TimeNs now_ns);
@@ -50,8 +52,8 @@ class RobotLink {
   void lose_line(TimeNs now_ns);
 
   ArcosSession session_;
-  LinkConnector keeper_;
-  bool line_up_ = false;  ///< the session has been told of it
+  LinkConnector connector_;
+  bool line_up_ = false;  ///< session_.line_opened() has been called
   bool finished_ = false;
   int line_baud_;
 
@@ -61,7 +63,7 @@ class RobotLink {
   std::array<std::uint8_t, 512> pending_{};
   std::size_t pending_begin_ = 0;
   std::size_t pending_end_ = 0;
-  TimeNs t_progress_ns_ = 0;  ///< when output last moved
+  TimeNs t_progress_ns_ = 0;  ///< when the driver last took everything
 };
 
 }  // namespace heel

@@ -1,4 +1,3 @@
-// See sip_to_state.h.
 #include "robot/sip_to_state.h"
 
 #include "robot/wire_units.h"

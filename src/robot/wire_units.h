@@ -1,4 +1,4 @@
-// The one place where ARCOS wire units meet SI.
+// Conversion between ARCOS wire units and SI units. All code that converts uses these.
 #pragma once
 
 #include <numbers>

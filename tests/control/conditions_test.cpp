@@ -1,4 +1,4 @@
-// Each condition by the input that raises it, and the memory behind bumper, stall and target.
+// Each condition by the input that raises it; hold times of bumper and stall; hysteresis of the target.
 #include "control/conditions.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr TimeNs kFrame_ns = 33 * kNsPerMs;
 
-/// A healthy robot that sees the person in every frame.
+/// A robot without faults, and the person in every frame.
 struct Bench {
   SupervisorConfig config;
   ConditionMonitor monitor;
@@ -33,21 +33,21 @@ struct Bench {
     input.robot.sonar[3].t_ns = input.now_ns;
     input.pose.t_capture_ns = input.now_ns;
   }
-  Conditions frame(MeasurementStatus news = MeasurementStatus::Accepted, double certainty = 0.4) {
+  Conditions frame(MeasurementStatus measurement = MeasurementStatus::Accepted, double certainty = 0.4) {
     input.now_ns += kFrame_ns;
     freshen();
     input.pose.certainty = certainty;
-    return monitor.observe(input, news, config, sonar_on);
+    return monitor.update(input, measurement, config, sonar_on);
   }
-  Conditions idle(TimeNs dt_ns) {  // time passes, frames come, nobody in them
+  Conditions idle(TimeNs dt_ns) {  // time passes, and frames come without the person
     input.now_ns += dt_ns;
     freshen();
-    return monitor.observe(input, MeasurementStatus::Rejected, config, sonar_on);
+    return monitor.update(input, MeasurementStatus::Rejected, config, sonar_on);
   }
   void start_following() {
     for (int i = 0; i < config.frames_to_follow; ++i) frame();
   }
-  Conditions same_tick() { return monitor.observe(input, MeasurementStatus::None, config, sonar_on); }
+  Conditions same_tick() { return monitor.update(input, MeasurementStatus::None, config, sonar_on); }
 };
 
 TEST(Conditions, NoneWhileFollowing) {
@@ -94,14 +94,14 @@ TEST(Conditions, EachInputRaisesItsOwnBitAlone) {
   }
 }
 
-TEST(Conditions, DisabledIsALiveLine) {
+TEST(Conditions, DisabledIsNoFaultOfTheLine) {
   Bench bench;
   bench.start_following();
   bench.input.robot.phase = LinkPhase::Disabled;
   EXPECT_EQ(bench.same_tick(), 0);
 }
 
-TEST(Conditions, SonarsThatAreOffMayBeSilent) {
+TEST(Conditions, SonarsThatAreOffRaiseNothing) {
   Bench bench;
   bench.sonar_on = false;
   bench.start_following();
@@ -170,7 +170,7 @@ TEST(Conditions, CertaintyHasHysteresis) {
     EXPECT_EQ(bench.frame(MeasurementStatus::Accepted, between), kLowCertainty | kTargetLost);
 }
 
-TEST(Conditions, LostAfterTheTimeoutAndFoundAgainByTheSameRule) {
+TEST(Conditions, LostAfterTheTimeoutAndFollowedAgainByTheSameRule) {
   Bench bench;
   bench.start_following();
   const TimeNs seen_ns = bench.input.now_ns;

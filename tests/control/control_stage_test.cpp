@@ -1,5 +1,5 @@
-// The whole stage in a loop with an exact robot and a perfect camera: it starts gently, follows, stops for
-// every reason in time, does not jump after gaps, and takes no memory.
+// The whole stage in a loop with an exact robot and a perfect camera: it starts within the acceleration
+// limit, follows, stops in time for every reason, does not jump after gaps, and does not allocate.
 #include "control/control_stage.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ struct Following {
   Pose2 person{3.0, 0.0, 0.0};
   double person_v_m_s = 0.5, person_yaw_rate_rad_s = 0.0;
   bool camera = true, visible = true;
-  double ahead_m = 0.0;  // what the front sonar left of the middle hears, when more than 0
+  double ahead_m = 0.0;  // what the front sonar left of the middle measures, when more than 0
   ControlInput input;
   TickRecord record;
   double v_m_s = 0.0, yaw_rate_rad_s = 0.0;
@@ -76,7 +76,7 @@ struct Following {
   }
 };
 
-TEST(ControlStage, WaitsForFramesThenStartsGently) {
+TEST(ControlStage, WaitsForFramesThenStartsWithinTheAccelerationLimit) {
   Following run;
   run.tick();
   EXPECT_EQ(run.record.stop_reason, StopReason::NoTargetYet);
@@ -168,7 +168,7 @@ TEST(ControlStage, ReasonsAboutTheRobotStopAtOnceAndResumeFromZero) {
   EXPECT_GT(last_v, 0.2);
 }
 
-TEST(ControlStage, SomethingInTheWayIsNotDrivenInto) {
+TEST(ControlStage, StopsBeforeAnObstacle) {
   Following run;
   run.run(10.0);
   ASSERT_GT(run.v_m_s, 0.4);
@@ -217,7 +217,7 @@ TEST(ControlStage, AfterAGapInTheTicksTheFirstCommandIsZero) {
   EXPECT_EQ(run.yaw_rate_rad_s, 0.0);
 }
 
-TEST(ControlStage, ReconnectionForgetsTheOldOdometryFrame) {
+TEST(ControlStage, ReconnectionForgetsTheTarget) {
   Following run;
   run.run(2.0);
   ASSERT_TRUE(run.record.target.known);
@@ -310,7 +310,7 @@ TEST_P(ControlStageWithEachLaw, CommandsStayWithinTheLimitsOfTheGate) {
   EXPECT_GT(moving, 1000);
 }
 
-TEST_P(ControlStageWithEachLaw, TickTakesNoMemory) {
+TEST_P(ControlStageWithEachLaw, TickDoesNotAllocate) {
   Following run(GetParam());
   if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   const std::uint64_t before = test::allocations_of_this_thread();

@@ -1,4 +1,4 @@
-// The gate: what it lets through, and for any input whatever, what it never lets through.
+// The gate: what it passes unchanged, and the limits that hold for every input.
 #include "control/gate.h"
 
 #include <gtest/gtest.h>
@@ -38,14 +38,14 @@ VelocityCommand pass(const VelocityCommand& wanted, const VelocityCommand& previ
   return apply_gate(wanted, previous, style, clearances, kNow_ns, GateConfig{}).command;
 }
 
-TEST(Gate, LetsAModestCommandThroughUntouched) {
+TEST(Gate, PassesACommandWithinTheLimitsUnchanged) {
   const auto out = pass(command(0.305, 0.31), command(0.3, 0.3, kNow_ns - kTick_ns));
   EXPECT_DOUBLE_EQ(out.v_m_s, 0.305);
   EXPECT_DOUBLE_EQ(out.yaw_rate_rad_s, 0.31);
   EXPECT_EQ(out.limited_by, 0);
 }
 
-TEST(Gate, SpeedIsLimitedAndSaysSo) {
+TEST(Gate, LimitsTheSpeedAndSetsTheBit) {
   const double v_m_s = kLimits.v_max_m_s, yaw_rate_rad_s = -kLimits.yaw_rate_max_rad_s;
   const auto out = pass(command(9, -9), command(v_m_s, yaw_rate_rad_s, kNow_ns - kTick_ns));
   EXPECT_DOUBLE_EQ(out.v_m_s, v_m_s);
@@ -97,7 +97,7 @@ TEST(Gate, AtOnceIsZeroNow) {
   EXPECT_GT(out.t_expires_ns, kNow_ns);
 }
 
-TEST(Gate, OldAndNotFiniteCommandsCountAsRestAndSaySo) {
+TEST(Gate, OldAndNotFiniteCommandsCountAsRestAndSetTheBit) {
   const auto previous = command(0.7, 1.0, kNow_ns - kTick_ns);
   const auto old = pass(command(0.7, 1.0, kNow_ns - kNsPerS), previous);
   EXPECT_LT(old.v_m_s, 0.7);
@@ -124,7 +124,7 @@ TEST(Gate, StopsShortOfTheSeparation) {
   EXPECT_GE(range_m, limits.separation_m - 1e-3);
   EXPECT_LT(range_m, limits.separation_m + 0.1);
   EXPECT_TRUE(last.limited_by & kGateSeparation);
-  // A range that is not a number is no permission.
+  // An unknown range (NaN) permits no motion.
   EXPECT_EQ(pass(command(0.5, 0), command(0.0, 0, kNow_ns - kTick_ns), StopStyle::Go, free_space(kNaN)).v_m_s,
             0.0);
   // Backing away is still allowed.
@@ -132,7 +132,7 @@ TEST(Gate, StopsShortOfTheSeparation) {
             0.0);
 }
 
-TEST(Gate, SaysHowFarTheWayIsFreeWhenItAsks) {
+TEST(Gate, GivesTheFreeDistanceItUsed) {
   const auto free_distance_m = [](StopStyle style, const Clearances& clearances) {
     return apply_gate(command(0.5, 0), command(0.5, 0, kNow_ns - kTick_ns), style, clearances, kNow_ns,
                       GateConfig{})

@@ -1,5 +1,5 @@
-// The target in odom against truth: a robot that moves and turns, a camera that reports late, a person who
-// stands, walks, bends, and is once seen where they are not.
+// The target in odom against truth: a robot that moves and turns, frames that arrive late, a person who
+// stands, walks straight and round bends, and a wrong measurement.
 #include "estimate/target_estimator.h"
 
 #include <gtest/gtest.h>
@@ -55,22 +55,22 @@ struct Scene {
   }
 
   double position_error_m() const {
-    const TargetState target = estimator.at(now_ns);
+    const TargetState target = estimator.predict(now_ns);
     return target.known
                ? (in_robot(robot, person.x_m, person.y_m) - Eigen::Vector2d(target.x_m, target.y_m)).norm()
                : 1e9;
   }
   double yaw_error_rad() const {
-    return wrap_angle_rad(estimator.at(now_ns).yaw_rad - (person.heading_rad - robot.heading_rad));
+    return wrap_angle_rad(estimator.predict(now_ns).yaw_rad - (person.heading_rad - robot.heading_rad));
   }
 };
 
-TEST(TargetEstimator, KnowsNothingBeforeItHasSeen) {
+TEST(TargetEstimator, HasNoTargetBeforeTheFirstFrame) {
   Scene scene;
-  EXPECT_FALSE(scene.estimator.at(scene.now_ns).known);
+  EXPECT_FALSE(scene.estimator.predict(scene.now_ns).known);
 }
 
-TEST(TargetEstimator, RobotTurnsWhileFramesAreUnderway) {
+TEST(TargetEstimator, PlacesAFrameWhereTheRobotWasWhenItWasTaken) {
   Scene scene;
   scene.person = {3.0, 0.5, 0.4};
   scene.v_m_s = 0.6;
@@ -81,7 +81,7 @@ TEST(TargetEstimator, RobotTurnsWhileFramesAreUnderway) {
   EXPECT_NEAR(scene.yaw_error_rad(), 0.0, 1e-6);
 }
 
-TEST(TargetEstimator, PersonWalkingAndBendingIsCarriedToNow) {
+TEST(TargetEstimator, PredictsAWalkingAndTurningPerson) {
   Scene scene;
   scene.person_v_m_s = 1.0;
   scene.person_yaw_rate_rad_s = 0.4;
@@ -92,18 +92,18 @@ TEST(TargetEstimator, PersonWalkingAndBendingIsCarriedToNow) {
   EXPECT_LT(std::abs(scene.yaw_error_rad()), 0.01);
 }
 
-TEST(TargetEstimator, UnseenThePersonGoesOnWalkingButNotOnTurning) {
+TEST(TargetEstimator, WithoutFramesThePersonIsTakenToWalkOnButNotToTurnOn) {
   Scene scene;
   scene.person_v_m_s = 1.0;
   scene.person_yaw_rate_rad_s = 0.5;
   scene.run(2.0);
   scene.disturb = [](PoseEstimate& pose) { pose.reason = PoseReason::TooFewMatches; };
-  scene.run(0.1);  // what is underway arrives
-  const TimeNs seen_ns = scene.estimator.at(scene.now_ns).t_capture_ns;
-  const TargetState seen = scene.estimator.at(seen_ns);
+  scene.run(0.1);  // frames under way arrive
+  const TimeNs seen_ns = scene.estimator.predict(scene.now_ns).t_capture_ns;
+  const TargetState seen = scene.estimator.predict(seen_ns);
   const auto after = [&](int ms) {
     while (scene.now_ns < seen_ns + ms * kNsPerMs) scene.run(0.01);
-    return scene.estimator.at(seen_ns + ms * kNsPerMs);
+    return scene.estimator.predict(seen_ns + ms * kNsPerMs);
   };
   const auto walked_m = [](const TargetState& from, const TargetState& to) {
     return std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
@@ -147,16 +147,17 @@ TEST(TargetEstimator, SmoothsNoiseWithoutBias) {
   EXPECT_LT(std::sqrt(squares / 1000), 0.05);  // of 0.08 measured
 }
 
-TEST(TargetEstimator, OneWildJumpIsSetAside) {
+TEST(TargetEstimator, RejectsOneOutlier) {
   Scene scene;
   scene.run(1.0);
-  PoseEstimate wild = measured({2.5, 1.5, 0.0}, scene.robot, mount_of(scene.config.camera), scene.reference);
-  wild.t_capture_ns = scene.now_ns;
-  EXPECT_FALSE(scene.estimator.update(wild));
+  PoseEstimate outlier =
+      measured({2.5, 1.5, 0.0}, scene.robot, mount_of(scene.config.camera), scene.reference);
+  outlier.t_capture_ns = scene.now_ns;
+  EXPECT_FALSE(scene.estimator.update(outlier));
   EXPECT_LT(scene.position_error_m(), 1e-6);
 }
 
-TEST(TargetEstimator, JumpsInARowAreBelievedAfterAll) {
+TEST(TargetEstimator, RestartsAfterOutliersInARow) {
   Scene scene;
   scene.run(1.0);
   scene.person = {3.5, 1.5, 0.5};
@@ -164,7 +165,7 @@ TEST(TargetEstimator, JumpsInARowAreBelievedAfterAll) {
   EXPECT_LT(scene.position_error_m(), 1e-6);
 }
 
-TEST(TargetEstimator, FramesOutOfOrderOrTwiceAreNotBelieved) {
+TEST(TargetEstimator, RejectsFramesThatAreNotNewer) {
   Scene scene;
   scene.run(0.5);
   PoseEstimate pose = measured(scene.person, scene.robot, mount_of(scene.config.camera), scene.reference);
@@ -179,10 +180,8 @@ TEST(TargetEstimator, ResetForgets) {
   Scene scene;
   scene.run(0.5);
   scene.estimator.reset();
-  EXPECT_FALSE(scene.estimator.at(scene.now_ns).known);
+  EXPECT_FALSE(scene.estimator.predict(scene.now_ns).known);
 }
-
-// ── the goal ────────────────────────────────────────────────────────────────────────────────────
 
 TEST(Goal, IsHereWhenTheViewIsTheReferenceView) {
   Scene scene;
@@ -192,7 +191,7 @@ TEST(Goal, IsHereWhenTheViewIsTheReferenceView) {
   // camera, 0.2 m to its right.
   scene.person = {mount.x_m + 2.0, mount.y_m - 0.2, 0.0};
   scene.run(0.3);
-  const TargetState target = scene.estimator.at(scene.now_ns);
+  const TargetState target = scene.estimator.predict(scene.now_ns);
   EXPECT_NEAR(target.goal_x_m, 0.0, 1e-9);
   EXPECT_NEAR(target.goal_y_m, 0.0, 1e-9);
   EXPECT_NEAR(target.yaw_rad, 0.0, 1e-9);
@@ -202,7 +201,7 @@ TEST(Goal, IsBehindThePersonAlongTheirDirection) {
   Scene scene;
   scene.person = {3.0, 1.0, 0.6};
   scene.run(0.3);
-  const TargetState target = scene.estimator.at(scene.now_ns);
+  const TargetState target = scene.estimator.predict(scene.now_ns);
   const double behind_m = 2.0 + mount_of(scene.config.camera).x_m;
   EXPECT_NEAR(target.goal_x_m, 3.0 - behind_m * std::cos(0.6), 1e-9);
   EXPECT_NEAR(target.goal_y_m, 1.0 - behind_m * std::sin(0.6), 1e-9);
@@ -218,7 +217,7 @@ TEST(Goal, SetPointsMoveItAsTheirKeysSay) {
     config.control.setpoint_t_x_m = t_x;
     config.control.setpoint_yaw_rad = yaw;
     scene.estimator.reconfigure(config);
-    const TargetState target = scene.estimator.at(scene.now_ns);
+    const TargetState target = scene.estimator.predict(scene.now_ns);
     return Eigen::Vector2d(target.goal_x_m, target.goal_y_m);
   };
   const Eigen::Vector2d plain = goal_with(0, 0, 0);

@@ -1,4 +1,4 @@
-// The way from the camera to the floor, against poses built from X_cur = R X_ref + t.
+// From the camera to the floor, against poses built from X_cur = R X_ref + t.
 #include "estimate/target_measurement.h"
 
 #include <gtest/gtest.h>
@@ -30,9 +30,9 @@ TEST(TargetMeasurement, PersonAheadTurnedToTheImagesRightIsAClockwiseYaw) {
   const CameraMount mount;
   const auto pose = test::measured({3.0, 0.0, -0.5}, {}, mount, {});
   EXPECT_NEAR(pose.yaw_rad, 0.5, 1e-12);  // the image's convention
-  const auto sighting = measurement_from_pose(pose, mount);
-  ASSERT_TRUE(sighting.has_value());
-  EXPECT_NEAR(sighting->yaw_rad, -0.5, 1e-12);  // the robot's
+  const auto measurement = measurement_from_pose(pose, mount);
+  ASSERT_TRUE(measurement.has_value());
+  EXPECT_NEAR(measurement->yaw_rad, -0.5, 1e-12);  // the robot's
 }
 
 double between(double low, double high) {
@@ -51,13 +51,13 @@ RC_GTEST_PROP(TargetMeasurement, RecoversThePersonForEveryMountAndTemplate, ()) 
   const Eigen::Vector2d walking(std::cos(person.heading_rad), std::sin(person.heading_rad));
   const Eigen::Vector2d from_camera_m(person.x_m - mount.x_m, person.y_m - mount.y_m);
   RC_PRE(walking.dot(from_camera_m) > 0.05);
-  const auto sighting = measurement_from_pose(test::measured(person, {}, mount, reference), mount);
-  RC_ASSERT(sighting.has_value());
-  RC_ASSERT(std::abs(sighting->position_m.x() - person.x_m) < 1e-9);
-  RC_ASSERT(std::abs(sighting->position_m.y() - person.y_m) < 1e-9);
-  RC_ASSERT(std::abs(sighting->yaw_rad - person.heading_rad) < 1e-9);
-  RC_ASSERT(std::abs(sighting->in_reference_view_m.x() - reference.distance_m()) < 1e-9);
-  RC_ASSERT(std::abs(sighting->in_reference_view_m.y() + reference.centre_m.x()) < 1e-9);
+  const auto measurement = measurement_from_pose(test::measured(person, {}, mount, reference), mount);
+  RC_ASSERT(measurement.has_value());
+  RC_ASSERT(std::abs(measurement->position_m.x() - person.x_m) < 1e-9);
+  RC_ASSERT(std::abs(measurement->position_m.y() - person.y_m) < 1e-9);
+  RC_ASSERT(std::abs(measurement->yaw_rad - person.heading_rad) < 1e-9);
+  RC_ASSERT(std::abs(measurement->in_reference_view_m.x() - reference.distance_m()) < 1e-9);
+  RC_ASSERT(std::abs(measurement->in_reference_view_m.y() + reference.centre_m.x()) < 1e-9);
 }
 
 TEST(TargetMeasurement, RefusesAPlaneSeenFromTheFront) {

@@ -40,11 +40,11 @@ class FileSupply : public FrameSupply {
     config.source = source;
     config.width_px = width_px;
     config.height_px = height_px;
-    config.file_speed = 0.0;  // as fast as asked: lock step has its own time
+    config.file_speed = 0.0;  // each frame when it is requested: lock step has its own time
     source_ = open_frame_source(config);
   }
 
-  /// Decoded frames are given their place in virtual time; a damaged frame is skipped like a lost one.
+  /// Frames get their time in the virtual run; a damaged frame is skipped like a lost one.
   FrameView frame(std::uint64_t sequence, TimeNs t_ns, const RobotMotion& /*robot*/) override {
     FrameView view;
     FrameResult result = FrameResult::Error;

@@ -1,4 +1,4 @@
-// Frames for lock step: drawn by the world, or read from a video as fast as asked.
+// Frames for lock step: rendered by the world, or read from a video one by one.
 #pragma once
 
 #include <memory>

@@ -26,23 +26,23 @@ class Lockstep {
   LockstepCounts run();
 
  private:
-  /// A frame taken but not yet seen by the vision stage.
-  struct TakenFrame {
+  /// A frame that vision has not processed yet.
+  struct CapturedFrame {
     std::uint64_t sequence = 0;
     TimeNs t_ns = 0;  ///< middle
     TimeNs stamp_error_ns = 0;
     RobotMotion robot;
     LockstepTruth truth;
   };
-  struct PoseUnderWay {
+  struct PendingPose {
     PoseEstimate pose;
     TimeNs t_visible_ns = 0;
   };
 
   void advance_line(TimeNs t_ns);
-  void expose(TimeNs t_ns);
+  void capture_frame(TimeNs t_ns);
   TimeNs readable_ns(TimeNs t_ns) const;
-  void see(const TakenFrame& taken, TimeNs t_start_ns);
+  void run_vision(const CapturedFrame& captured, TimeNs t_start_ns);
   void tick(TimeNs t_ns, bool shutdown);
   void send(std::span<const std::uint8_t> bytes, TimeNs t_ns);
   RobotMotion motion_at(TimeNs t_ns) const;
@@ -53,18 +53,18 @@ class Lockstep {
   LockstepObserver& observer_;
   std::unique_ptr<World> world_;  ///< none when frames come from a file
   std::unique_ptr<FrameSupply> frames_;
-  std::optional<PoseTracker> vision_;  ///< of pictures
-  std::optional<SampledPoses> drawn_;  ///< or none
+  std::optional<PoseTracker> vision_;          ///< with pictures
+  std::optional<SampledPoses> sampled_poses_;  ///< without
   ControlStage control_;
   ArcosSession session_;
   P3At robot_;
   std::optional<Contact> contact_;  ///< with a world
 
-  TimeNs t_line_ns_ = 0;  ///< the line has been carried up to here
+  TimeNs t_line_ns_ = 0;  ///< robot and line have been simulated up to here
   TimeNs t_vision_free_ns_ = 0;
-  TimeNs t_last_ready_ns_ = 0;                ///< frames come one after the other
-  std::optional<TakenFrame> waiting_;         ///< freshest wins
-  std::deque<PoseUnderWay> poses_under_way_;  ///< in order; more than one behind a late frame
+  TimeNs t_last_ready_ns_ = 0;                  ///< frames stay in order
+  std::optional<CapturedFrame> waiting_frame_;  ///< for vision; a newer one replaces it
+  std::deque<PendingPose> pending_poses_;       ///< not yet visible to control; in order
   PoseEstimate newest_pose_;
   bool has_pose_ = false;
   bool frames_ended_ = false;
@@ -81,8 +81,8 @@ Lockstep::Lockstep(const LockstepSettings& settings, LockstepObserver& observer)
   if (settings.errors) {
     world_ = std::make_unique<World>(scenario_, 1, WorldUse::TruthOnly);
     contact_.emplace(*world_, robot_);
-    drawn_.emplace(*settings.errors, scenario_, settings.shirt.distance_m,
-                   derived_seed(scenario_.seed, 0xe0));
+    sampled_poses_.emplace(*settings.errors, scenario_, settings.shirt.distance_m,
+                           derived_seed(scenario_.seed, 0xe0));
     return;
   }
   vision_.emplace(settings.shirt, scenario_.camera.model, settings.config.vision);
@@ -106,7 +106,7 @@ LockstepCounts Lockstep::run() {
   while (t_tick_ns < t_end_ns && !frames_ended_) {
     if (t_frame_ns < t_tick_ns) {
       advance_line(t_frame_ns);
-      expose(t_frame_ns);
+      capture_frame(t_frame_ns);
       t_frame_ns += frame_period_ns;
     } else {
       advance_line(t_tick_ns);
@@ -161,8 +161,9 @@ TimeNs Lockstep::readable_ns(TimeNs t_ns) const {
   return t_ns + ns_from_seconds(0.5e-3 * (open_ms + scenario_.camera.readout_ms));
 }
 
-/// Vision takes the freshest frame as soon as it is free; a frame that is overtaken is never looked at.
-void Lockstep::expose(TimeNs t_ns) {
+/// Vision takes the newest frame as soon as it is free; a frame that is replaced meanwhile is never
+/// processed.
+void Lockstep::capture_frame(TimeNs t_ns) {
   ++counts_.frames;
   const FrameDelivery delivery = frame_delivery(scenario_.camera.timing, scenario_.seed, counts_.frames);
   if (delivery.dropped) {
@@ -171,54 +172,55 @@ void Lockstep::expose(TimeNs t_ns) {
   }
   const TimeNs t_ready_ns = std::max(t_last_ready_ns_, readable_ns(t_ns) + delivery.delay_ns);
   t_last_ready_ns_ = t_ready_ns;
-  const TakenFrame taken{counts_.frames, t_ns, delivery.stamp_error_ns, motion_at(t_ns), truth_at(t_ns)};
-  if (waiting_ && t_ready_ns >= t_vision_free_ns_) {
-    // It became free since the last frame: that one was seen first.
-    see(*waiting_, t_vision_free_ns_);
-    waiting_.reset();
+  const CapturedFrame captured{counts_.frames, t_ns, delivery.stamp_error_ns, motion_at(t_ns),
+                               truth_at(t_ns)};
+  if (waiting_frame_ && t_ready_ns >= t_vision_free_ns_) {
+    // Vision became free before this frame: it took the waiting one.
+    run_vision(*waiting_frame_, t_vision_free_ns_);
+    waiting_frame_.reset();
   }
   if (t_ready_ns >= t_vision_free_ns_) {
-    see(taken, t_ready_ns);
+    run_vision(captured, t_ready_ns);
     return;
   }
-  if (waiting_) ++counts_.frames_overtaken;
-  waiting_ = taken;
+  if (waiting_frame_) ++counts_.frames_overtaken;
+  waiting_frame_ = captured;
 }
 
-void Lockstep::see(const TakenFrame& taken, TimeNs t_start_ns) {
+void Lockstep::run_vision(const CapturedFrame& captured, TimeNs t_start_ns) {
   FrameView frame;
   PoseEstimate pose;
   double latency_ms = scenario_.vision_latency_ms;
-  if (drawn_) {
-    frame.header.sequence = taken.sequence;
-    frame.header.t_capture_ns = taken.t_ns + taken.stamp_error_ns;
-    pose = drawn_->estimate(frame.header, taken.robot, taken.truth.world);
-    latency_ms *= drawn_->time_share();
+  if (sampled_poses_) {
+    frame.header.sequence = captured.sequence;
+    frame.header.t_capture_ns = captured.t_ns + captured.stamp_error_ns;
+    pose = sampled_poses_->estimate(frame.header, captured.robot, captured.truth.world);
+    latency_ms *= sampled_poses_->time_share();
   } else {
-    frame = frames_->frame(taken.sequence, taken.t_ns, taken.robot);
+    frame = frames_->frame(captured.sequence, captured.t_ns, captured.robot);
     if (frame.grey == nullptr) {
       frames_ended_ = true;
       return;
     }
-    frame.header.t_capture_ns += taken.stamp_error_ns;
+    frame.header.t_capture_ns += captured.stamp_error_ns;
     pose = vision_->estimate(frame);
   }
   t_vision_free_ns_ = t_start_ns + ns_from_seconds(1e-3 * latency_ms);
-  PoseUnderWay done{pose, t_vision_free_ns_};
+  PendingPose done{pose, t_vision_free_ns_};
   done.pose.t_done_ns = t_vision_free_ns_;
-  poses_under_way_.push_back(done);
-  observer_.on_pose(frame, done.pose, taken.truth);
+  pending_poses_.push_back(done);
+  observer_.on_pose(frame, done.pose, captured.truth);
 }
 
 void Lockstep::tick(TimeNs t_ns, bool shutdown) {
-  if (waiting_ && t_ns >= t_vision_free_ns_) {
-    see(*waiting_, t_vision_free_ns_);
-    waiting_.reset();
+  if (waiting_frame_ && t_ns >= t_vision_free_ns_) {
+    run_vision(*waiting_frame_, t_vision_free_ns_);
+    waiting_frame_.reset();
   }
-  while (!poses_under_way_.empty() && poses_under_way_.front().t_visible_ns <= t_ns) {
-    newest_pose_ = poses_under_way_.front().pose;
+  while (!pending_poses_.empty() && pending_poses_.front().t_visible_ns <= t_ns) {
+    newest_pose_ = pending_poses_.front().pose;
     has_pose_ = true;
-    poses_under_way_.pop_front();
+    pending_poses_.pop_front();
   }
   session_.advance(t_ns);
   ControlInput input;

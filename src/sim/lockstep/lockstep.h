@@ -4,7 +4,7 @@
 //     ↑                                                    ↑ RobotState ──────────┘    ←bytes─┘   │
 //     └──────────────────────────────── true pose of the robot ───────────────────────────────────┘
 //
-// With an error model, World draws nothing and SampledPoses stands in PoseTracker's place; all else is the
+// With an error model, World renders nothing and SampledPoses takes PoseTracker's place; all else is the
 // same. Nothing here reads a clock: the same scenario, configuration and template give the same run to the
 // bit.
 #pragma once
@@ -26,8 +26,8 @@ namespace heel::sim {
 struct LockstepSettings {
   Scenario scenario;
   Config config;
-  ShirtTemplate shirt;  ///< with `errors` only its distance is asked for
-  /// Poses are drawn from this model instead of pictures: some hundred times faster, for statistics.
+  ShirtTemplate shirt;  ///< with `errors` only its distance is used
+  /// Poses are sampled from this model, without pictures: about a hundred times faster, for statistics.
   std::optional<ErrorModel> errors;
 };
 
@@ -40,7 +40,7 @@ struct LockstepTruth {
   Truth world;
 };
 
-/// Is told of everything as it happens.
+/// Receives what happens in a run, in the order of time.
 class LockstepObserver {
  public:
   virtual ~LockstepObserver() = default;
@@ -55,8 +55,8 @@ class LockstepObserver {
 struct LockstepCounts {
   std::uint64_t ticks = 0;
   std::uint64_t frames = 0;
-  std::uint64_t frames_overtaken = 0;  ///< vision was still busy
-  std::uint64_t frames_dropped = 0;    ///< never came, as the scenario has it
+  std::uint64_t frames_overtaken = 0;  ///< replaced by a newer frame while vision was busy
+  std::uint64_t frames_dropped = 0;    ///< lost by the camera, as the scenario says
 };
 
 /// Runs the whole scenario. Throws heel::Error before it begins when something does not fit together.
@@ -68,7 +68,7 @@ ShirtTemplate teach_from_world(const Scenario& scenario, double distance_m);
 /// The configuration a scenario implies: camera and its mount as in the scenario.
 void apply_scenario(const Scenario& scenario, Config& config);
 
-/// What the scenario says of its robot.
+/// The simulated robot as the scenario describes it.
 P3AtSettings robot_settings(const Scenario& scenario);
 
 }  // namespace heel::sim

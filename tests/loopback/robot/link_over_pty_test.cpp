@@ -32,7 +32,7 @@ class LinkBench {
     link.read(now_ns);
     link.write({now_ns, now_ns + 200 * kNsPerMs, v_m_s, 0.0, 0}, now_ns);
     longest_ns = std::max(longest_ns, monotonic_now_ns() - now_ns);
-    link.listen_until(now_ns + 20 * kNsPerMs);
+    link.receive_until(now_ns + 20 * kNsPerMs);
   }
   void run(double seconds) {
     for (const TimeNs end_ns = monotonic_now_ns() + ns_from_seconds(seconds); monotonic_now_ns() < end_ns;)
@@ -118,7 +118,7 @@ TEST(LinkOverPty, SipsAreStampedAsTheyComeNotAtTheTick) {
     const TimeNs begin_ns = monotonic_now_ns();
     const TimeNs deadline_ns = begin_ns + 300 * kNsPerMs;
     const std::uint64_t sips = bench.link.state().sips;
-    bench.link.listen_until(deadline_ns);
+    bench.link.receive_until(deadline_ns);
     EXPECT_GE(monotonic_now_ns(), deadline_ns);
     const TimeNs t_ns = bench.link.state().odometry.t_ns;
     stamped_before_the_deadline = bench.link.state().sips > sips && t_ns > begin_ns && t_ns < deadline_ns;
