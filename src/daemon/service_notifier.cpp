@@ -17,7 +17,7 @@ void ServiceNotifier::ready() {
 }
 
 void ServiceNotifier::reloading(TimeNs now_ns) {
-  sd_notify(0, ("RELOADING=1\nMONOTONIC_USEC=" + std::to_string(now_ns / kNsPerUs)).c_str());
+  sd_notifyf(0, "RELOADING=1\nMONOTONIC_USEC=%lld", static_cast<long long>(now_ns / kNsPerUs));
 }
 
 void ServiceNotifier::stopping() {
@@ -27,7 +27,7 @@ void ServiceNotifier::stopping() {
 void ServiceNotifier::status(const std::string& line) {
   if (line == status_) return;
   status_ = line;
-  sd_notify(0, ("STATUS=" + line).c_str());
+  sd_notifyf(0, "STATUS=%s", line.c_str());
 }
 
 void ServiceNotifier::alive(TimeNs now_ns) {

@@ -1,5 +1,7 @@
 #include "telemetry/csv_columns.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <vector>
 
@@ -17,7 +19,7 @@ double or_none(bool known, double value) {
 template <typename Record>
 void add_array(std::vector<CsvColumn<Record>>& columns, const std::string& name, int count,
                void (*write)(CsvLine&, const Record&, int)) {
-  for (int i = 0; i < count; ++i) columns.push_back({name + "_" + std::to_string(i), write, i});
+  for (int i = 0; i < count; ++i) columns.push_back({fmt::format("{}_{}", name, i), write, i});
 }
 
 std::vector<CsvColumn<TickRecord>> make_tick_columns() {

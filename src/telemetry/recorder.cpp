@@ -1,5 +1,7 @@
 #include "telemetry/recorder.h"
 
+#include <fmt/chrono.h>
+
 #include <array>
 #include <ctime>
 #include <filesystem>
@@ -19,9 +21,9 @@ namespace {
 struct RecordingName {
   const char* stem;
   const char* extension;
-  fs::path path(const fs::path& folder) const { return folder / (std::string(stem) + extension); }
+  fs::path path(const fs::path& folder) const { return folder / fmt::format("{}{}", stem, extension); }
   fs::path numbered(const fs::path& folder, int n) const {
-    return folder / (std::string(stem) + "." + std::to_string(n) + extension);
+    return folder / fmt::format("{}.{}{}", stem, n, extension);
   }
 };
 
@@ -45,15 +47,6 @@ void rename_earlier_recording(const fs::path& folder) {
   }
 }
 
-std::string wall_clock() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text.data();
-}
-
 }  // namespace
 
 Recorder::Recorder(const std::string& directory) {
@@ -71,7 +64,8 @@ Recorder::Recorder(const std::string& directory) {
   ticks_->append(csv_header(tick_columns()));
   poses_->append(csv_header(pose_columns()));
   capture_->append(csv_header(capture_columns()));
-  record_text(monotonic_now_ns(), "recording begins at " + wall_clock());
+  record_text(monotonic_now_ns(),
+              fmt::format("recording begins at {:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))));
 }
 
 void Recorder::record(const TickRecord& tick) {
