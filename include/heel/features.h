@@ -85,7 +85,7 @@ class FeatureExtractor {
   /// Features inside `region`, which is clipped to the frame; an empty region is the whole frame.
   void extract(const FrameView& frame, const Region& region, FeatureSet& out);
 
-  /// From now on the end of each step is reported to `times`, which must outlive this; null: to nobody.
+  /// From now on the end of each step is reported to `times`, which must outlive this; null: no reports.
   void measure(StageTimes* times);
 
  private:

@@ -21,38 +21,38 @@
 
 namespace heel {
 
-// capture → vision
+// ── capture → vision ────────────────────────────────────────────────────────────────────────────
 
 /// A frame without its pixels. Pixels are 8-bit grey (luma), row-major.
 struct FrameHeader {
-  std::uint64_t sequence = 0;  ///< counts every frame of the camera, dropped ones included
-  TimeNs t_capture_ns = 0;     ///< time of the exposure, as exactly as the driver reports it
+  std::uint64_t sequence = 0;  ///< counts every frame the camera made, dropped ones included
+  TimeNs t_capture_ns = 0;     ///< when the exposure happened, as near as the driver tells
   std::uint32_t width_px = 0;
   std::uint32_t height_px = 0;
 };
 
-/// A frame with borrowed pixels: valid only during the call that it is passed to.
+/// A frame whose pixels belong to somebody else: valid only during the call it is passed to.
 struct FrameView {
   FrameHeader header;
   const std::uint8_t* grey = nullptr;  ///< first pixel of the first row
   std::uint32_t stride_bytes = 0;
 };
 
-// vision → control
+// ── vision → control ────────────────────────────────────────────────────────────────────────────
 
 /// Why a frame gave a pose, or why it did not.
 enum class PoseReason : std::uint8_t {
   Found,
   TooFewFeatures,    ///< the frame holds fewer than four features in the scale range
-  TooFewMatches,     ///< fewer than four matches passed the sign, ratio and mutual checks
+  TooFewMatches,     ///< fewer than four pairs survived sign, ratio and mutual check
   NoHomography,      ///< no sample of four pairs has more support than itself
-  TooFewInliers,     ///< certainty or inlier count below its limit
-  ImplausibleShape,  ///< the template's outline would be mirrored, folded, or far too large or small
+  TooFewInliers,     ///< certainty or inlier count below the floor
+  ImplausibleShape,  ///< the template's outline lands mirrored, folded, or absurdly large or small
   NoValidMotion,     ///< no decomposition puts the shirt in front of both cameras, facing the camera
   WrongFrameSize,    ///< the frame is not of the size the camera was calibrated at
 };
 
-/// The pose of the shirt in one frame. Conventions of the reference view: the plane z = d, normal (0,0,1);
+/// The shirt as one frame saw it. Conventions of the reference view: the plane z = d, normal (0,0,1);
 /// X_cur = R_cur_from_ref X_ref + t;  H_cur_from_ref = K_cur (R + (t/d) nᵀ) K_ref⁻¹;  x_cur ~ H x_ref.
 struct PoseEstimate {
   std::uint64_t frame_sequence = 0;
@@ -60,7 +60,7 @@ struct PoseEstimate {
   TimeNs t_done_ns = 0;     ///< when vision finished
   PoseReason reason = PoseReason::TooFewFeatures;
 
-  bool tracked = false;  ///< found in the region that the frame before predicted; the rest was not searched
+  bool tracked = false;  ///< found where the last pose predicted it; only that region was searched
   std::uint32_t frame_features = 0;
   std::uint32_t template_features = 0;
   std::uint32_t matches = 0;
@@ -79,14 +79,14 @@ struct PoseEstimate {
   bool found() const { return reason == PoseReason::Found; }
 };
 
-// robot → control
+// ── robot → control ─────────────────────────────────────────────────────────────────────────────
 
-/// State of the session with the robot's controller.
+/// Where the session with the robot's controller stands.
 enum class LinkPhase : std::uint8_t {
-  Closed,    ///< no line yet, or closed for good
+  Closed,    ///< no line, or not yet tried
   Syncing,   ///< SYNC0…SYNC2, baud sweep
-  Opening,   ///< OPEN and CONFIG sent, waiting for the first SIP
-  Enabling,  ///< zero velocity and ENABLE sent, waiting for the motors' flag
+  Opening,   ///< OPEN sent, first SIP awaited; CONFIG asked
+  Enabling,  ///< zero velocity sent, ENABLE awaiting its flag
   Running,   ///< SIPs arrive, motors are enabled
   Disabled,  ///< SIPs arrive, motors went off (STOP button, E-stall): off until heeld is restarted
   Lost,      ///< SIPs stopped or the line broke; reconnecting
@@ -102,7 +102,7 @@ struct Odometry {
   double yaw_rate_rad_s = 0.0;
 };
 
-/// The newest reading of one sonar. Without an echo the robot reports 5 m.
+/// What one sonar heard last. A sonar that hears nothing reports 5 m.
 struct SonarEcho {
   TimeNs t_ns = 0;  ///< first byte of the SIP that reported it; 0: none yet
   double range_m = 0.0;
@@ -129,7 +129,7 @@ struct RobotState {
   std::uint64_t reconnects = 0;
 };
 
-// control
+// ── control ─────────────────────────────────────────────────────────────────────────────────────
 
 /// Everything one control tick decides on. The inputs since the start and the configuration give every tick's
 /// decisions again, to the bit.
@@ -141,16 +141,16 @@ struct ControlInput {
   bool shutdown = false;  ///< this is the last tick
 };
 
-/// The person, predicted from the newest accepted frame's capture time to the tick.
+/// The target in the odometry frame, carried from the frame's capture time to now.
 struct TargetState {
   bool known = false;
   TimeNs t_capture_ns = 0;  ///< of the frame it is computed from
   double certainty = 0.0;
-  // In the robot frame at the tick:
+  // In the robot frame at `now`:
   double x_m = 0.0;  ///< centre of the back
   double y_m = 0.0;
   double yaw_rad = 0.0;  ///< walking direction against the robot's heading, counter-clockwise + (robot frame)
-  // The goal, where the robot's centre has the reference view, in the robot frame at the tick:
+  // Where the reference view is recreated (the pose the robot is to take), robot frame at `now`:
   double goal_x_m = 0.0;
   double goal_y_m = 0.0;
 };
@@ -198,17 +198,17 @@ enum class StopReason : std::uint8_t {
   LowCertainty,
 };
 
-/// What the gate has limited, as bits of VelocityCommand::limited_by.
+/// What the gate holds back, as bits of VelocityCommand::limited_by.
 enum GateLimit : std::uint8_t {
   kGateSpeed = 1,
   kGateAcceleration = 2,
   kGateAge = 4,
   kGateNotFinite = 8,
   kGateSeparation = 16,  ///< the person is too near
-  kGateObstacle = 32,    ///< a sonar obstacle is in the way
+  kGateObstacle = 32,    ///< something the sonars hear is in the way
 };
 
-/// A velocity for the robot, once a tick. It expires.
+/// What goes to the wire, once a tick. Expires by itself.
 struct VelocityCommand {
   TimeNs t_issued_ns = 0;
   TimeNs t_expires_ns = 0;  ///< after this it counts as zero
@@ -217,7 +217,7 @@ struct VelocityCommand {
   std::uint8_t limited_by = 0;  ///< GateLimit bits
 };
 
-// everything → telemetry
+// ── everything → telemetry ──────────────────────────────────────────────────────────────────────
 
 /// One control tick: what it decided on, and what it decided.
 struct TickRecord {
@@ -243,7 +243,7 @@ enum class EventKind : std::uint8_t {
   CameraUnavailable,  ///< text: why it does not open
   CameraLost,         ///< text: why; it will be opened again
   CameraEnded,        ///< a file's last frame has been given
-  FrameRefused,       ///< a: width_px, b: height_px; not the configured size
+  FrameRefused,       ///< a: width_px, b: height_px; not the size the ring was made for
   FrameCorrupt,       ///< a: corrupt frames so far
   Overrun,            ///< a: periods missed so far, b: lateness_ns of this one
   Note,               ///< text: anything else, with "{}" in place of the number a
@@ -264,7 +264,7 @@ struct CaptureCounters {
   TimeNs t_ns = 0;  ///< when they were read
   std::uint64_t captured = 0;
   std::uint64_t dropped_by_driver = 0;  ///< gaps in the driver's sequence, buffers with the error flag
-  std::uint64_t dropped_unread = 0;     ///< replaced by a newer frame before vision read it
+  std::uint64_t dropped_unread = 0;     ///< overtaken by a fresher frame
   std::uint64_t reopened = 0;           ///< openings of the camera after the first
   bool operator==(const CaptureCounters&) const = default;
 };

@@ -1,5 +1,6 @@
-// A frame's features sorted by place, so that those near a predicted place are found without a look at all
-// others. Places are undistorted pixels of the frame.
+// A frame's features sorted by place: a search near a predicted place reads only those around it.
+//
+// Units: places are undistorted pixels of the frame.
 #pragma once
 
 #include <Eigen/Core>

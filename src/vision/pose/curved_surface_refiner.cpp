@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMinPairs = 6;  // twice what six unknowns need
 constexpr double kSettled_rad = 3e-3, kSettledOverD = 3e-3;
 
-// Pairs and pose improve in turn: it is no use to descend to the minimum of pairs that are about to change.
+// Pairs and pose improve in turn: the minimum of pairs that are about to change is not needed.
 constexpr int kRounds = 4, kStepsPerRound = 2;
 // Limits of the whitened residual, whose noise is 1 px where features are placed as precisely as usual. The
 // first pose may be off at the back's edges.
