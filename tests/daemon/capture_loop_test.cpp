@@ -124,7 +124,7 @@ TEST_F(CaptureLoopTest, ASourceLostBeforeItsFirstFrameIsOpenedWithGrowingPauses)
   const auto between_ns = [this](std::size_t i) {
     return source_.opened_at_ns[i] - source_.opened_at_ns[i - 1];
   };
-  // 1, 2, 4 ms without a frame; the frame begins anew: at once, then 1 ms.
+  // 1, 2, 4 ms without a frame; the frame begins the series again: at once, then 1 ms.
   EXPECT_GE(between_ns(1), kNsPerMs);
   EXPECT_GE(between_ns(2), 2 * kNsPerMs);
   EXPECT_GE(between_ns(3), 4 * kNsPerMs);

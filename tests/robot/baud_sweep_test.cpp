@@ -1,4 +1,4 @@
-// The order of baud rates: the last good one, then the rest from the slowest on, each sweep anew.
+// The order of baud rates: the last good one, then the rest from the slowest on, the same in each sweep.
 #include "robot/baud_sweep.h"
 
 #include <gtest/gtest.h>

@@ -79,7 +79,7 @@ TEST(SessionLine, LostAndOpenedAgain) {
   bench.line_up = true;
   bench.robot.log.clear();
   bench.session.line_opened(bench.now_ns);
-  ASSERT_TRUE(bench.run_until(LinkPhase::Running));  // it was left open: closed and synchronised anew
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running));  // it was left open: closed and synchronised again
   EXPECT_TRUE(bench.robot.log[0].is(CommandId::Stop));
   EXPECT_EQ(bench.session.state().reconnects, 1u);
   bench.expect_zero_first();

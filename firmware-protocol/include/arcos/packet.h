@@ -88,7 +88,7 @@ class PacketWriter {
   bool overflow_ = false;
 };
 
-/// Reads a body field by field. Reading past the end gives 0 and makes `truncated()` true for good.
+/// Reads a body field by field. Reading past the end gives 0, and from then on truncated() is true.
 class PacketReader {
  public:
   explicit PacketReader(std::span<const std::uint8_t> body) : rest_(body) {}

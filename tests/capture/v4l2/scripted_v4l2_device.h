@@ -211,7 +211,7 @@ class ScriptedV4l2Device final : public V4l2Device {
   int queue(const v4l2_buffer& buffer) {
     EXPECT_LT(buffer.index, memory_.size());
     EXPECT_TRUE(camera_.queued.insert(buffer.index).second) << "queued twice";
-    // Whoever still looks at a buffer given back is to see it.
+    // Code that still reads a buffer after giving it back sees this.
     std::fill(memory_[buffer.index].begin(), memory_[buffer.index].end(), std::uint8_t{0xdb});
     return 0;
   }

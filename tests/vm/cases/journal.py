@@ -1,4 +1,4 @@
-"""The journal has fields: what is told of a part, or of an event, can be asked for."""
+"""The journal has fields: the messages of a part, or of an event, can be selected."""
 
 
 def run(bench):

@@ -29,7 +29,7 @@ def run(bench):
         return row["frames_dropped_by_driver"]
 
     told_and_counted("fatal streaming error", FATAL, "gives no frame: Input/output error")
-    # The other calls are made when the camera is opened anew, and the fatal error makes heeld do so.
+    # The other calls are made when the camera is opened again, and the fatal error makes heeld do so.
     told_and_counted("VIDIOC_REQBUFS refused once", f"{control('inject_vidioc_reqbufs_error=1')} && {FATAL}", "gives no buffers")
     told_and_counted("VIDIOC_STREAMON refused once", f"{control('inject_vidioc_streamon_error=1')} && {FATAL}",
                      "does not start streaming")

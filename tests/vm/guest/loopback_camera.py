@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Feeds a v4l2loopback device with a picture, over and over, until it is ended. The file is read anew each time: whoever replaces
+"""Feeds a v4l2loopback device with a picture, over and over, until it is ended. The file is read each time: replacing
 it shows a film.
 
   loopback_camera.py DEVICE PICTURE.pgm|PICTURE.jpg RATE_HZ

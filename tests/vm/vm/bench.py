@@ -124,7 +124,7 @@ class Bench:
         wait.until("the recording has it", lambda: self.service.recorded_until() > end_s, step_s=0.5)
         row = {"device": device, "fault": name, "rest_s": rest_s, "recovery_s": recovery_s,
                **self.service.losses(begin_s, end_s)}
-        row["events"] = self.service.events("^(?!deadline)", begin_s)  # for whoever asks why
+        row["events"] = self.service.events("^(?!deadline)", begin_s)  # they say why
         self.rows.append(row)
         recovery = "went on" if recovery_s is None else f"moves again after {recovery_s:.2f} s"
         self.say(f"    ok: {recovery}; {row['without_picture_s']} s without a picture, {row['without_robot_s']} s without "

@@ -1,4 +1,4 @@
-// Work shared among threads: every piece is done once, whoever does it, and the picture is the same.
+// Work shared among threads: every piece is done once, by any thread, and the picture is the same.
 #include "sim/render/thread_pool.h"
 
 #include <gtest/gtest.h>
