@@ -36,7 +36,7 @@ void set_up_libraries() {
 
 /// "heel teach" or "heel bench vision" when such a subcommand was being parsed or run, else "heel".
 std::string command_name(const CLI::App& app) {
-  std::string name = app.get_name();
+  const std::string& name = app.get_name();
   const auto chosen = app.get_subcommands();
   return chosen.empty() ? name : name + " " + command_name(*chosen.front());
 }

@@ -60,7 +60,7 @@ class HomographySubject : public GeometrySubject {
 
 class HeelHomography : public HomographySubject {
  public:
-  HeelHomography(std::shared_ptr<const Problems> problems, Figure what)
+  HeelHomography(const std::shared_ptr<const Problems>& problems, Figure what)
       : HomographySubject(problems, std::move(what)),
         estimator_(static_cast<int>(problems->front().pairs.size()),
                    {.inlier_px = kInlier_px, .confidence = kConfidence, .max_iterations = kMaxIterations}) {

@@ -106,7 +106,7 @@ sim::Truth StillImageScene::render(const StillImageView& view) {
   const sim::ScenarioCamera& camera = world_.scenario().camera;
   const Eigen::Vector3d back_m = world_.truth({}, t_s_).back_m;
   const sim::RobotMotion robot = robot_for(camera, back_m, view);
-  const sim::Truth truth = world_.truth(robot, t_s_);
+  sim::Truth truth = world_.truth(robot, t_s_);
   world_.render(robot, t_s_, ++frame_, grey_);
   if (view.occluded != 0.0)
     draw_occluding_board(truth, camera.model, view.occluded, derived_seed(settings_.seed, frame_),
