@@ -11,13 +11,14 @@ namespace {
 class Digits {
  public:
   template <typename Number>
-  explicit Digits(Number value)
-      : end_(std::to_chars(bytes_.data(), bytes_.data() + bytes_.size(), value).ptr) {}
+  explicit Digits(Number value) {
+    end_ = std::to_chars(bytes_.data(), bytes_.data() + bytes_.size(), value).ptr;
+  }
   std::string_view view() const { return {bytes_.data(), static_cast<std::size_t>(end_ - bytes_.data())}; }
 
  private:
   std::array<char, 32> bytes_{};  // the longest, a double, has 24
-  char* end_;
+  char* end_ = nullptr;
 };
 
 }  // namespace

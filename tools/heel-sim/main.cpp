@@ -3,10 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <memory>
 
 #include "files/camera_info.h"
-#include "heel/error.h"
 #include "live_simulation.h"
 #include "options.h"
 #include "sim/live/reference_picture.h"
@@ -35,9 +35,7 @@ void write_files(const Options& options, const Scenario& scenario) {
     write_reference_picture(scenario, options.reference_picture, options.reference_distance_m);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   Options options;
   CLI::App app("heel-sim: a simulated P3-AT for any ARCOS client, with a person to follow and a camera");
   add_options(app, options);
@@ -45,17 +43,23 @@ int main(int argc, char** argv) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, on_signal);
   std::signal(SIGPIPE,
               SIG_IGN);  // when the reader of our output ends, the pty's symlink must still be removed
+  check_options(options);
+  const std::unique_ptr<Scenario> scenario = read_scenario_of(app, options);
+  if (scenario) write_files(options, *scenario);
+  if (options.robot.empty()) return 0;
+  LiveSimulation simulation(options, scenario.get());
+  simulation.run(g_stop);
+  simulation.print_camera_counters();
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    check_options(options);
-    const std::unique_ptr<Scenario> scenario = read_scenario_of(app, options);
-    if (scenario) write_files(options, *scenario);
-    if (options.robot.empty()) return 0;
-    LiveSimulation simulation(options, scenario.get());
-    simulation.run(g_stop);
-    simulation.print_camera_counters();
-  } catch (const Error& error) {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
     std::fprintf(stderr, "heel-sim: %s\n", error.what());
     return 1;
   }
-  return 0;
 }

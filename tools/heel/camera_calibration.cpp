@@ -132,6 +132,7 @@ BoardViews find_board(const std::vector<std::string>& images, const Board& board
 Calibration calibrate_camera(const Board& board, cv::Size image_size, bool with_k3,
                              std::vector<BoardView>& views) {
   std::vector<std::vector<cv::Point2f>> corners_px;
+  corners_px.reserve(views.size());
   for (const BoardView& view : views) corners_px.push_back(view.corners_px);
   const std::vector<std::vector<cv::Point3f>> points_m(views.size(), board_points(board));
 

@@ -69,7 +69,7 @@ std::string command_list(const CLI::App& app) {
   return names;
 }
 
-int run(CLI::App& app, int argc, char** argv) {
+int run_command(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
     return EXIT_SUCCESS;
@@ -88,10 +88,7 @@ int run(CLI::App& app, int argc, char** argv) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  set_up_libraries();
+int run(int argc, char** argv) {
   CLI::App app{
       "heel: a Pioneer P3-AT follows one person by the back of the person's shirt.\n"
       "Exit status: 0 done; 1 the answer is no (not found, template refused); 2 bad usage or input."};
@@ -101,8 +98,20 @@ int main(int argc, char** argv) {
   app.get_formatter()->column_width(34);
   add_commands(app);
 
-  const int status = run(app, argc, argv);
+  const int status = run_command(app, argc, argv);
   if (!flush_output())
     return print_error(app, "standard output cannot be written (expected a disk with space, or a reader)");
   return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  set_up_libraries();
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "heel: %s\n", error.what());
+    return kExitBadInput;
+  }
 }

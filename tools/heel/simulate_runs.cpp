@@ -81,7 +81,7 @@ SimulatedRun simulate_into_folder(const SimulateOptions& options, const sim::Sce
     return run;
   }
   evaluation::RunRecord record(folder, settings);
-  const SimulatedRun run = simulate(options, settings, record);
+  SimulatedRun run = simulate(options, settings, record);
   record.flush();
   evaluation::write_run_report(folder, record.metrics(), run.metrics, run.failed);
   return run;

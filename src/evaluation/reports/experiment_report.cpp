@@ -147,8 +147,9 @@ std::string report_experiments(const std::string& directory) {
         "distance off.\n\n" +
         run_table(lines) + "\n";
   std::vector<RunLine> without;
-  for (const std::string& name : run_names(directory + "/without-pictures"))
-    without.push_back(run_line(name, read_run(directory + "/without-pictures/" + name)));
+  const fs::path folder = fs::path(directory) / "without-pictures";
+  for (const std::string& name : run_names(folder.string()))
+    without.push_back(run_line(name, read_run((folder / name).string())));
   if (const std::string table = worlds_table(lines, without); !table.empty())
     summary += "## Both worlds on the same scenarios\n\n" + table + "\n";
   summary += real_section(directory) + "\n## Figures\n\n" + figures.links();
