@@ -16,9 +16,9 @@
 namespace heel {
 namespace {
 
-class EveryFollowLaw : public ::testing::TestWithParam<std::string> {
+class FollowLawTest : public ::testing::TestWithParam<std::string> {
  protected:
-  EveryFollowLaw() { config_.control.law = GetParam(); }
+  FollowLawTest() { config_.control.law = GetParam(); }
 
   WantedVelocity velocity(FollowLaw& law, const TargetState& target) {
     now_ns_ += 20 * kNsPerMs;
@@ -48,7 +48,7 @@ class EveryFollowLaw : public ::testing::TestWithParam<std::string> {
   TimeNs now_ns_ = kNsPerS;
 };
 
-TEST_P(EveryFollowLaw, WantsRestWhenTheTargetIsNotKnown) {
+TEST_P(FollowLawTest, WantsRestWhenTheTargetIsNotKnown) {
   const auto law = make_follow_law(config_);
   velocity(*law, target(4.0, 0.2, 0.3));
   TargetState lost = target(4.0, 0.2, 0.3);
@@ -58,14 +58,14 @@ TEST_P(EveryFollowLaw, WantsRestWhenTheTargetIsNotKnown) {
   EXPECT_EQ(wanted.yaw_rate_rad_s, 0.0);
 }
 
-TEST_P(EveryFollowLaw, DrivesTowardsAPersonFarAheadAndTurnsToTheirSide) {
+TEST_P(FollowLawTest, DrivesTowardsAPersonFarAheadAndTurnsToTheirSide) {
   const auto law = make_follow_law(config_);
   EXPECT_GT(velocity(*law, target(4.0, 0.0, 0.0)).v_m_s, 0.0);
   EXPECT_GT(velocity(*law, target(4.0, 0.2, 0.0)).yaw_rate_rad_s, 0.0);
   EXPECT_LT(velocity(*law, target(4.0, -0.2, 0.0)).yaw_rate_rad_s, 0.0);
 }
 
-TEST_P(EveryFollowLaw, IsBoundedForEveryTarget) {
+TEST_P(FollowLawTest, IsBoundedForEveryTarget) {
   const auto law = make_follow_law(config_);
   Random random(17);
   for (int i = 0; i < 20'000; ++i) {
@@ -78,7 +78,7 @@ TEST_P(EveryFollowLaw, IsBoundedForEveryTarget) {
   }
 }
 
-TEST_P(EveryFollowLaw, IsFiniteAtTheCameraBesideItAndVeryFarAway) {
+TEST_P(FollowLawTest, IsFiniteAtTheCameraBesideItAndVeryFarAway) {
   for (const bool reverse : {false, true}) {
     config_.control.reverse = reverse;
     const auto law = make_follow_law(config_);
@@ -93,7 +93,7 @@ TEST_P(EveryFollowLaw, IsFiniteAtTheCameraBesideItAndVeryFarAway) {
   }
 }
 
-TEST_P(EveryFollowLaw, GivesTheSameForTheSameInputs) {
+TEST_P(FollowLawTest, GivesTheSameForTheSameInputs) {
   const auto one = make_follow_law(config_), other = make_follow_law(config_);
   Random random(5);
   for (int i = 0; i < 1000; ++i) {
@@ -106,14 +106,14 @@ TEST_P(EveryFollowLaw, GivesTheSameForTheSameInputs) {
   }
 }
 
-TEST_P(EveryFollowLaw, TakesOverNewGains) {
+TEST_P(FollowLawTest, TakesOverNewGains) {
   const auto law = make_follow_law(config_);
   config_.control.gain_distance_1_s = 0.0;
   law->reconfigure(config_);
   EXPECT_EQ(velocity(*law, target(4.0, 0.0, 0.0)).v_m_s, 0.0);
 }
 
-TEST_P(EveryFollowLaw, AllocatesNothingAfterItIsMade) {
+TEST_P(FollowLawTest, AllocatesNothingAfterItIsMade) {
   if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   const auto law = make_follow_law(config_);
   const std::uint64_t before = test::allocations_of_this_thread();
@@ -125,7 +125,7 @@ TEST_P(EveryFollowLaw, AllocatesNothingAfterItIsMade) {
   EXPECT_EQ(test::allocations_of_this_thread(), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, EveryFollowLaw, ::testing::ValuesIn(test::law_names()),
+INSTANTIATE_TEST_SUITE_P(Laws, FollowLawTest, ::testing::ValuesIn(test::law_names()),
                          [](const auto& law) { return law.param; });
 
 TEST(FollowLawFactory, RefusesANameThatIsNoLaw) {

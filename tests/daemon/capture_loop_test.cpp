@@ -246,7 +246,7 @@ class AllocationCountingSource final : public FrameSource {
   std::uint64_t before_ = 0;
 };
 
-TEST(CaptureLoop, DoesNotAllocateInSteadyState) {
+TEST(CaptureLoopMemory, DoesNotAllocateInSteadyState) {
   if (!test::counts_allocations()) GTEST_SKIP() << "the sanitizer's allocator is in the way";
   const std::string name = "test-" + std::to_string(getpid()) + "-loop";
   SimChannelWriter writer(name, kWidth, kHeight);

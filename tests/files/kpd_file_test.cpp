@@ -13,8 +13,11 @@
 #include "support/complaint.h"
 #include "support/temporary_folder.h"
 
-namespace heel::test {
+namespace heel {
 namespace {
+
+using test::complaint_of;
+using test::TemporaryFolder;
 
 FeatureSet two_features() {
   FeatureSet set;
@@ -33,7 +36,7 @@ FeatureSet two_features() {
   return set;
 }
 
-TEST(FeaturesKpd, BinaryHoldsEveryField) {
+TEST(KpdFile, BinaryHoldsEveryField) {
   const TemporaryFolder folder;
   const std::string path = folder.file("features.kpd");
   write_kpd_file(two_features(), 640, 480, path);
@@ -53,7 +56,7 @@ TEST(FeaturesKpd, BinaryHoldsEveryField) {
   EXPECT_EQ(record[70], 63.f / 64.f);
 }
 
-TEST(FeaturesKpd, TextHoldsEveryField) {
+TEST(KpdFile, TextHoldsEveryField) {
   const TemporaryFolder folder;
   const std::string path = folder.file("features.txt");
   write_kpd_file(two_features(), 640, 480, path);
@@ -68,11 +71,11 @@ TEST(FeaturesKpd, TextHoldsEveryField) {
   EXPECT_NEAR(record[70], 63.0 / 64.0, 1e-7);
 }
 
-TEST(FeaturesKpd, NamesTheFileItCannotWrite) {
+TEST(KpdFile, NamesTheFileItCannotWrite) {
   const std::string complaint =
       complaint_of([] { write_kpd_file(two_features(), 640, 480, "/nowhere/out.kpd"); });
   EXPECT_NE(complaint.find("/nowhere/out.kpd"), std::string::npos) << complaint;
 }
 
 }  // namespace
-}  // namespace heel::test
+}  // namespace heel

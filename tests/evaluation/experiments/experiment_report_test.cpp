@@ -48,7 +48,7 @@ std::vector<StillSample> written_and_read(const std::vector<StillImageRow>& rows
   return evaluation::read_stills(folder.file("rows.csv"));
 }
 
-TEST(Stills, AreReadAsTheyWereWritten) {
+TEST(StillSamples, AreReadAsTheyWereWritten) {
   StillImageRow lost = row_at(0.1, 2.0, 0.5, 0.0);
   lost.pose.reason = PoseReason::TooFewInliers;
   lost.world = {3, "mosaic", 0.25};
@@ -65,7 +65,7 @@ TEST(Stills, AreReadAsTheyWereWritten) {
   EXPECT_FALSE(samples[1].undisturbed());
 }
 
-TEST(Stills, FlippedAndWrong) {
+TEST(StillSamples, FlippedAndWrong) {
   const double bearing_rad = std::atan2(0.4, 2.0);
   // 20° to one side of the line of sight, seen 20° to the other.
   const auto samples = written_and_read(
@@ -79,7 +79,7 @@ TEST(Stills, FlippedAndWrong) {
   EXPECT_FALSE(samples[3].wrong());
 }
 
-TEST(Steps, MeanDeviationAndCertaintyOfEachCommandedValue) {
+TEST(PaperComparison, MeanDeviationAndCertaintyOfEachCommandedValue) {
   StillImageRow lost = row_at(0.0, 1.0, 0.2, 0.0);
   lost.pose.reason = PoseReason::TooFewMatches;
   const auto steps = evaluation::steps_of(
@@ -96,7 +96,7 @@ TEST(Steps, MeanDeviationAndCertaintyOfEachCommandedValue) {
   EXPECT_NEAR(steps[1].certainty_mean, 0.2, 1e-6);
 }
 
-TEST(Errors, BinsCountWhatBelongs) {
+TEST(ErrorStatistics, BinsCountWhatBelongs) {
   const auto samples = written_and_read(
       {row_at(0, 2, 0.5, 0.1), row_at(0, 2, 0.5, -0.1), row_at(0, 2, 0.5, -1.0), row_at(0, 4, 0.5, 0.0)});
   const evaluation::ErrorBin bin =
@@ -108,13 +108,13 @@ TEST(Errors, BinsCountWhatBelongs) {
   EXPECT_NEAR(bin.yaw_nees, (4.0 + 4.0 + 400.0) / 3.0, 1e-3);
 }
 
-TEST(Errors, TheBandOfHonestDeviationsNarrowsWithTheNumber) {
+TEST(ErrorStatistics, TheBandOfHonestDeviationsNarrowsWithTheNumber) {
   // chi-squared with 100 degrees of freedom: 2.5 % at 74.22, 97.5 % at 129.56.
   EXPECT_NEAR(evaluation::nees_band(100).low, 0.7422, 0.001);
   EXPECT_NEAR(evaluation::nees_band(100).high, 1.2956, 0.001);
 }
 
-TEST(Comparison, RSquaredAndMonotony) {
+TEST(PaperComparison, RSquaredAndMonotony) {
   EXPECT_NEAR(evaluation::r_squared({0, 1, 2, 3}, {1, 3, 5, 7}), 1.0, 1e-12);
   EXPECT_NEAR(evaluation::r_squared({0, 1, 2}, {0, 1, 0}), 0.0, 1e-12);
   std::vector<evaluation::Step> steps(4);
@@ -214,7 +214,7 @@ TEST(RunTable, CountsLossesAndHowLongTheyLasted) {
               HasSubstr("| made up | 0.000, 0.000 m | 2.00, 2.00 m |"));
 }
 
-TEST(ErrorNumbers, ABinKnowsItsUnitAndMiddleAndACellItsBounds) {
+TEST(ErrorStatistics, ABinKnowsItsUnitAndMiddleAndACellItsBounds) {
   const TemporaryFolder folder;
   // Straight ahead, 10.3° to the line of sight.
   const auto samples = written_and_read({row_at(0, 1.6, 0.18, 0.02), row_at(0, 1.7, 0.18, 0.04),

@@ -21,8 +21,13 @@
 #include "support/test_data.h"
 #include "vision/features/test_image.h"
 
-namespace heel::test {
+namespace heel {
 namespace {
+
+using test::for_each_simd_target;
+using test::source_path;
+using test::TestImage;
+using test::write_text;
 
 const std::string kGoldenFile = source_path("tests/golden/features/discs.golden");
 constexpr const char* kProvenance =
@@ -157,4 +162,4 @@ TEST(FeaturesGolden, AreTheSameOnEveryProcessor) {
 }
 
 }  // namespace
-}  // namespace heel::test
+}  // namespace heel

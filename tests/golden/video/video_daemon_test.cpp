@@ -15,8 +15,21 @@
 #include "support/process.h"
 #include "support/sanitized.h"
 
-namespace heel::test {
+namespace heel {
 namespace {
+
+using test::FrameClock;
+using test::FrameCommands;
+using test::kGainYaw_1_s;
+using test::kGoldenFile;
+using test::kPatience_s;
+using test::kVideo;
+using test::kVideoRate_Hz;
+using test::mean_by_frame;
+using test::Process;
+using test::read_golden;
+using test::read_wire;
+using test::VideoScene;
 
 constexpr int kFirst = 890;  // some seconds before the back is seen: the line is to stand by then
 constexpr int kLast = 1195;
@@ -113,4 +126,4 @@ TEST_F(VideoDrivesHeeld, AndTheRobotReceivesTheGoldenCommands) {
 }
 
 }  // namespace
-}  // namespace heel::test
+}  // namespace heel

@@ -17,8 +17,23 @@
 #include "golden/video/video_scene.h"
 #include "tools/heel/run_heel.h"
 
-namespace heel::test {
+namespace heel {
 namespace {
+
+using test::crc32_of_file;
+using test::data_path;
+using test::FrameClock;
+using test::FrameCommands;
+using test::golden_text;
+using test::kGainYaw_1_s;
+using test::kGoldenFile;
+using test::kVideo;
+using test::kVideoCrc32;
+using test::kVideoFrames;
+using test::read_golden;
+using test::read_wire;
+using test::Velocity;
+using test::VideoScene;
 
 // Before and after these the person is not seen from behind, and the wheels have had time to stop.
 constexpr int kBackSeenFirst = 925;
@@ -125,4 +140,4 @@ TEST_F(VideoOnTheWire, AGainTenPercentOffIsNoticed) {
 }
 
 }  // namespace
-}  // namespace heel::test
+}  // namespace heel

@@ -10,8 +10,14 @@
 #include "support/temporary_folder.h"
 #include "support/test_data.h"
 
-namespace heel::test {
+namespace heel {
 namespace {
+
+using test::Outcome;
+using test::read_text;
+using test::run_program;
+using test::Scene;
+using test::source_path;
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -94,4 +100,4 @@ TEST(HeeldCheck, PrintsTheCommittedExampleAndManual) {
 }
 
 }  // namespace
-}  // namespace heel::test
+}  // namespace heel

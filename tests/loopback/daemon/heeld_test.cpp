@@ -17,8 +17,23 @@
 #include "support/temporary_folder.h"
 #include "support/text.h"
 
-namespace heel::test {
+namespace heel {
 namespace {
+
+using test::all_truth;
+using test::event_time_s;
+using test::eventually;
+using test::last_received_s;
+using test::monotonic_s;
+using test::newest_truth;
+using test::NotifySocket;
+using test::occurrences;
+using test::Process;
+using test::read_text;
+using test::Scene;
+using test::sleep_s;
+using test::Truth;
+using test::write_text;
 
 using ::testing::HasSubstr;
 
@@ -259,4 +274,4 @@ TEST_F(Heeld, StopButtonHoldsTheRobotUntilHeeldIsRestarted) {
 }
 
 }  // namespace
-}  // namespace heel::test
+}  // namespace heel

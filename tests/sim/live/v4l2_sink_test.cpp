@@ -70,7 +70,7 @@ V4l2Sink open_sink(Loopback& loopback) {
 }
 
 std::string complaint(Loopback loopback) {
-  return heel::test::complaint_of([&] { open_sink(loopback); });
+  return test::complaint_of([&] { open_sink(loopback); });
 }
 
 FrameHeader header() {

@@ -105,7 +105,7 @@ TEST(ErrorFit, WhatDiffersBetweenWorldsIsKeptForARun) {
 }
 
 TEST(ErrorFit, TooFewSightingsAreNamed) {
-  EXPECT_THAT(heel::test::complaint_of([] { fit_error_model(made_up_rows(20, 3), {}); }),
+  EXPECT_THAT(test::complaint_of([] { fit_error_model(made_up_rows(20, 3), {}); }),
               HasSubstr("expected at least 200"));
 }
 
@@ -137,8 +137,7 @@ TEST(ErrorModelFile, RefusesByNameAndPlace) {
   write_error_model(fitted(), "a test", folder.file("model.toml"));
   const std::string whole = test::read_text(folder.file("model.toml"));
   const auto complaint = [&](const std::string& text) {
-    return heel::test::complaint_of(
-        [&] { read_error_model(test::write_text(folder.file("damaged.toml"), text)); });
+    return test::complaint_of([&] { read_error_model(test::write_text(folder.file("damaged.toml"), text)); });
   };
   std::string without = whole;
   without.replace(without.find("print_share"), 11, "print_shape");
@@ -149,9 +148,9 @@ TEST(ErrorModelFile, RefusesByNameAndPlace) {
 }
 
 /// A person who stands; the camera 2.5 m behind, turned so that the back is seen at an angle.
-class DrawnFromMadeUp : public ::testing::Test {
+class SampledPosesTest : public ::testing::Test {
  protected:
-  DrawnFromMadeUp() {
+  SampledPosesTest() {
     scenario_.camera.model = sim::default_camera_model();
     world_ = std::make_unique<sim::World>(scenario_, 1, sim::WorldUse::TruthOnly);
   }
@@ -173,7 +172,7 @@ class DrawnFromMadeUp : public ::testing::Test {
   std::unique_ptr<sim::World> world_;
 };
 
-TEST_F(DrawnFromMadeUp, MeanAndSpreadAreTheModels) {
+TEST_F(SampledPosesTest, MeanAndSpreadAreTheModels) {
   double sum = 0.0, squares = 0.0, range = 0.0;
   int found = 0, all = 20000;
   ViewConditions c;
@@ -194,7 +193,7 @@ TEST_F(DrawnFromMadeUp, MeanAndSpreadAreTheModels) {
   EXPECT_NEAR(range / found, kTrueRangeShare, 0.002);
 }
 
-TEST_F(DrawnFromMadeUp, TheEstimateIsOfOnePiece) {
+TEST_F(SampledPosesTest, TheEstimateIsOfOnePiece) {
   int found = 0;
   look(20, [&](const PoseEstimate& pose, const sim::Truth& truth) {
     if (!pose.found()) return;
@@ -210,7 +209,7 @@ TEST_F(DrawnFromMadeUp, TheEstimateIsOfOnePiece) {
   EXPECT_GT(found, 10);
 }
 
-TEST_F(DrawnFromMadeUp, AnAvertedBackIsNeverFound) {
+TEST_F(SampledPosesTest, AnAvertedBackIsNeverFound) {
   const sim::RobotMotion ahead{2.5, 0.0, M_PI, 0.0, 0.0};
   SampledPoses poses(fitted(), scenario_, 1.5, 9);
   for (int i = 1; i < 200; ++i) {

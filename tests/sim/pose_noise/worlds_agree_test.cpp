@@ -19,7 +19,7 @@
 namespace heel::sim {
 namespace {
 
-const std::string kModel = heel::test::source_path("tools/heel-sim/pose_noise/pictured.toml");
+const std::string kModel = test::source_path("tools/heel-sim/pose_noise/pictured.toml");
 
 LockstepSettings settings_for(const char* text, double duration_s) {
   LockstepSettings settings;
@@ -144,11 +144,11 @@ TEST(PosesWithoutPictures, RepeatToTheBitAndDifferBySeed) {
   LockstepSettings settings = settings_for(kBends, 6.0);
   settings.errors = sim::read_error_model(kModel);
   int poses_found = 0;
-  const heel::test::Transcript first = heel::test::transcript_of(settings, &poses_found);
+  const test::Transcript first = test::transcript_of(settings, &poses_found);
   EXPECT_GT(poses_found, 100);
-  EXPECT_THAT(heel::test::differences(first, heel::test::transcript_of(settings)), testing::IsEmpty());
+  EXPECT_THAT(test::differences(first, test::transcript_of(settings)), testing::IsEmpty());
   settings.scenario.seed = 7;
-  EXPECT_THAT(heel::test::differences(first, heel::test::transcript_of(settings)),
+  EXPECT_THAT(test::differences(first, test::transcript_of(settings)),
               testing::IsSupersetOf({"poses", "ticks", "truth", "bytes to the robot", "poses.csv",
                                      "ticks.csv", "truth.csv", "wire.hex"}));
 }

@@ -5,8 +5,13 @@
 
 #include "sim/robot/virtual_client.h"
 
-namespace heel::sim::test {
+namespace heel::sim {
 namespace {
+
+using test::exact_settings;
+using test::from_hex;
+using test::Received;
+using test::VirtualClient;
 
 /// What these clients do with a sync step: send, wait for a packet with that id, send again if none comes.
 bool sync_step(VirtualClient& client, const std::string& hex, int wait_ms) {
@@ -78,7 +83,7 @@ TEST(AriaClient, ClosesARobotLeftOpenWhenItSeesASip) {
   ASSERT_TRUE(sync_step(client, "fafb03000000", 1070));
 }
 
-TEST(P2os, SweepsTheRatesAndFindsItsRobot) {
+TEST(P2osClient, SweepsTheRatesAndFindsItsRobot) {
   P3AtSettings settings = exact_settings();
   settings.boot_baud = 38400;
   VirtualClient client(settings);
@@ -92,7 +97,7 @@ TEST(P2os, SweepsTheRatesAndFindsItsRobot) {
   EXPECT_TRUE(sync_step(client, "fafb03020002", 300));
 }
 
-TEST(P2os, ItsOpeningChatterIsUnderstoodAndItsSlowRepeatsTripTheWatchdog) {
+TEST(P2osClient, ItsOpeningChatterIsUnderstoodAndItsSlowRepeatsTripTheWatchdog) {
   VirtualClient client(exact_settings());
   ASSERT_TRUE(sync_step(client, "fafb03000000", 300));
   ASSERT_TRUE(sync_step(client, "fafb03010001", 300));
@@ -149,4 +154,4 @@ TEST(PythonClient, SendsAllThreeSyncsWithoutWaitingAndPulsesEverySecond) {
 }
 
 }  // namespace
-}  // namespace heel::sim::test
+}  // namespace heel::sim

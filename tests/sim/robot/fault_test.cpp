@@ -4,8 +4,11 @@
 #include "sim/robot/virtual_client.h"
 #include "support/complaint.h"
 
-namespace heel::sim::test {
+namespace heel::sim {
 namespace {
+
+using test::exact_settings;
+using test::VirtualClient;
 
 using arcos::CommandId;
 
@@ -21,7 +24,7 @@ TEST(ParseFault, ReadsKindStartDurationAndAmount) {
 
 TEST(ParseFault, NamesWhatIsWrong) {
   const auto complaint = [](const std::string& text) {
-    return heel::test::complaint_of([&] { parse_fault(text); });
+    return test::complaint_of([&] { parse_fault(text); });
   };
   EXPECT_NE(complaint("dorp@1").find("'dorp' is not a fault (expected one of drop, garble"),
             std::string::npos);
@@ -169,4 +172,4 @@ INSTANTIATE_TEST_SUITE_P(Wheels, StallFault,
                                          StallCase{2, false, true}));
 
 }  // namespace
-}  // namespace heel::sim::test
+}  // namespace heel::sim

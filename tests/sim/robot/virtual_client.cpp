@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace heel::sim::test {
+namespace heel::test {
 
 std::vector<std::uint8_t> from_hex(const std::string& hex) {
   std::vector<std::uint8_t> bytes;
@@ -12,14 +12,14 @@ std::vector<std::uint8_t> from_hex(const std::string& hex) {
   return bytes;
 }
 
-P3AtSettings exact_settings() {
-  P3AtSettings settings;
-  settings.chassis = exact_chassis();
+sim::P3AtSettings exact_settings() {
+  sim::P3AtSettings settings;
+  settings.chassis = sim::exact_chassis();
   return settings;
 }
 
-P3AtSettings fast_exact_settings() {
-  P3AtSettings settings = exact_settings();
+sim::P3AtSettings fast_exact_settings() {
+  sim::P3AtSettings settings = exact_settings();
   settings.boot_baud = 115200;
   return settings;
 }
@@ -92,18 +92,18 @@ arcos::Sip VirtualClient::last_sip() const {
 }
 
 void VirtualClient::collect_events() {
-  for (const RobotEvent& event : robot.take_events()) events_.push_back(event);
+  for (const sim::RobotEvent& event : robot.take_events()) events_.push_back(event);
 }
 
-bool VirtualClient::happened(RobotEventKind kind) {
+bool VirtualClient::happened(sim::RobotEventKind kind) {
   return time_of(kind) >= 0;
 }
 
-TimeNs VirtualClient::time_of(RobotEventKind kind) {
+TimeNs VirtualClient::time_of(sim::RobotEventKind kind) {
   collect_events();
   const auto found = std::find_if(events_.begin(), events_.end(),
-                                  [kind](const RobotEvent& event) { return event.kind == kind; });
+                                  [kind](const sim::RobotEvent& event) { return event.kind == kind; });
   return found == events_.end() ? -1 : found->t_ns;
 }
 
-}  // namespace heel::sim::test
+}  // namespace heel::test

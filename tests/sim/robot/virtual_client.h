@@ -1,4 +1,4 @@
-// A client in virtual time: sends bytes to a P3At, lets time pass in millisecond steps, and keeps every
+// A client in virtual time: sends bytes to a sim::P3At, lets time pass in millisecond steps, and keeps every
 // packet that comes back with the moment it was complete.
 #pragma once
 
@@ -15,15 +15,15 @@
 #include "arcos/sip.h"
 #include "sim/robot/p3at.h"
 
-namespace heel::sim::test {
+namespace heel::test {
 
 /// "fafb03000000" → bytes.
 std::vector<std::uint8_t> from_hex(const std::string& hex);
 
 /// A robot without slip and drift: its true motion is its odometry.
-P3AtSettings exact_settings();
+sim::P3AtSettings exact_settings();
 /// … and with a line at 115200 baud.
-P3AtSettings fast_exact_settings();
+sim::P3AtSettings fast_exact_settings();
 
 struct Received {
   TimeNs t_ns = 0;
@@ -33,7 +33,7 @@ struct Received {
 
 class VirtualClient {
  public:
-  explicit VirtualClient(const P3AtSettings& settings, std::uint64_t seed = 1) : robot(settings, seed) {}
+  explicit VirtualClient(const sim::P3AtSettings& settings, std::uint64_t seed = 1) : robot(settings, seed) {}
 
   void send(std::span<const std::uint8_t> bytes) { robot.receive(bytes, t_ns); }
   void send_hex(const std::string& hex) { send(from_hex(hex)); }
@@ -59,10 +59,10 @@ class VirtualClient {
   arcos::Sip last_sip() const;
   void forget() { raw.clear(), packets.clear(); }
   /// Whether an event of this kind has happened, among all so far.
-  bool happened(RobotEventKind kind);
-  TimeNs time_of(RobotEventKind kind);
+  bool happened(sim::RobotEventKind kind);
+  TimeNs time_of(sim::RobotEventKind kind);
 
-  P3At robot;
+  sim::P3At robot;
   TimeNs t_ns = 0;
   std::vector<std::uint8_t> raw;
   std::vector<Received> packets;
@@ -71,7 +71,7 @@ class VirtualClient {
   void collect_events();
 
   arcos::Parser parser_;
-  std::vector<RobotEvent> events_;
+  std::vector<sim::RobotEvent> events_;
 };
 
-}  // namespace heel::sim::test
+}  // namespace heel::test

@@ -9,15 +9,15 @@
 #include "sim/scene/shirts.h"
 #include "sim/scene/world.h"
 
-namespace heel::sim::test {
+namespace heel::test {
 
-inline Scenario marked_scenario() {
-  Scenario scenario;
-  scenario.person.shirt = ShirtDesign::Marked;
-  scenario.camera.model = default_camera_model();
+inline sim::Scenario marked_scenario() {
+  sim::Scenario scenario;
+  scenario.person.shirt = sim::ShirtDesign::Marked;
+  scenario.camera.model = sim::default_camera_model();
   scenario.camera.sensor.exposure_ms = 0.0;
   scenario.room.objects = 10;
-  WalkItem ahead;
+  sim::WalkItem ahead;
   ahead.length_m = 10;
   scenario.path = {ahead};
   return scenario;
@@ -40,34 +40,34 @@ inline Eigen::Vector2d bright_centre(const std::vector<std::uint8_t>& grey, int 
   return sum / weight;
 }
 
-struct View {
+struct PictureMoment {
   double t_s;
-  RobotMotion robot;
+  sim::RobotMotion robot;
 };
 
 /// Where the picture must show a dot of the shirt, by the world's own truth of it.
-inline bool mark_px(const World& world, const View& view, int mark, Eigen::Vector2d& px) {
-  const ShirtMark at = shirt_mark(mark);
+inline bool mark_px(const sim::World& world, const PictureMoment& view, int mark, Eigen::Vector2d& px) {
+  const sim::ShirtMark at = sim::shirt_mark(mark);
   return world.pixel_of_moving_point(
       view.robot, view.t_s,
       [&](double t_s) -> Eigen::Vector3d {
-        const PersonPose person = world.person_pose(t_s);
-        return person.world_from_part[kTorso] *
+        const sim::PersonPose person = world.person_pose(t_s);
+        return person.world_from_part[sim::kTorso] *
                world.person().shirt_point_m(at.s_texel, at.t_texel, person.cloth);
       },
       px);
 }
 
 /// Every dot in every view within `tolerance_px` of where the truth puts it.
-inline void expect_marks_at_truth(const Scenario& scenario, const std::vector<View>& views,
+inline void expect_marks_at_truth(const sim::Scenario& scenario, const std::vector<PictureMoment>& views,
                                   double tolerance_px) {
-  World world(scenario);
+  sim::World world(scenario);
   world.start_walk(0.0);
   std::vector<std::uint8_t> grey;
   int seen = 0;
-  for (const View& view : views) {
+  for (const PictureMoment& view : views) {
     world.render(view.robot, view.t_s, 0, grey);
-    for (int i = 0; i < kShirtMarks; ++i) {
+    for (int i = 0; i < sim::kShirtMarks; ++i) {
       Eigen::Vector2d px;
       if (!mark_px(world, view, i, px)) continue;
       if (px.x() < 20 || px.y() < 20 || px.x() > 620 || px.y() > 460) continue;
@@ -77,7 +77,7 @@ inline void expect_marks_at_truth(const Scenario& scenario, const std::vector<Vi
       ++seen;
     }
   }
-  EXPECT_GT(seen, kShirtMarks * static_cast<int>(views.size()) * 2 / 3);
+  EXPECT_GT(seen, sim::kShirtMarks * static_cast<int>(views.size()) * 2 / 3);
 }
 
-}  // namespace heel::sim::test
+}  // namespace heel::test

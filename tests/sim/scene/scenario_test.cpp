@@ -14,10 +14,10 @@
 namespace heel::sim {
 namespace {
 
-using heel::test::source_path;
+using test::source_path;
 
 std::string complaint(const std::string& text) {
-  return heel::test::complaint_of([&] { parse_scenario(text, "s.toml"); });
+  return test::complaint_of([&] { parse_scenario(text, "s.toml"); });
 }
 
 TEST(Scenario, ReadsWhatIsWritten) {
@@ -183,9 +183,8 @@ level = 0.2
 }
 
 TEST(Scenario, MissingFileIsNamed) {
-  EXPECT_NE(
-      heel::test::complaint_of([] { read_scenario("/nonexistent/x.toml"); }).find("/nonexistent/x.toml"),
-      std::string::npos);
+  EXPECT_NE(test::complaint_of([] { read_scenario("/nonexistent/x.toml"); }).find("/nonexistent/x.toml"),
+            std::string::npos);
 }
 
 TEST(Scenario, ShippedDemoHasAStraightAndBendsBothWays) {

@@ -8,13 +8,20 @@
 #include "vision/features/extracted.h"
 #include "vision/features/test_image.h"
 
-namespace heel::test {
+namespace heel {
 namespace {
+
+using test::Blob;
+using test::BlobField;
+using test::extract;
+using test::image_of;
+using test::noise_image;
+using test::TestImage;
 
 // The response of a box filter is largest for a Gaussian blob somewhat wider than the filter's sigma.
 constexpr double kFoundSigma = 0.745;
 
-TEST(FeaturesDetector, FindsTheCentreScaleAndSignOfABlob) {
+TEST(FastHessian, FindsTheCentreScaleAndSignOfABlob) {
   for (const double sigma_px : {2.4, 2.8, 3.2, 4.0, 4.8, 5.5}) {
     for (const double amplitude : {100.0, -100.0}) {
       for (const double shift : {0.0, 0.3, 0.5, 0.8}) {
@@ -35,7 +42,7 @@ TEST(FeaturesDetector, FindsTheCentreScaleAndSignOfABlob) {
   }
 }
 
-TEST(FeaturesDetector, AcceptsFramesOfExtremeSizeAndContent) {
+TEST(FastHessian, AcceptsFramesOfExtremeSizeAndContent) {
   FeatureSettings settings;
   settings.octaves = 4;
   settings.max_features = 200;
@@ -65,7 +72,7 @@ TEST(FeaturesDetector, AcceptsFramesOfExtremeSizeAndContent) {
   EXPECT_GT(described, 200U);
 }
 
-TEST(FeaturesDetector, RefusesSettingsOutOfRangeAndTooLargeFrames) {
+TEST(FastHessian, RefusesSettingsOutOfRangeAndTooLargeFrames) {
   FeatureSettings settings;
   settings.octaves = 5;
   EXPECT_THROW(FeatureExtractor(64, 64, settings), Error);
@@ -77,7 +84,7 @@ TEST(FeaturesDetector, RefusesSettingsOutOfRangeAndTooLargeFrames) {
   EXPECT_THROW(extractor.extract(TestImage(65, 64).view(), features), Error);
 }
 
-TEST(FeaturesDetector, SearchesOnlyTheRegionAndFindsTheSameThere) {
+TEST(FastHessian, SearchesOnlyTheRegionAndFindsTheSameThere) {
   const BlobField field(320, 240, 150, 3);
   const auto image = image_of(320, 240, field);
   FeatureSettings settings;
@@ -100,7 +107,7 @@ TEST(FeaturesDetector, SearchesOnlyTheRegionAndFindsTheSameThere) {
   EXPECT_EQ(inside.features.size(), expected);
 }
 
-TEST(FeaturesDetector, KeepsToTheScaleRange) {
+TEST(FastHessian, KeepsToTheScaleRange) {
   const auto image = image_of(320, 240, BlobField(320, 240, 150, 5));
   FeatureSettings settings;
   settings.octaves = 3;
@@ -122,4 +129,4 @@ TEST(FeaturesDetector, KeepsToTheScaleRange) {
 }
 
 }  // namespace
-}  // namespace heel::test
+}  // namespace heel

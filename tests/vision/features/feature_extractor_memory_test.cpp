@@ -6,10 +6,17 @@
 #include "support/allocation_count.h"
 #include "vision/features/test_image.h"
 
-namespace heel::test {
+namespace heel {
 namespace {
 
-TEST(FeaturesMemory, ExtractAndMatchAllocateNothing) {
+using test::allocations_of_this_thread;
+using test::BlobField;
+using test::counts_allocations;
+using test::image_of;
+using test::noise_image;
+using test::TestImage;
+
+TEST(FeatureExtractorMemory, ExtractAndMatchAllocateNothing) {
   if (!counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   const TestImage noise = noise_image(320, 240, 1);
   const TestImage texture = image_of(320, 240, BlobField(320, 240, 300, 2));
@@ -42,4 +49,4 @@ TEST(FeaturesMemory, ExtractAndMatchAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace heel::test
+}  // namespace heel

@@ -25,8 +25,18 @@
 #include "vision/features/scale_space_fit.h"
 #include "vision/features/simd_target.h"
 
-namespace heel::test {
+namespace heel {
 namespace {
+
+using test::Blob;
+using test::BlobField;
+using test::box_sum;
+using test::noise_image;
+using test::reference_descriptor;
+using test::reference_hessian;
+using test::reference_orientation;
+using test::ReferenceHessian;
+using test::TestImage;
 
 TestImage textured(int width, int height, unsigned seed) {
   const BlobField field(width, height, width * height / 250, seed);
@@ -43,7 +53,7 @@ double angle_between(double a, double b) {
   return std::abs(wrap_angle_rad(a - b));
 }
 
-TEST(FeaturesReference, IntegralImageIsTheSumOfPixels) {
+TEST(ReferenceSurf, IntegralImageIsTheSumOfPixels) {
   for (const auto& [width, height] : {std::pair{1, 1}, {15, 3}, {16, 16}, {17, 5}, {64, 2}, {131, 37}}) {
     const TestImage image = noise_image(width, height, 1);
     const IntegralImage integral = integral_of(image);
@@ -54,7 +64,7 @@ TEST(FeaturesReference, IntegralImageIsTheSumOfPixels) {
   }
 }
 
-TEST(FeaturesReference, HessianRowsEqualThePaperToSixDigits) {
+TEST(ReferenceSurf, HessianRowsEqualThePaperToSixDigits) {
   const TestImage image = noise_image(211, 203, 2);
   const IntegralImage integral = integral_of(image);
   HessianRowWork work(image.width_px);
@@ -78,7 +88,7 @@ TEST(FeaturesReference, HessianRowsEqualThePaperToSixDigits) {
   }
 }
 
-TEST(FeaturesReference, ResponsePatchesEqualTheRows) {
+TEST(ReferenceSurf, ResponsePatchesEqualTheRows) {
   const TestImage image = noise_image(211, 203, 6);
   const IntegralImage integral = integral_of(image);
   HessianRowWork work(image.width_px);
@@ -152,7 +162,7 @@ std::vector<Feature> keypoints_of_octave_0(const IntegralImage& integral, float 
 
 // The detector computes its outer layers only where needed, round single samples or by the row: few samples
 // with blobs, all with noise, whole rows with a checkerboard, which also has ties.
-TEST(FeaturesReference, DetectorAgreesWithComparingEverySample) {
+TEST(ReferenceSurf, DetectorAgreesWithComparingEverySample) {
   const auto board = [](int period, double unevenness) {
     return image_of(150, 110, [&](double x, double y) {
       const bool dark = (static_cast<int>(x) / period + static_cast<int>(y) / period) % 2 != 0;
@@ -176,7 +186,7 @@ TEST(FeaturesReference, DetectorAgreesWithComparingEverySample) {
   }
 }
 
-TEST(FeaturesReference, DescriptorsEqualTheReference) {
+TEST(ReferenceSurf, DescriptorsEqualTheReference) {
   const TestImage image = textured(160, 120, 3);
   const IntegralImage integral = integral_of(image);
   for (const auto& [x, y, sigma] : {std::tuple{80.3f, 61.7f, 1.6f},
@@ -203,7 +213,7 @@ TEST(FeaturesReference, DescriptorsEqualTheReference) {
   }
 }
 
-TEST(FeaturesReference, OrientationIsNearTheReference) {
+TEST(ReferenceSurf, OrientationIsNearTheReference) {
   const TestImage image = textured(200, 200, 4);
   const IntegralImage integral = integral_of(image);
   FeatureExtractor extractor(image.width_px, image.height_px, {.max_features = 60});
@@ -219,7 +229,7 @@ TEST(FeaturesReference, OrientationIsNearTheReference) {
   EXPECT_GE(near, static_cast<int>(0.9 * static_cast<double>(features.features.size())));
 }
 
-TEST(FeaturesReference, OrientationTurnsWithThePicture) {
+TEST(ReferenceSurf, OrientationTurnsWithThePicture) {
   for (const double turn : {0.0, 0.4, 1.3, 2.8, -1.9}) {
     // A dark disc beside a light one: the gradient at the middle points to the light one.
     const double c = std::cos(turn), s = std::sin(turn);
@@ -233,7 +243,7 @@ TEST(FeaturesReference, OrientationTurnsWithThePicture) {
   }
 }
 
-TEST(FeaturesReference, OneProgramContainsEveryInstructionSet) {
+TEST(ReferenceSurf, OneProgramContainsEveryInstructionSet) {
 #if defined(__x86_64__)
   EXPECT_THAT(compiled_simd_targets(), ::testing::ElementsAre("AVX3", "AVX2", "SSE4", "SSSE3", "EMU128"));
   EXPECT_EQ(available_simd_targets().back(), "EMU128");  // plain SSE2, which every x86-64 processor has
@@ -242,13 +252,13 @@ TEST(FeaturesReference, OneProgramContainsEveryInstructionSet) {
 #endif
   EXPECT_EQ(simd_target_name(), available_simd_targets().front());
   std::vector<std::string_view> used;
-  for_each_simd_target([&] { used.emplace_back(simd_target_name()); });
+  test::for_each_simd_target([&] { used.emplace_back(simd_target_name()); });
   EXPECT_EQ(used, available_simd_targets());
   EXPECT_FALSE(use_simd_target("MMX"));
   EXPECT_EQ(simd_target_name(), available_simd_targets().front());
 }
 
-TEST(FeaturesReference, EveryInstructionSetFindsTheSame) {
+TEST(ReferenceSurf, EveryInstructionSetFindsTheSame) {
   const TestImage image = textured(331, 247, 5);
   for (const bool oriented : {false, true}) {
     FeatureExtractor extractor(image.width_px, image.height_px,
@@ -256,7 +266,7 @@ TEST(FeaturesReference, EveryInstructionSetFindsTheSame) {
     FeatureSet expected;
     std::vector<Match> expected_matches;
     int targets = 0;
-    for_each_simd_target([&] {
+    test::for_each_simd_target([&] {
       FeatureSet features;
       extractor.extract(image.view(), features);
       if (targets++ == 0) expected = features;
@@ -285,4 +295,4 @@ TEST(FeaturesReference, EveryInstructionSetFindsTheSame) {
 }
 
 }  // namespace
-}  // namespace heel::test
+}  // namespace heel

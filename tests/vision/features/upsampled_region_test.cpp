@@ -12,8 +12,15 @@
 #include "vision/features/extracted.h"
 #include "vision/features/test_image.h"
 
-namespace heel::test {
+namespace heel {
 namespace {
+
+using test::Blob;
+using test::BlobField;
+using test::extract;
+using test::image_of;
+using test::noise_image;
+using test::TestImage;
 
 /// The grey level at any place of `part`, bilinear; beyond the edge that of the edge.
 double level_at(const TestImage& image, const Region& part, double x, double y) {
@@ -167,4 +174,4 @@ TEST(UpsampledFeatures, LieInTheRequestedRegionAndScales) {
 }
 
 }  // namespace
-}  // namespace heel::test
+}  // namespace heel

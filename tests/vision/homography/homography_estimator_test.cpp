@@ -8,20 +8,16 @@
 #include "support/allocation_count.h"
 #include "vision/pose/scene.h"
 
+namespace heel {
 namespace {
 
-using heel::HomographyEstimator;
-using heel::HomographyStatus;
-using heel::PointPair;
-using heel::RansacSettings;
-using heel::RobustHomography;
-using heel::test::add_outliers;
-using heel::test::corner_error_px;
-using heel::test::inlier_pairs;
-using heel::test::plain_camera;
-using heel::test::Random;
-using heel::test::random_view;
-using heel::test::View;
+using test::add_outliers;
+using test::corner_error_px;
+using test::inlier_pairs;
+using test::plain_camera;
+using test::Random;
+using test::random_view;
+using test::View;
 
 struct Problem {
   View view;
@@ -109,7 +105,7 @@ TEST(HomographyEstimator, MaskSaysWhichPairsSupport) {
   const Eigen::Matrix3d inverse = result.H_cur_from_ref.inverse();
   int supporting = 0;
   for (std::size_t i = 0; i < mask.size(); ++i) {
-    const double error = heel::symmetric_transfer_error_px2(result.H_cur_from_ref, inverse, p.pairs[i]);
+    const double error = symmetric_transfer_error_px2(result.H_cur_from_ref, inverse, p.pairs[i]);
     EXPECT_EQ(mask[i] != 0, error < 18.0) << "pair " << i;
     supporting += mask[i];
   }
@@ -198,15 +194,16 @@ TEST(HomographyEstimator, IterationBoundReturnsTheBestSoFar) {
 }
 
 TEST(HomographyEstimator, AllocatesNothing) {
-  if (!heel::test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   const Problem p = problem(9, 200, 0.5, 1.0);
   HomographyEstimator estimator(200, RansacSettings{});
   std::vector<std::uint8_t> mask;
   mask.reserve(200);
-  const std::uint64_t before = heel::test::allocations_of_this_thread();
+  const std::uint64_t before = test::allocations_of_this_thread();
   const RobustHomography result = estimator.estimate(p.pairs, mask);
-  EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
+  EXPECT_EQ(test::allocations_of_this_thread() - before, 0u);
   EXPECT_EQ(result.status, HomographyStatus::Ok);
 }
 
 }  // namespace
+}  // namespace heel

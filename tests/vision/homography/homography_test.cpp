@@ -11,17 +11,16 @@
 #include "vision/homography/homography_refine.h"
 #include "vision/pose/scene.h"
 
+namespace heel {
 namespace {
 
-using heel::HomographyStatus;
-using heel::PointPair;
-using heel::test::corner_error_px;
-using heel::test::inlier_pairs;
-using heel::test::mapped;
-using heel::test::plain_camera;
-using heel::test::Random;
-using heel::test::random_view;
-using heel::test::View;
+using test::corner_error_px;
+using test::inlier_pairs;
+using test::mapped;
+using test::plain_camera;
+using test::Random;
+using test::random_view;
+using test::View;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
@@ -31,7 +30,7 @@ RC_GTEST_PROP(HomographyDlt, ExactFromFourOrMorePairs, (std::uint64_t seed)) {
   const int count = 4 + static_cast<int>(seed % 60);
   std::vector<PointPair> pairs = inlier_pairs(random, view.H, count, 0.0, 0.0);
   Eigen::Matrix3d H;
-  const HomographyStatus status = heel::homography_dlt(pairs, H);
+  const HomographyStatus status = homography_dlt(pairs, H);
   if (count < 8) RC_PRE(status == HomographyStatus::Ok);  // a few random points may be nearly collinear
   RC_ASSERT(status == HomographyStatus::Ok);
   RC_ASSERT(H(2, 2) == 1.0);
@@ -41,22 +40,22 @@ RC_GTEST_PROP(HomographyDlt, ExactFromFourOrMorePairs, (std::uint64_t seed)) {
 TEST(HomographyDlt, NamesEveryDegeneracy) {
   Eigen::Matrix3d H;
   const std::vector<PointPair> three(3);
-  EXPECT_EQ(heel::homography_dlt(three, H), HomographyStatus::TooFewPairs);
+  EXPECT_EQ(homography_dlt(three, H), HomographyStatus::TooFewPairs);
 
   std::vector<PointPair> same(10, PointPair{{5, 5}, {7, 7}});
-  EXPECT_EQ(heel::homography_dlt(same, H), HomographyStatus::Degenerate);
+  EXPECT_EQ(homography_dlt(same, H), HomographyStatus::Degenerate);
 
   std::vector<PointPair> line;  // all on one line, in both views
   for (int i = 0; i < 10; ++i) line.push_back({{i * 10.0, i * 5.0 + 3.0}, {i * 8.0 + 1.0, i * 2.0}});
-  EXPECT_EQ(heel::homography_dlt(line, H), HomographyStatus::Degenerate);
+  EXPECT_EQ(homography_dlt(line, H), HomographyStatus::Degenerate);
 
   const std::vector<PointPair> three_of_four = {
       {{0, 0}, {10, 10}}, {{50, 0}, {60, 10}}, {{100, 0}, {110, 10}}, {{30, 80}, {40, 90}}};
-  EXPECT_EQ(heel::homography_dlt(three_of_four, H), HomographyStatus::Degenerate);
+  EXPECT_EQ(homography_dlt(three_of_four, H), HomographyStatus::Degenerate);
 
   const std::vector<PointPair> in_one_view = {
       {{0, 0}, {10, 10}}, {{50, 5}, {60, 10}}, {{100, 0}, {110, 10}}, {{30, 80}, {40, 90}}};
-  EXPECT_EQ(heel::homography_dlt(in_one_view, H), HomographyStatus::Degenerate);
+  EXPECT_EQ(homography_dlt(in_one_view, H), HomographyStatus::Degenerate);
 }
 
 TEST(HomographyDlt, NormalisationMakesItIndependentOfTheUnit) {
@@ -64,12 +63,12 @@ TEST(HomographyDlt, NormalisationMakesItIndependentOfTheUnit) {
   const View view = random_view(random, plain_camera());
   std::vector<PointPair> pairs = inlier_pairs(random, view.H, 30, 0.5, 0.5);
   Eigen::Matrix3d H, H_scaled;
-  ASSERT_EQ(heel::homography_dlt(pairs, H), HomographyStatus::Ok);
+  ASSERT_EQ(homography_dlt(pairs, H), HomographyStatus::Ok);
   for (PointPair& pair : pairs) {
     pair.ref_px = 1000.0 * pair.ref_px + Eigen::Vector2d(1e5, -3e5);
     pair.cur_px = 1e-3 * pair.cur_px;
   }
-  ASSERT_EQ(heel::homography_dlt(pairs, H_scaled), HomographyStatus::Ok);
+  ASSERT_EQ(homography_dlt(pairs, H_scaled), HomographyStatus::Ok);
   const Eigen::Vector2d probe(300, 200);
   const Eigen::Vector2d image = 1e3 * mapped(H_scaled, 1000.0 * probe + Eigen::Vector2d(1e5, -3e5));
   EXPECT_LT((image - mapped(H, probe)).norm(), 1e-6);
@@ -84,7 +83,7 @@ RC_GTEST_PROP(Homography4pt, ExactAndSignedLikeTheTruth, (std::uint64_t seed)) {
     cur[i] = mapped(view.H, ref[i]);
   }
   Eigen::Matrix3d H;
-  RC_PRE(heel::homography_4pt(ref, cur, H));
+  RC_PRE(homography_4pt(ref, cur, H));
   RC_ASSERT(H.determinant() > 0.0);
   for (std::size_t i = 0; i < 4; ++i) {
     RC_ASSERT((H * ref[i].homogeneous()).z() > 0.0);
@@ -97,22 +96,22 @@ RC_GTEST_PROP(Homography4pt, ExactAndSignedLikeTheTruth, (std::uint64_t seed)) {
 TEST(Homography4pt, RefusesLinesMirrorsAndFolds) {
   const std::array<Eigen::Vector2d, 4> square = {Eigen::Vector2d(0, 0), {100, 0}, {100, 100}, {0, 100}};
   Eigen::Matrix3d H;
-  EXPECT_TRUE(heel::homography_4pt(square, square, H));
+  EXPECT_TRUE(homography_4pt(square, square, H));
   const std::array<Eigen::Vector2d, 4> line = {Eigen::Vector2d(0, 0), {50, 0}, {100, 0}, {0, 100}};
-  EXPECT_FALSE(heel::homography_4pt(line, square, H));
-  EXPECT_FALSE(heel::homography_4pt(square, line, H));
+  EXPECT_FALSE(homography_4pt(line, square, H));
+  EXPECT_FALSE(homography_4pt(square, line, H));
   const std::array<Eigen::Vector2d, 4> mirrored = {Eigen::Vector2d(100, 0), {0, 0}, {0, 100}, {100, 100}};
-  EXPECT_FALSE(heel::homography_4pt(square, mirrored, H));
+  EXPECT_FALSE(homography_4pt(square, mirrored, H));
   const std::array<Eigen::Vector2d, 4> folded = {Eigen::Vector2d(0, 0), {100, 0}, {0, 100}, {100, 100}};
-  EXPECT_FALSE(heel::homography_4pt(square, folded, H));
+  EXPECT_FALSE(homography_4pt(square, folded, H));
   const std::array<Eigen::Vector2d, 4> dented = {Eigen::Vector2d(0, 0), {100, 0}, {30, 30}, {0, 100}};
-  EXPECT_FALSE(heel::homography_4pt(square, dented, H));
+  EXPECT_FALSE(homography_4pt(square, dented, H));
 }
 
 TEST(HomographyError, IsTheSumOfBothDirections) {
   const Eigen::Matrix3d H = Eigen::DiagonalMatrix<double, 3>(2.0, 2.0, 1.0);
   const PointPair pair{{10, 0}, {24, 0}};  // forward 4 px off, backward 2 px
-  EXPECT_DOUBLE_EQ(heel::symmetric_transfer_error_px2(H, H.inverse(), pair), 16.0 + 4.0);
+  EXPECT_DOUBLE_EQ(symmetric_transfer_error_px2(H, H.inverse(), pair), 16.0 + 4.0);
 }
 
 TEST(RefineHomography, FindsTheMinimumOfTheSymmetricTransferError) {
@@ -123,16 +122,15 @@ TEST(RefineHomography, FindsTheMinimumOfTheSymmetricTransferError) {
     const Eigen::Vector2d ref_centre(320, 240), cur_centre = mapped(view.H, ref_centre);
     for (PointPair& pair : pairs) pair = {pair.ref_px - ref_centre, pair.cur_px - cur_centre};
     Eigen::Matrix3d H;
-    ASSERT_EQ(heel::homography_dlt(pairs, H), HomographyStatus::Ok);
-    const double cost = heel::refine_homography(pairs, kNoLimit, H);
+    ASSERT_EQ(homography_dlt(pairs, H), HomographyStatus::Ok);
+    const double cost = refine_homography(pairs, kNoLimit, H);
     // A change of any entry, in either direction, increases the cost.
     for (int i = 0; i < 8; ++i) {
       for (const double relative : {1e-4, -1e-4}) {
         Eigen::Matrix3d other = H;
         other(i / 3, i % 3) *= 1.0 + relative;
         double sum = 0.0;
-        for (const PointPair& pair : pairs)
-          sum += heel::symmetric_transfer_error_px2(other, other.inverse(), pair);
+        for (const PointPair& pair : pairs) sum += symmetric_transfer_error_px2(other, other.inverse(), pair);
         EXPECT_GE(sum, cost * (1.0 - 1e-6)) << "seed " << seed << " entry " << i;
       }
     }
@@ -150,10 +148,10 @@ TEST(HomographyPrecision, CovarianceIsThatOfTheErrors) {
       const View view = random_view(random, plain_camera(), 0.8);
       const std::vector<PointPair> pairs = inlier_pairs(random, view.H, 60, noise_cur, noise_ref);
       Eigen::Matrix3d H;
-      ASSERT_EQ(heel::homography_dlt(pairs, H), HomographyStatus::Ok);
-      heel::refine_homography(pairs, kNoLimit, H);
+      ASSERT_EQ(homography_dlt(pairs, H), HomographyStatus::Ok);
+      refine_homography(pairs, kNoLimit, H);
       H /= H(2, 2);
-      const heel::HomographyPrecision precision = heel::homography_precision(pairs, H);
+      const HomographyPrecision precision = homography_precision(pairs, H);
       noise += precision.noise_px / kTrials;
       Eigen::Matrix<double, 8, 1> error;
       const Eigen::Matrix3d difference = view.H / view.H(2, 2) - H;
@@ -169,3 +167,4 @@ TEST(HomographyPrecision, CovarianceIsThatOfTheErrors) {
 }
 
 }  // namespace
+}  // namespace heel

@@ -6,11 +6,8 @@
 
 #include "vision/pose/scene.h"
 
+namespace heel {
 namespace {
-
-using heel::Outline;
-using heel::plausible_shape;
-using heel::ShapeLimits;
 
 const Outline kOutline = {Eigen::Vector2d(220, 90), {420, 90}, {420, 390}, {220, 390}};
 
@@ -20,8 +17,8 @@ Eigen::Matrix3d scaling(double x, double y) {
 
 TEST(ShapePlausibility, EveryViewOfTheShirtIsPlausible) {
   for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
-    heel::test::Random random(seed);
-    const heel::test::View view = heel::test::random_view(random, heel::test::plain_camera(), 1.1);
+    test::Random random(seed);
+    const test::View view = test::random_view(random, test::plain_camera(), 1.1);
     EXPECT_TRUE(plausible_shape(view.H, kOutline, ShapeLimits{})) << "seed " << seed;
     EXPECT_TRUE(plausible_shape(-view.H, kOutline, ShapeLimits{})) << "seed " << seed;
   }
@@ -51,14 +48,15 @@ TEST(ShapePlausibility, SqueezedMirroredAndFoldedAreRefused) {
 }
 
 TEST(ShapePlausibility, LocalScaleIsTheMagnification) {
-  EXPECT_NEAR(heel::local_scale(scaling(2.0, 8.0), {100, 100}), 4.0, 1e-12);
+  EXPECT_NEAR(local_scale(scaling(2.0, 8.0), {100, 100}), 4.0, 1e-12);
   // Compared with a small square, mapped point by point.
-  heel::test::Random random(9);
-  const Eigen::Matrix3d H = heel::test::random_view(random, heel::test::plain_camera()).H;
+  test::Random random(9);
+  const Eigen::Matrix3d H = test::random_view(random, test::plain_camera()).H;
   const Eigen::Vector2d at(300, 200), dx(1e-3, 0), dy(0, 1e-3);
-  const Eigen::Vector2d u = heel::test::mapped(H, at + dx) - heel::test::mapped(H, at - dx);
-  const Eigen::Vector2d v = heel::test::mapped(H, at + dy) - heel::test::mapped(H, at - dy);
-  EXPECT_NEAR(heel::local_scale(H, at), std::sqrt(u.x() * v.y() - u.y() * v.x()) / 2e-3, 1e-6);
+  const Eigen::Vector2d u = test::mapped(H, at + dx) - test::mapped(H, at - dx);
+  const Eigen::Vector2d v = test::mapped(H, at + dy) - test::mapped(H, at - dy);
+  EXPECT_NEAR(local_scale(H, at), std::sqrt(u.x() * v.y() - u.y() * v.x()) / 2e-3, 1e-6);
 }
 
 }  // namespace
+}  // namespace heel

@@ -8,11 +8,11 @@
 
 #include "vision/pose/scene.h"
 
+namespace heel {
 namespace {
 
-using heel::CameraModel;
-using heel::test::plain_camera;
-using heel::test::Random;
+using test::plain_camera;
+using test::Random;
 
 CameraModel random_lens(Random& random) {
   CameraModel camera = plain_camera();
@@ -104,3 +104,4 @@ TEST(CameraModel, NotANumberRemainsNotANumber) {
 }
 
 }  // namespace
+}  // namespace heel

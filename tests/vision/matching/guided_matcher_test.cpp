@@ -13,16 +13,8 @@
 #include "vision/homography/shape_plausibility.h"
 #include "vision/pose/scene.h"
 
+namespace heel {
 namespace {
-
-using heel::Descriptor;
-using heel::Feature;
-using heel::FeatureGrid;
-using heel::FeatureSet;
-using heel::GuidedMatcher;
-using heel::GuidedMatchSettings;
-using heel::Match;
-using heel::PredictedFeature;
 
 /// A descriptor at a distance of about `apart` from descriptor(direction).
 Descriptor descriptor(std::size_t direction, float apart = 0.f) {
@@ -56,8 +48,7 @@ struct Scene {
   }
   std::vector<PredictedFeature> predicted() const {
     std::vector<PredictedFeature> views;
-    for (const Eigen::Vector2d& px : ref_px)
-      views.push_back({heel::test::mapped(H, px), heel::local_scale(H, px)});
+    for (const Eigen::Vector2d& px : ref_px) views.push_back({test::mapped(H, px), local_scale(H, px)});
     return views;
   }
   std::vector<Match> match() const {
@@ -92,7 +83,7 @@ std::vector<Match> by_trying_every_pair(const Scene& scene, const std::vector<Pr
       if (!(ratio >= 1.0 / rules.scale_ratio && ratio <= rules.scale_ratio)) continue;
       if (scene.cur.features[c].laplacian != scene.ref.features[r].laplacian) continue;
       float squared = 0.f;
-      for (std::size_t i = 0; i < heel::kDescriptorSize; ++i)
+      for (std::size_t i = 0; i < kDescriptorSize; ++i)
         squared += std::pow(scene.ref.descriptors[r][i] - scene.cur.descriptors[c][i], 2.f);
       near.emplace_back(std::sqrt(squared), static_cast<int>(c));
     }
@@ -158,12 +149,12 @@ TEST(GuidedMatcher, PairsAFrameFeatureWithTheNearestTemplateFeatureOnly) {
 }
 
 TEST(GuidedMatcher, AgreesWithTryingEveryPairAndAllocatesNothing) {
-  heel::test::Random random(5);
+  test::Random random(5);
   Scene scene;
-  scene.H = heel::test::random_view(random, heel::test::plain_camera()).H;
+  scene.H = test::random_view(random, test::plain_camera()).H;
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector2d ref(random.uniform(220, 420), random.uniform(90, 390));
-    const Eigen::Vector2d cur = heel::test::mapped(scene.H, ref) + random.normal2(3.0);
+    const Eigen::Vector2d cur = test::mapped(scene.H, ref) + random.normal2(3.0);
     const auto direction = static_cast<std::size_t>(random.uniform(0, 60));
     scene.add_ref(ref.x(), ref.y(), 3.f, descriptor(direction));
     scene.add_cur(cur.x(), cur.y(), static_cast<float>(random.uniform(2.0, 4.5)),
@@ -174,11 +165,11 @@ TEST(GuidedMatcher, AgreesWithTryingEveryPairAndAllocatesNothing) {
   std::vector<Match> out;
   out.reserve(200);
   const std::vector<PredictedFeature> views = scene.predicted();
-  const std::uint64_t before = heel::test::allocations_of_this_thread();
+  const std::uint64_t before = test::allocations_of_this_thread();
   grid.assign(scene.cur, scene.cur_px);
   matcher.match(scene.ref, views, grid, out);
-  if (heel::test::counts_allocations()) {
-    EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
+  if (test::counts_allocations()) {
+    EXPECT_EQ(test::allocations_of_this_thread() - before, 0u);
   }
   EXPECT_GT(out.size(), 50u);
   EXPECT_EQ(as_pairs(out), as_pairs(by_trying_every_pair(scene, views)));
@@ -186,7 +177,7 @@ TEST(GuidedMatcher, AgreesWithTryingEveryPairAndAllocatesNothing) {
 
 // Undistorted features may lie far outside the view, and predictions may not be finite.
 TEST(GuidedMatcher, FindsPairsFarOutsideTheView) {
-  heel::test::Random random(6);
+  test::Random random(6);
   Scene scene;
   scene.H.setIdentity();
   for (int i = 0; i < 100; ++i) {
@@ -214,3 +205,4 @@ TEST(GuidedMatcher, FindsPairsFarOutsideTheView) {
 }
 
 }  // namespace
+}  // namespace heel

@@ -8,7 +8,7 @@
 #include "heel/matching.h"
 #include "support/each_simd_target.h"
 
-namespace heel::test {
+namespace heel {
 namespace {
 
 FeatureSet random_features(int count, unsigned seed) {
@@ -91,7 +91,7 @@ std::vector<Match> plain_match(const FeatureSet& ref, const FeatureSet& cur, con
   return matches;
 }
 
-TEST(FeaturesMatcher, AgreesWithExhaustiveSearch) {
+TEST(Matcher, AgreesWithExhaustiveSearch) {
   for (const bool mutual : {false, true}) {
     for (const auto& [refs, strangers] :
          {std::pair{0, 10}, {1, 0}, {1, 1}, {3, 5}, {7, 31}, {64, 64}, {301, 700}, {5, 1000}}) {
@@ -115,7 +115,7 @@ TEST(FeaturesMatcher, AgreesWithExhaustiveSearch) {
 
 void expect_the_plain_matches(const FeatureSet& ref, const FeatureSet& cur, const MatchSettings& settings) {
   const std::vector<Match> expected = plain_match(ref, cur, settings);
-  for_each_simd_target([&] {
+  test::for_each_simd_target([&] {
     Matcher matcher(static_cast<int>(ref.features.size()), static_cast<int>(cur.features.size()), settings);
     std::vector<Match> matches;
     matcher.match(ref, cur, matches);
@@ -129,7 +129,7 @@ void expect_the_plain_matches(const FeatureSet& ref, const FeatureSet& cur, cons
 
 // Descriptors so close together that bytes do not decide and floats must: from nearly equal to clearly
 // different.
-TEST(FeaturesMatcher, IsExactWhereBytesDoNotDecide) {
+TEST(Matcher, IsExactWhereBytesDoNotDecide) {
   for (const double apart : {0.01, 0.03, 0.1, 0.3}) {
     for (const float ratio : {0.8f, 0.97f, 2.f}) {
       SCOPED_TRACE(std::to_string(apart) + " apart, ratio " + std::to_string(ratio));
@@ -149,7 +149,7 @@ TEST(FeaturesMatcher, IsExactWhereBytesDoNotDecide) {
 
 // Elements outside the range of bytes, opposite descriptors, whose byte product is the smallest possible, and
 // one descriptor for all features.
-TEST(FeaturesMatcher, IsExactForExtremeDescriptors) {
+TEST(Matcher, IsExactForExtremeDescriptors) {
   const auto of = [](std::size_t k, float value) {
     Descriptor descriptor{};
     descriptor[k] = value;
@@ -181,7 +181,7 @@ TEST(FeaturesMatcher, IsExactForExtremeDescriptors) {
   expect_the_plain_matches(same, same, {});
 }
 
-TEST(FeaturesMatcher, NeverPairsOppositeSigns) {
+TEST(Matcher, NeverPairsOppositeSigns) {
   FeatureSet ref = random_features(40, 21);
   FeatureSet cur = ref;
   for (Feature& feature : cur.features) feature.laplacian = static_cast<std::int8_t>(-feature.laplacian);
@@ -200,4 +200,4 @@ TEST(FeaturesMatcher, NeverPairsOppositeSigns) {
 }
 
 }  // namespace
-}  // namespace heel::test
+}  // namespace heel

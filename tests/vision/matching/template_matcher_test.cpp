@@ -9,18 +9,16 @@
 #include "support/allocation_count.h"
 #include "vision/pose/scene.h"
 
+namespace heel {
 namespace {
 
-using heel::FeatureSet;
-using heel::Match;
-using heel::PredictedFeature;
-using heel::test::Random;
+using test::Random;
 
 constexpr int kFeatures = 120;
 
 void add(FeatureSet& set, std::vector<Eigen::Vector2d>& places, const Eigen::Vector2d& px,
-         const heel::Descriptor& descriptor) {
-  heel::Feature feature;
+         const Descriptor& descriptor) {
+  Feature feature;
   feature.x_px = static_cast<float>(px.x());
   feature.y_px = static_cast<float>(px.y());
   feature.sigma_px = 3.f;
@@ -30,11 +28,11 @@ void add(FeatureSet& set, std::vector<Eigen::Vector2d>& places, const Eigen::Vec
   places.push_back(px);
 }
 
-heel::Descriptor random_descriptor(Random& random) {
-  Eigen::Matrix<float, heel::kDescriptorSize, 1> values;
-  for (int i = 0; i < heel::kDescriptorSize; ++i) values(i) = static_cast<float>(random.normal(1.0));
+Descriptor random_descriptor(Random& random) {
+  Eigen::Matrix<float, kDescriptorSize, 1> values;
+  for (int i = 0; i < kDescriptorSize; ++i) values(i) = static_cast<float>(random.normal(1.0));
   values.normalize();
-  heel::Descriptor descriptor{};
+  Descriptor descriptor{};
   std::copy(values.begin(), values.end(), descriptor.begin());
   return descriptor;
 }
@@ -52,29 +50,30 @@ TEST(TemplateMatcher, GivesWhatEitherMethodGivesAloneAndAllocatesNothing) {
   std::vector<PredictedFeature> predicted;
   for (int i = 0; i < kFeatures; ++i) {
     const Eigen::Vector2d px(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0));
-    const heel::Descriptor descriptor = random_descriptor(random);
+    const Descriptor descriptor = random_descriptor(random);
     add(ref, ref_px, px, descriptor);
     add(cur, cur_px, px + random.normal2(2.0), i % 3 == 0 ? random_descriptor(random) : descriptor);
     predicted.push_back({px, 1.0});
   }
-  const heel::MatchSettings settings;
-  heel::TemplateMatcher matcher(ref, kFeatures, settings.ratio);
-  heel::FeatureGrid grid(kFeatures, heel::GuidedMatchSettings{}.radius_px);
+  const MatchSettings settings;
+  TemplateMatcher matcher(ref, kFeatures, settings.ratio);
+  FeatureGrid grid(kFeatures, GuidedMatchSettings{}.radius_px);
 
   std::vector<Match> everywhere, near;
-  heel::Matcher(kFeatures, kFeatures, settings).match(ref, cur, everywhere);
+  Matcher(kFeatures, kFeatures, settings).match(ref, cur, everywhere);
   grid.assign(cur, cur_px);
-  heel::GuidedMatcher(kFeatures, heel::GuidedMatchSettings{}).match(ref, predicted, grid, near);
+  GuidedMatcher(kFeatures, GuidedMatchSettings{}).match(ref, predicted, grid, near);
   ASSERT_GT(everywhere.size(), kFeatures / 2U);
   ASSERT_GT(near.size(), kFeatures / 2U);
 
-  const std::uint64_t before = heel::test::allocations_of_this_thread();
+  const std::uint64_t before = test::allocations_of_this_thread();
   EXPECT_TRUE(same(matcher.match_everywhere(cur), everywhere));
   grid.assign(cur, cur_px);
   EXPECT_TRUE(same(matcher.match_near(predicted, grid), near));
-  if (heel::test::counts_allocations()) {
-    EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0U);
+  if (test::counts_allocations()) {
+    EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
   }
 }
 
 }  // namespace
+}  // namespace heel

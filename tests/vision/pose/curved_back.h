@@ -10,17 +10,9 @@
 
 namespace heel::test::curved {
 
-using heel::BackSurface;
-using heel::FrontalMotion;
-using heel::FrontalPose;
-using heel::FrontalPoseEstimator;
-using heel::FrontalProblem;
-using heel::PlaneMotion;
-using heel::PointPair;
-
 inline const Eigen::Matrix3d K = plain_camera().K();
 inline const Eigen::Matrix3d K_inverse = K.inverse();
-inline const Eigen::Vector2d kCentre_px(320.0, 240.0);  // of the region in which heel::test::inlier_pairs lie
+inline const Eigen::Vector2d kCentre_px(320.0, 240.0);  // of the region in which test::inlier_pairs lie
 
 inline constexpr double kDistance_m = 1.5;
 
@@ -40,14 +32,14 @@ inline BackSurface back(double curvature_1_m, double shape_sigma_m = 0.0) {
 /// it.
 inline std::vector<PointPair> pairs_on(const BackSurface& surface, Random& random, const View& view,
                                        int count, double noise_px,
-                                       const heel::Vector5d& departures = heel::Vector5d::Zero()) {
+                                       const Vector5d& departures = Vector5d::Zero()) {
   std::vector<PointPair> pairs;
   while (static_cast<int>(pairs.size()) < count) {
     const Eigen::Vector2d ref(random.uniform(220.0, 420.0), random.uniform(90.0, 390.0));
     const Eigen::Vector3d ray = K_inverse * ref.homogeneous();
     const Eigen::Matrix3d KR = K * view.R;
     // The far side of a turned back is not visible.
-    if (heel::image_derivative(surface, K_inverse, KR, K * view.t_over_d, ray).determinant() <= 0.0) continue;
+    if (image_derivative(surface, K_inverse, KR, K * view.t_over_d, ray).determinant() <= 0.0) continue;
     const Eigen::Vector3d point =
         surface.point(ray) + departures.dot(surface.departures(ray)) * Eigen::Vector3d::UnitZ();
     pairs.push_back({ref + random.normal2(noise_px),
@@ -56,8 +48,8 @@ inline std::vector<PointPair> pairs_on(const BackSurface& surface, Random& rando
   return pairs;
 }
 
-inline heel::Vector5d drawn_departures(Random& random) {
-  heel::Vector5d a;
+inline Vector5d drawn_departures(Random& random) {
+  Vector5d a;
   for (int i = 0; i < 5; ++i) a(i) = random.normal(1.0);
   return a;
 }
@@ -78,14 +70,14 @@ inline PlaneMotion mirrored(const View& view) {
   FrontalMotion motion;
   motion.R_cur_from_ref = view.R;
   motion.t_over_d = view.t_over_d;
-  return heel::mirrored_motion(problem_of({}, view, {}), motion);
+  return mirrored_motion(problem_of({}, view, {}), motion);
 }
 
 inline View view_at(double yaw_rad, double depth) {
   View view;
-  view.R = heel::test::rotation(yaw_rad, 0.0, 0.0);
+  view.R = rotation(yaw_rad, 0.0, 0.0);
   view.t_over_d = Eigen::Vector3d(0, 0, depth) - view.R.col(2);
-  view.H = heel::test::homography_of(K, K, view.R, view.t_over_d);
+  view.H = homography_of(K, K, view.R, view.t_over_d);
   return view;
 }
 

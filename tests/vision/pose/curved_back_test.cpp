@@ -6,13 +6,14 @@
 
 #include <cmath>
 
+namespace heel {
 namespace {
 
-using namespace heel::test::curved;
-using heel::test::plain_camera;
-using heel::test::Random;
-using heel::test::random_view;
-using heel::test::View;
+using namespace test::curved;
+using test::plain_camera;
+using test::Random;
+using test::random_view;
+using test::View;
 
 TEST(BackSurface, DerivativeIsThatOfTheImage) {
   Random random(1);
@@ -31,8 +32,7 @@ TEST(BackSurface, DerivativeIsThatOfTheImage) {
       differences.col(axis) = (image(ref + step) - image(ref - step)) / 2e-4;
     }
     EXPECT_LT(
-        (heel::image_derivative(surface, K_inverse, KR, Kt, K_inverse * ref.homogeneous()) - differences)
-            .norm(),
+        (image_derivative(surface, K_inverse, KR, Kt, K_inverse * ref.homogeneous()) - differences).norm(),
         1e-6);
   }
 }
@@ -93,12 +93,12 @@ TEST(CurvedBack, StatedSigmaIncludesFolds) {
   for (std::uint64_t seed = 1; seed <= kTrials; ++seed) {
     Random random(seed);
     const View view = seed % 2 == 0 ? random_view(random, plain_camera(), 0.9) : view_at(0.0, 1.0);
-    const heel::Vector5d departures = drawn_departures(random);
+    const Vector5d departures = drawn_departures(random);
     const std::vector<PointPair> pairs = pairs_on(surface, random, view, 60, 0.5, departures);
     FrontalPoseEstimator estimator(pairs.size());
     const FrontalPose pose = estimator.estimate(problem_of(pairs, view, surface), motion_of(view));
     const FrontalPose unaware = estimator.estimate(problem_of(pairs, view, back(1.5)), motion_of(view));
-    const double error = pose.yaw_rad - heel::yaw_of_rotation(view.R);
+    const double error = pose.yaw_rad - yaw_of_rotation(view.R);
     yaw += std::pow(error / pose.yaw_sigma_rad, 2) / kTrials;
     noise_only += std::pow(error / unaware.yaw_sigma_rad, 2) / kTrials;
     within_1 += std::abs(error) < pose.yaw_sigma_rad;
@@ -131,8 +131,7 @@ TEST(CurvedBack, IsRarelyMirrored) {
       const std::vector<PointPair> pairs = pairs_on(back(curvature), random, view, 40, 0.8);
       FrontalPoseEstimator estimator(pairs.size());
       const FrontalPose pose = estimator.estimate(problem_of(pairs, view, back(curvature)), mirrored(view));
-      (curvature > 0.0 ? flipped_curved : flipped_plane) +=
-          pose.yaw_rad * heel::yaw_of_rotation(view.R) < 0.0;
+      (curvature > 0.0 ? flipped_curved : flipped_plane) += pose.yaw_rad * yaw_of_rotation(view.R) < 0.0;
     }
   }
   std::cout << "mirrored: " << flipped_plane << " of " << kTrials << " planes, " << flipped_curved
@@ -168,3 +167,4 @@ TEST(CurvedBack, TooFewPairsGiveLargeButFiniteSigmas) {
 }
 
 }  // namespace
+}  // namespace heel

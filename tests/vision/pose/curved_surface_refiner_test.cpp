@@ -12,30 +12,31 @@
 #include "vision/pose/alternative_hypotheses.h"
 #include "vision/pose/curved_back.h"
 
+namespace heel {
 namespace {
 
-using namespace heel::test::curved;
-using heel::test::Random;
-using heel::test::View;
+using namespace test::curved;
+using test::Random;
+using test::View;
 
 /// A back with features of unique descriptors, and a frame that shows it among clutter.
 struct FeaturedBack {
   static constexpr int kFeatures = 200, kClutter = 400;
-  heel::FeatureSet reference, frame;
+  FeatureSet reference, frame;
   std::vector<Eigen::Vector2d> reference_px, frame_px;
   std::vector<PointPair> facet;  // the pairs that agree on one plane: the middle third
 
-  static heel::Descriptor random_descriptor(Random& random) {
+  static Descriptor random_descriptor(Random& random) {
     Eigen::Matrix<float, 64, 1> values;
     for (int i = 0; i < 64; ++i) values(i) = static_cast<float>(random.normal(1.0));
     values.normalize();
-    heel::Descriptor descriptor{};
+    Descriptor descriptor{};
     std::copy(values.begin(), values.end(), descriptor.begin());
     return descriptor;
   }
-  static void add(heel::FeatureSet& set, std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& px,
-                  double sigma_px, const heel::Descriptor& descriptor) {
-    heel::Feature feature;
+  static void add(FeatureSet& set, std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& px,
+                  double sigma_px, const Descriptor& descriptor) {
+    Feature feature;
     feature.x_px = static_cast<float>(px.x());
     feature.y_px = static_cast<float>(px.y());
     feature.sigma_px = static_cast<float>(sigma_px);
@@ -46,12 +47,12 @@ struct FeaturedBack {
   }
 
   FeaturedBack(Random& random, const View& view, const BackSurface& surface,
-               const heel::Vector5d& departures = heel::Vector5d::Zero()) {
+               const Vector5d& departures = Vector5d::Zero()) {
     for (const PointPair& pair : pairs_on(surface, random, view, kFeatures, 0.4, departures)) {
-      const heel::Descriptor descriptor = random_descriptor(random);
+      const Descriptor descriptor = random_descriptor(random);
       const Eigen::Vector3d ray = K_inverse * pair.ref_px.homogeneous();
       const double area =
-          heel::image_derivative(surface, K_inverse, K * view.R, K * view.t_over_d, ray).determinant();
+          image_derivative(surface, K_inverse, K * view.R, K * view.t_over_d, ray).determinant();
       add(reference, reference_px, pair.ref_px, 3.0, descriptor);
       add(frame, frame_px, pair.cur_px, 3.0 * std::sqrt(std::max(area, 0.01)), descriptor);
       if (std::abs(pair.ref_px.x() - kCentre_px.x()) < 33.0) facet.push_back(pair);
@@ -68,15 +69,15 @@ class RefinerFor {
   explicit RefinerFor(const FeaturedBack& shown)
       : estimator(shown.reference_px.size()),
         shown_(shown),
-        matcher_(shown.reference, kMaxFeatures, heel::MatchSettings{}.ratio),
-        grid_(kMaxFeatures, heel::GuidedMatchSettings{}.radius_px),
+        matcher_(shown.reference, kMaxFeatures, MatchSettings{}.ratio),
+        grid_(kMaxFeatures, GuidedMatchSettings{}.radius_px),
         refiner_(shown.reference_px, K_inverse, estimator) {}
 
-  heel::CurvedSurfacePose refine(const FrontalProblem& problem, const FrontalPose& start) {
+  CurvedSurfacePose refine(const FrontalProblem& problem, const FrontalPose& start) {
     return refine(problem, start, shown_.frame, shown_.frame_px);
   }
-  heel::CurvedSurfacePose refine(const FrontalProblem& problem, const FrontalPose& start,
-                                 const heel::FeatureSet& frame, std::span<const Eigen::Vector2d> frame_px) {
+  CurvedSurfacePose refine(const FrontalProblem& problem, const FrontalPose& start, const FeatureSet& frame,
+                           std::span<const Eigen::Vector2d> frame_px) {
     grid_.assign(frame, frame_px);
     return refiner_.refine(problem, start, matcher_, grid_);
   }
@@ -87,9 +88,9 @@ class RefinerFor {
   static constexpr int kMaxFeatures = FeaturedBack::kFeatures + FeaturedBack::kClutter;
 
   const FeaturedBack& shown_;
-  heel::TemplateMatcher matcher_;
-  heel::FeatureGrid grid_;
-  heel::CurvedSurfaceRefiner refiner_;
+  TemplateMatcher matcher_;
+  FeatureGrid grid_;
+  CurvedSurfaceRefiner refiner_;
 };
 
 TEST(CurvedSurfaceRefiner, FindsTheWholeBackFromOneFacetAndEitherMinimum) {
@@ -105,7 +106,7 @@ TEST(CurvedSurfaceRefiner, FindsTheWholeBackFromOneFacetAndEitherMinimum) {
     const FrontalPose start = refiner.estimator.estimate(problem, motion_of(view));
     FrontalPose swapped = start;
     std::swap(swapped.motion, swapped.other);
-    const double truth = heel::yaw_of_rotation(view.R);
+    const double truth = yaw_of_rotation(view.R);
     of_facet_deg += std::abs(start.yaw_rad - truth) * 180.0 / M_PI / kTrials;
     for (const FrontalPose& from : {start, swapped}) {
       const FrontalPose pose = refiner.refine(problem, from).pose;
@@ -135,7 +136,7 @@ TEST(CurvedSurfaceRefiner, TriesTheWholeRangeOfYawWhereLittleFits) {
     // Both minima are rotated away from the truth about the strip in the middle.
     FrontalPose start = refiner.estimator.estimate(problem_of(shown.facet, view, surface), motion_of(view));
     const Eigen::Vector3d middle(0.0, 0.0, 1.0);
-    for (heel::FrontalMotion* motion : {&start.motion, &start.other}) {
+    for (FrontalMotion* motion : {&start.motion, &start.other}) {
       const Eigen::Matrix3d R =
           Eigen::AngleAxisd(view.R.col(2).x() > 0.0 ? -1.2 : 1.2, Eigen::Vector3d::UnitY())
               .toRotationMatrix() *
@@ -143,9 +144,9 @@ TEST(CurvedSurfaceRefiner, TriesTheWholeRangeOfYawWhereLittleFits) {
       motion->t_over_d = view.t_over_d + (view.R - R) * middle;
       motion->R_cur_from_ref = R;
     }
-    const double truth = heel::yaw_of_rotation(view.R);
-    wrong_start += std::abs(heel::yaw_of_rotation(start.motion.R_cur_from_ref) - truth) > 1.0;
-    const heel::CurvedSurfacePose found = refiner.refine(problem_of(shown.facet, view, surface), start);
+    const double truth = yaw_of_rotation(view.R);
+    wrong_start += std::abs(yaw_of_rotation(start.motion.R_cur_from_ref) - truth) > 1.0;
+    const CurvedSurfacePose found = refiner.refine(problem_of(shown.facet, view, surface), start);
     EXPECT_NEAR(found.pose.yaw_rad, truth, 0.06) << "seed " << seed;
     EXPECT_GT(found.pairs, 35U) << "seed " << seed;
   }
@@ -159,13 +160,13 @@ TEST(CurvedSurfaceRefiner, KeepsItsStartWhereNothingFits) {
   RefinerFor refiner(shown);
   const FrontalProblem problem = problem_of(shown.facet, view, back(1.5));
   const FrontalPose start = refiner.estimator.estimate(problem, motion_of(view));
-  const heel::CurvedSurfacePose kept = refiner.refine(problem, start, heel::FeatureSet{}, {});
+  const CurvedSurfacePose kept = refiner.refine(problem, start, FeatureSet{}, {});
   EXPECT_EQ(kept.pose.yaw_rad, start.yaw_rad);
   EXPECT_EQ(kept.pairs, 0U);
 }
 
 TEST(CurvedSurfaceRefiner, AllocatesNothing) {
-  if (!heel::test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   Random random(9);
   const View view = view_at(0.5, 1.3);
   FeaturedBack shown(random, view, back(1.5));
@@ -175,10 +176,10 @@ TEST(CurvedSurfaceRefiner, AllocatesNothing) {
     // So few match that the whole range of yaw is tried.
     for (std::size_t i = 0; few && i < FeaturedBack::kFeatures; ++i)
       if (i % 4 != 0) shown.frame.descriptors[i] = FeaturedBack::random_descriptor(random);
-    const std::uint64_t before = heel::test::allocations_of_this_thread();
+    const std::uint64_t before = test::allocations_of_this_thread();
     const FrontalPose start = refiner.estimator.estimate(problem, motion_of(view));
     const FrontalPose pose = refiner.refine(problem, start).pose;
-    EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
+    EXPECT_EQ(test::allocations_of_this_thread() - before, 0u);
     EXPECT_NEAR(pose.yaw_rad, 0.5, 0.05);
   }
 }
@@ -209,7 +210,7 @@ TEST(CurvedSurfaceRefiner, StatedSigmaCoversWhatAStripOfTheBackLeavesOpen) {
       FrontalPose start = refiner.estimator.estimate(problem, motion_of(view));
       if (seed % 2 == 0) std::swap(start.motion, start.other);
       const FrontalPose pose = refiner.refine(problem, start).pose;
-      const double error = std::abs(pose.yaw_rad - heel::yaw_of_rotation(view.R));
+      const double error = std::abs(pose.yaw_rad - yaw_of_rotation(view.R));
       beyond_3 += error > 3.0 * pose.yaw_sigma_rad;
       beyond_3_without += error > 3.0 * std::sqrt(pose.covariance(1, 1));
       doubted += pose.ambiguity > 0.1;
@@ -227,7 +228,7 @@ TEST(CurvedSurfaceRefiner, StatedSigmaCoversWhatAStripOfTheBackLeavesOpen) {
 
 TEST(AlternativeHypotheses, AddTheirExpectedSquaredError) {
   FrontalPose pose;
-  pose.motion.R_cur_from_ref = heel::test::rotation(0.3, 0.0, 0.0);
+  pose.motion.R_cur_from_ref = test::rotation(0.3, 0.0, 0.0);
   pose.motion.t_over_d = {0.1, 0.0, 0.2};
   pose.yaw_rad = 0.3;
   pose.yaw_sigma_rad = 0.02;
@@ -237,8 +238,8 @@ TEST(AlternativeHypotheses, AddTheirExpectedSquaredError) {
   EXPECT_EQ(pose.yaw_sigma_rad, alone.yaw_sigma_rad);
   EXPECT_EQ(pose.ambiguity, 0.0);
 
-  heel::AlternativeHypothesis alternative;
-  alternative.motion.R_cur_from_ref = heel::test::rotation(-0.1, 0.0, 0.0);
+  AlternativeHypothesis alternative;
+  alternative.motion.R_cur_from_ref = test::rotation(-0.1, 0.0, 0.0);
   alternative.motion.t_over_d = {0.2, 0.0, 0.2};
   alternative.odds = 0.25;  // true one time in five
   inflate_covariance({&alternative, 1}, pose);
@@ -251,9 +252,10 @@ TEST(AlternativeHypotheses, AddTheirExpectedSquaredError) {
 
 TEST(AlternativeHypotheses, YawDifferenceIsTakenRoundTheCircle) {
   FrontalMotion a, b;
-  a.R_cur_from_ref = heel::test::rotation(3.0, 0.0, 0.0);
-  b.R_cur_from_ref = heel::test::rotation(-3.0, 0.0, 0.0);
-  EXPECT_NEAR(heel::yaw_difference_rad(a, b), 2.0 * M_PI - 6.0, 1e-12);
+  a.R_cur_from_ref = test::rotation(3.0, 0.0, 0.0);
+  b.R_cur_from_ref = test::rotation(-3.0, 0.0, 0.0);
+  EXPECT_NEAR(yaw_difference_rad(a, b), 2.0 * M_PI - 6.0, 1e-12);
 }
 
 }  // namespace
+}  // namespace heel

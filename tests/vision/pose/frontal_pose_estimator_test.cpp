@@ -9,17 +9,14 @@
 #include "support/allocation_count.h"
 #include "vision/pose/scene.h"
 
+namespace heel {
 namespace {
 
-using heel::FrontalPose;
-using heel::FrontalPoseEstimator;
-using heel::FrontalProblem;
-using heel::PointPair;
-using heel::test::inlier_pairs;
-using heel::test::plain_camera;
-using heel::test::Random;
-using heel::test::random_view;
-using heel::test::View;
+using test::inlier_pairs;
+using test::plain_camera;
+using test::Random;
+using test::random_view;
+using test::View;
 
 struct Outcome {
   FrontalPose pose;
@@ -30,16 +27,16 @@ Outcome solve(const std::vector<PointPair>& pairs, bool& ok) {
   const Eigen::Matrix3d K = plain_camera().K();
   Outcome outcome{};
   Eigen::Matrix3d H;
-  ok = heel::homography_dlt(pairs, H) == heel::HomographyStatus::Ok;
+  ok = homography_dlt(pairs, H) == HomographyStatus::Ok;
   if (!ok) return outcome;
   std::vector<Eigen::Vector2d> ref;
   for (const PointPair& pair : pairs) ref.push_back((K.inverse() * pair.ref_px.homogeneous()).hnormalized());
-  const heel::PlaneMotions motions = heel::decompose_plane_motion(K.inverse() * H * K);
-  const heel::MotionChoice choice = heel::choose_motion(motions, ref);
+  const PlaneMotions motions = decompose_plane_motion(K.inverse() * H * K);
+  const MotionChoice choice = choose_motion(motions, ref);
   ok = choice.best >= 0;
   if (!ok) return outcome;
-  const heel::PlaneMotion& start = motions.motions[static_cast<std::size_t>(choice.best)];
-  outcome.bare_yaw_rad = heel::yaw_of_rotation(start.R_cur_from_ref);
+  const PlaneMotion& start = motions.motions[static_cast<std::size_t>(choice.best)];
+  outcome.bare_yaw_rad = yaw_of_rotation(start.R_cur_from_ref);
   outcome.pose = FrontalPoseEstimator(pairs.size()).estimate({pairs, K, K, H, {320.0, 240.0}}, start);
   return outcome;
 }
@@ -79,7 +76,7 @@ TEST(FrontalPose, StatedSigmaIsThatOfTheErrors) {
     bool ok = false;
     const Outcome outcome = solve(pairs, ok);
     ASSERT_TRUE(ok) << "seed " << seed;
-    const double truth = heel::yaw_of_rotation(view.R);
+    const double truth = yaw_of_rotation(view.R);
     yaw += std::pow((outcome.pose.yaw_rad - truth) / outcome.pose.yaw_sigma_rad, 2);
     mean_abs_yaw += std::abs(outcome.pose.yaw_rad - truth) / kTrials;
     mean_abs_bare += std::abs(outcome.bare_yaw_rad - truth) / kTrials;
@@ -107,9 +104,9 @@ TEST(FrontalPose, SigmaIncludesTheAmbiguity) {
   for (std::uint64_t seed = 1; seed <= kTrials; ++seed) {
     Random random(seed);
     const double yaw = random.uniform(-0.4, 0.4);
-    const Eigen::Matrix3d R = heel::test::rotation(yaw, 0.0, 0.0);
+    const Eigen::Matrix3d R = test::rotation(yaw, 0.0, 0.0);
     const Eigen::Vector3d t = Eigen::Vector3d(0, 0, 3.0) - R.col(2);  // three times the template's distance
-    const Eigen::Matrix3d H = heel::test::homography_of(plain_camera().K(), plain_camera().K(), R, t);
+    const Eigen::Matrix3d H = test::homography_of(plain_camera().K(), plain_camera().K(), R, t);
     bool ok = false;
     const Outcome outcome = solve(inlier_pairs(random, H, 40, 0.5, 0.5), ok);
     if (!ok) continue;
@@ -135,10 +132,10 @@ TEST(FrontalPose, MirroredStartKeepsTheCentreInPlace) {
   const View view = random_view(random, plain_camera());
   const Eigen::Matrix3d K = plain_camera().K();
   const FrontalProblem problem{{}, K, K, view.H, {300.0, 200.0}};
-  heel::FrontalMotion motion;
+  FrontalMotion motion;
   motion.R_cur_from_ref = view.R;
   motion.t_over_d = view.t_over_d;
-  const heel::PlaneMotion other = heel::mirrored_motion(problem, motion);
+  const PlaneMotion other = mirrored_motion(problem, motion);
   const Eigen::Vector3d centre = K.inverse() * Eigen::Vector3d(300.0, 200.0, 1.0);
   const Eigen::Vector3d here = view.R * centre + view.t_over_d;
   EXPECT_LT((other.R_cur_from_ref * centre + other.t_over_d - here).norm(), 1e-12);
@@ -148,17 +145,18 @@ TEST(FrontalPose, MirroredStartKeepsTheCentreInPlace) {
 }
 
 TEST(FrontalPose, AllocatesNothing) {
-  if (!heel::test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   Random random(6);
   const View view = random_view(random, plain_camera());
   const std::vector<PointPair> pairs = inlier_pairs(random, view.H, 60, 0.7, 0.7);
   const Eigen::Matrix3d K = plain_camera().K();
-  const heel::PlaneMotions motions = heel::decompose_plane_motion(K.inverse() * view.H * K);
+  const PlaneMotions motions = decompose_plane_motion(K.inverse() * view.H * K);
   FrontalPoseEstimator estimator(pairs.size());
-  const std::uint64_t before = heel::test::allocations_of_this_thread();
+  const std::uint64_t before = test::allocations_of_this_thread();
   const FrontalPose pose = estimator.estimate({pairs, K, K, view.H, {320.0, 240.0}}, motions.motions[0]);
-  EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
+  EXPECT_EQ(test::allocations_of_this_thread() - before, 0u);
   EXPECT_GT(pose.yaw_sigma_rad, 0.0);
 }
 
 }  // namespace
+}  // namespace heel

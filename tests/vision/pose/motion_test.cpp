@@ -9,15 +9,11 @@
 
 #include "vision/pose/scene.h"
 
+namespace heel {
 namespace {
 
-using heel::decompose_plane_motion;
-using heel::MotionChoice;
-using heel::PlaneMotion;
-using heel::PlaneMotionCase;
-using heel::PlaneMotions;
-using heel::test::Random;
-using heel::test::rotation;
+using test::Random;
+using test::rotation;
 
 const std::vector<Eigen::Vector2d> kRegion = {{-0.2, -0.3}, {0.2, -0.3}, {0.2, 0.3}, {-0.2, 0.3}, {0.0, 0.0}};
 
@@ -97,7 +93,7 @@ TEST(PlaneMotion, ChoiceFindsTheTruthOverRandomMotionsAndPlanes) {
     if (!visible) continue;
     ++tried;
     const PlaneMotions motions = decompose_plane_motion(-2.5 * A);
-    const MotionChoice choice = heel::choose_motion(motions, kRegion, n);
+    const MotionChoice choice = choose_motion(motions, kRegion, n);
     ASSERT_GE(choice.best, 0) << "seed " << seed;
     right += apart(motions.motions[static_cast<std::size_t>(choice.best)], R, t, n) < 1e-5;
     if (choice.second < 0) continue;
@@ -120,7 +116,7 @@ TEST(PlaneMotion, FourAreOnTheSameSideAndTwoOfThemInFront) {
   EXPECT_EQ(std::count_if(motions.motions.begin(), motions.motions.end(),
                           [](const auto& m) { return m.same_side; }),
             4);
-  const MotionChoice choice = heel::choose_motion(motions, kRegion);
+  const MotionChoice choice = choose_motion(motions, kRegion);
   EXPECT_GE(choice.best, 0);
   EXPECT_GE(choice.second, 0);
 }
@@ -180,7 +176,7 @@ TEST(PlaneMotion, TwoEqualIsChosenCorrectly) {
   const Eigen::Vector3d t = -0.4 * R.col(2);
   const PlaneMotions motions = decompose_plane_motion(R + t * Eigen::RowVector3d(0, 0, 1));
   ASSERT_EQ(motions.kind, PlaneMotionCase::TwoEqual);
-  const MotionChoice choice = heel::choose_motion(motions, kRegion);
+  const MotionChoice choice = choose_motion(motions, kRegion);
   ASSERT_GE(choice.best, 0);
   EXPECT_EQ(choice.second, -1);
   EXPECT_LT(apart(motions.motions[static_cast<std::size_t>(choice.best)], R, t, Eigen::Vector3d::UnitZ()),
@@ -198,8 +194,8 @@ TEST(PlaneMotion, AllEqualIsAPureRotation) {
     EXPECT_EQ(motions.motions[0].t_over_d.norm(), 0.0);
   }
   // The rotation is chosen although its normal is undetermined: the known normal is used instead.
-  const MotionChoice choice = heel::choose_motion(decompose_plane_motion(rotation(0.3, 0.0, 0.0)), kRegion,
-                                                  Eigen::Vector3d(0.6, 0.0, 0.8));
+  const MotionChoice choice =
+      choose_motion(decompose_plane_motion(rotation(0.3, 0.0, 0.0)), kRegion, Eigen::Vector3d(0.6, 0.0, 0.8));
   EXPECT_EQ(choice.best, 0);
   EXPECT_EQ(choice.second, -1);
 }
@@ -217,7 +213,7 @@ TEST(PlaneMotion, DegenerateMatricesGiveNoMotion) {
   A(1, 2) = std::numeric_limits<double>::infinity();
   EXPECT_EQ(decompose_plane_motion(A).kind, PlaneMotionCase::Degenerate);
   EXPECT_EQ(decompose_plane_motion(A).count, 0);
-  EXPECT_EQ(heel::choose_motion(decompose_plane_motion(A), kRegion).best, -1);
+  EXPECT_EQ(choose_motion(decompose_plane_motion(A), kRegion).best, -1);
 }
 
 // Across each boundary between two cases the solution changes by no more than the width of the boundary.
@@ -227,7 +223,7 @@ TEST(PlaneMotion, ContinuousAcrossTheBoundaries) {
     // Nearly along the normal: from TwoEqual into Distinct.
     const Eigen::Vector3d along = -0.3 * R.col(2) + tilt * R.col(0);
     PlaneMotions motions = decompose_plane_motion(R + along * Eigen::RowVector3d(0, 0, 1));
-    MotionChoice choice = heel::choose_motion(motions, kRegion);
+    MotionChoice choice = choose_motion(motions, kRegion);
     ASSERT_GE(choice.best, 0) << tilt;
     const PlaneMotion& near_normal = motions.motions[static_cast<std::size_t>(choice.best)];
     EXPECT_LT(apart(near_normal, R, along, Eigen::Vector3d::UnitZ()), 1e-5) << tilt;
@@ -235,7 +231,7 @@ TEST(PlaneMotion, ContinuousAcrossTheBoundaries) {
     // Nearly no translation: from PureRotation into Distinct; the normal becomes uncertain, R and t do not.
     const Eigen::Vector3d little = tilt * Eigen::Vector3d(1.0, 0.5, -0.5);
     motions = decompose_plane_motion(R + little * Eigen::RowVector3d(0, 0, 1));
-    choice = heel::choose_motion(motions, kRegion);
+    choice = choose_motion(motions, kRegion);
     ASSERT_GE(choice.best, 0) << tilt;
     const PlaneMotion& near_still = motions.motions[static_cast<std::size_t>(choice.best)];
     EXPECT_LT((near_still.R_cur_from_ref - R).norm() + (near_still.t_over_d - little).norm(), 1e-5) << tilt;
@@ -256,11 +252,11 @@ RC_GTEST_PROP(PlaneMotion, AnyMatrixGivesFiniteSolutions, (std::uint64_t seed)) 
   }
 }
 
-TEST(Yaw, IsPositiveWhenTheWalkingDirectionTurnsToTheImagesRight) {
+TEST(YawOfRotation, IsPositiveWhenTheWalkingDirectionTurnsToTheImagesRight) {
   for (const double yaw : {-1.5, -0.5, 0.0, 0.3, 1.0, 3.0}) {
-    EXPECT_NEAR(heel::yaw_of_rotation(rotation(yaw, 0.0, 0.0)), yaw, 1e-12);
-    EXPECT_NEAR(heel::yaw_of_rotation(rotation(yaw, 0.2, 0.0)), yaw, 1e-12);
-    EXPECT_NEAR(heel::yaw_of_rotation(rotation(yaw, 0.2, -0.4)), yaw, 1e-12);
+    EXPECT_NEAR(yaw_of_rotation(rotation(yaw, 0.0, 0.0)), yaw, 1e-12);
+    EXPECT_NEAR(yaw_of_rotation(rotation(yaw, 0.2, 0.0)), yaw, 1e-12);
+    EXPECT_NEAR(yaw_of_rotation(rotation(yaw, 0.2, -0.4)), yaw, 1e-12);
   }
   // With positive yaw the right edge of the back comes nearer.
   const Eigen::Vector3d right_edge = rotation(0.5, 0.0, 0.0) * Eigen::Vector3d(0.2, 0.0, 0.0);
@@ -268,3 +264,4 @@ TEST(Yaw, IsPositiveWhenTheWalkingDirectionTurnsToTheImagesRight) {
 }
 
 }  // namespace
+}  // namespace heel

@@ -18,22 +18,17 @@
 #include "vision/pose/rendered_shirt.h"
 #include "vision/pose/scene.h"
 
+namespace heel {
 namespace {
 
-using heel::CameraModel;
-using heel::PoseEstimate;
-using heel::PoseEstimator;
-using heel::PoseReason;
-using heel::ShirtTemplate;
-using heel::VisionConfig;
-using heel::test::flat_shirt_config;
-using heel::test::homography;
-using heel::test::render;
-using heel::test::robot_camera;
-using heel::test::shirt;
-using heel::test::t_over_d_for;
-using heel::test::texture;
-using heel::test::view_of;
+using test::flat_shirt_config;
+using test::homography;
+using test::render;
+using test::robot_camera;
+using test::shirt;
+using test::t_over_d_for;
+using test::texture;
+using test::view_of;
 
 TEST(PoseEstimator, FindsYawTranslationAndPositionThroughTwoLenses) {
   const ShirtTemplate taught = shirt();
@@ -42,7 +37,7 @@ TEST(PoseEstimator, FindsYawTranslationAndPositionThroughTwoLenses) {
   int views = 0;
   for (const double yaw_deg : {-40.0, -30.0, -20.0, -8.0, 0.0, 8.0, 20.0, 30.0, 40.0}) {
     for (const double depth : {0.7, 1.0, 1.6}) {
-      const Eigen::Matrix3d R = heel::test::rotation(yaw_deg * M_PI / 180.0, 0.03, -0.02);
+      const Eigen::Matrix3d R = test::rotation(yaw_deg * M_PI / 180.0, 0.03, -0.02);
       const Eigen::Vector3d t = t_over_d_for(R, 0.08, depth);
       const Eigen::Matrix3d H = homography(R, t);
       const cv::Mat frame = render(taught, H, 900 + static_cast<std::uint64_t>(views));
@@ -67,7 +62,7 @@ TEST(PoseEstimator, FindsYawTranslationAndPositionThroughTwoLenses) {
       EXPECT_LT((Eigen::Vector3d(pose.position_m.data()) - truth).norm(), 0.02 * truth.norm());
       const Eigen::Matrix3d found =
           Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.H_cur_from_ref.data());
-      EXPECT_LT(heel::test::corner_error_px(found, H), 2.0) << yaw_deg << " deg, depth " << depth;
+      EXPECT_LT(test::corner_error_px(found, H), 2.0) << yaw_deg << " deg, depth " << depth;
     }
   }
   std::cout << "worst yaw error " << worst_deg << " deg, normalised error squared " << squared_yaw / views
@@ -91,7 +86,7 @@ TEST(PoseEstimator, WithoutDistanceThereAreNoMetres) {
   ShirtTemplate taught = shirt();
   taught.distance_m = 0.0;
   PoseEstimator estimator(taught, robot_camera(), flat_shirt_config());
-  const Eigen::Matrix3d R = heel::test::rotation(0.2, 0.0, 0.0);
+  const Eigen::Matrix3d R = test::rotation(0.2, 0.0, 0.0);
   const PoseEstimate pose =
       estimator.estimate(view_of(render(taught, homography(R, t_over_d_for(R, 0.0, 1.2)), 5)));
   ASSERT_TRUE(pose.found());
@@ -104,19 +99,19 @@ TEST(PoseEstimator, SameFrameSameEstimateToTheBit) {
   const ShirtTemplate taught = shirt();
   PoseEstimator one(taught, robot_camera(), flat_shirt_config()),
       two(taught, robot_camera(), flat_shirt_config());
-  const Eigen::Matrix3d R = heel::test::rotation(-0.3, 0.0, 0.0);
+  const Eigen::Matrix3d R = test::rotation(-0.3, 0.0, 0.0);
   const cv::Mat frame = render(taught, homography(R, t_over_d_for(R, 0.0, 1.2)), 5);
   const PoseEstimate first = one.estimate(view_of(frame));
   two.estimate(view_of(texture(77, 640, 480)));  // earlier frames have no effect
   const PoseEstimate second = two.estimate(view_of(frame));
   ASSERT_TRUE(first.found());
-  EXPECT_EQ(heel::test::pose_bytes(first), heel::test::pose_bytes(second));
+  EXPECT_EQ(test::pose_bytes(first), test::pose_bytes(second));
 }
 
 TEST(PoseEstimator, ClutterIsNeverTheShirt) {
   PoseEstimator estimator(shirt(), robot_camera(), flat_shirt_config());
   std::set<PoseReason> reasons;
-  for (std::uint64_t seed = 1000; seed < (heel::test::kThreadSanitizer ? 1010 : 1200); ++seed) {
+  for (std::uint64_t seed = 1000; seed < (test::kThreadSanitizer ? 1010 : 1200); ++seed) {
     const PoseEstimate pose = estimator.estimate(view_of(texture(seed, 640, 480)));
     EXPECT_FALSE(pose.found()) << "seed " << seed << ": " << pose.inliers << " inliers";
     reasons.insert(pose.reason);
@@ -139,7 +134,7 @@ TEST(PoseEstimator, RefusalsAreNamed) {
   narrow.distance_min_m = 0.6;
   narrow.distance_max_m = 0.8;
   PoseEstimator near_only(taught, robot_camera(), narrow);
-  const Eigen::Matrix3d R = heel::test::rotation(0.1, 0.0, 0.0);
+  const Eigen::Matrix3d R = test::rotation(0.1, 0.0, 0.0);
   const cv::Mat far = render(taught, homography(R, t_over_d_for(R, 0.0, 1.3)), 5);
   ASSERT_TRUE(estimator.estimate(view_of(far)).found());
   const PoseEstimate refused = near_only.estimate(view_of(far));
@@ -154,22 +149,23 @@ TEST(PoseEstimator, RefusalsAreNamed) {
 TEST(PoseEstimator, ConstructorRefusesATemplateThatCannotBeFollowed) {
   ShirtTemplate plain = shirt();
   std::fill(plain.grey.begin(), plain.grey.end(), std::uint8_t{128});
-  EXPECT_THROW(PoseEstimator(plain, robot_camera(), VisionConfig{}), heel::Error);
-  EXPECT_THROW(PoseEstimator(shirt(), CameraModel{}, VisionConfig{}), heel::Error);
+  EXPECT_THROW(PoseEstimator(plain, robot_camera(), VisionConfig{}), Error);
+  EXPECT_THROW(PoseEstimator(shirt(), CameraModel{}, VisionConfig{}), Error);
 }
 
 TEST(PoseEstimator, AllocatesNothingAfterConstruction) {
-  if (!heel::test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   const ShirtTemplate taught = shirt();
   PoseEstimator estimator(taught, robot_camera(), VisionConfig{});
-  const Eigen::Matrix3d R = heel::test::rotation(0.3, 0.0, 0.0);
+  const Eigen::Matrix3d R = test::rotation(0.3, 0.0, 0.0);
   const cv::Mat frame = render(taught, homography(R, t_over_d_for(R, 0.0, 1.2)), 5);
   const cv::Mat clutter = texture(9, 640, 480);
-  const std::uint64_t before = heel::test::allocations_of_this_thread();
+  const std::uint64_t before = test::allocations_of_this_thread();
   const bool found = estimator.estimate(view_of(frame)).found();
   estimator.estimate(view_of(clutter));
-  EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
+  EXPECT_EQ(test::allocations_of_this_thread() - before, 0u);
   EXPECT_TRUE(found);
 }
 
 }  // namespace
+}  // namespace heel

@@ -10,33 +10,28 @@
 #include "support/pose_bytes.h"
 #include "vision/pose/rendered_shirt.h"
 
+namespace heel {
 namespace {
 
-using heel::kNsPerS;
-using heel::PoseEstimate;
-using heel::PoseEstimator;
-using heel::PoseTracker;
-using heel::ShirtTemplate;
-using heel::TimeNs;
-using heel::test::flat_shirt_config;
-using heel::test::homography;
-using heel::test::render;
-using heel::test::robot_camera;
-using heel::test::shirt;
-using heel::test::t_over_d_for;
-using heel::test::texture;
+using test::flat_shirt_config;
+using test::homography;
+using test::render;
+using test::robot_camera;
+using test::shirt;
+using test::t_over_d_for;
+using test::texture;
 
 constexpr TimeNs kFramePeriod_ns = kNsPerS / 30;
 
-heel::FrameView frame_at(const cv::Mat& image, int number) {
-  heel::FrameView view = heel::test::view_of(image);
+FrameView frame_at(const cv::Mat& image, int number) {
+  FrameView view = test::view_of(image);
   view.header.t_capture_ns = number * kFramePeriod_ns;
   return view;
 }
 
 /// A view of the back at `x` template distances to the side.
 cv::Mat seen(const ShirtTemplate& taught, double yaw_rad, double x, double depth, std::uint64_t clutter = 5) {
-  const Eigen::Matrix3d R = heel::test::rotation(yaw_rad, 0.02, 0.0);
+  const Eigen::Matrix3d R = test::rotation(yaw_rad, 0.02, 0.0);
   return render(taught, homography(R, t_over_d_for(R, x, depth)), clutter);
 }
 
@@ -54,7 +49,7 @@ TEST(PoseTracker, TracksTheBackAcrossTheViewAsWellAsASearchOfTheWholeFrame) {
     // The back crosses the view at 0.9 rad/s, while it turns and moves away.
     const double share = frames / 24.0;
     const double x = -0.35 + 0.7 * share, yaw_rad = 0.6 * std::sin(6.0 * share), depth = 0.9 + 0.5 * share;
-    const Eigen::Matrix3d R = heel::test::rotation(yaw_rad, 0.02, 0.0);
+    const Eigen::Matrix3d R = test::rotation(yaw_rad, 0.02, 0.0);
     const Eigen::Matrix3d truth = homography(R, t_over_d_for(R, x, depth));
     const cv::Mat image = render(taught, truth, 40);
     const PoseEstimate pose = tracker.estimate(frame_at(image, frames));
@@ -64,8 +59,8 @@ TEST(PoseTracker, TracksTheBackAcrossTheViewAsWellAsASearchOfTheWholeFrame) {
     EXPECT_EQ(pose.tracked, frames > 0) << "frame " << frames;
     EXPECT_FALSE(whole.tracked);
     EXPECT_GE(pose.certainty, 0.9 * whole.certainty) << "frame " << frames;
-    tracked_error_px += heel::test::corner_error_px(homography_of(pose), truth);
-    whole_error_px += heel::test::corner_error_px(homography_of(whole), truth);
+    tracked_error_px += test::corner_error_px(homography_of(pose), truth);
+    whole_error_px += test::corner_error_px(homography_of(whole), truth);
   }
   std::cout << "corner error tracked " << tracked_error_px / frames << " px, searching the whole frame "
             << whole_error_px / frames << " px\n";
@@ -80,16 +75,16 @@ TEST(PoseTracker, UpsamplesAShirtFarAway) {
   PoseEstimator from_afar(taught, robot_camera(), flat_shirt_config());
   for (int number = 0; number < 5; ++number) {
     const double yaw_rad = 0.15 * (number - 2);
-    const Eigen::Matrix3d R = heel::test::rotation(yaw_rad, 0.02, 0.0);
+    const Eigen::Matrix3d R = test::rotation(yaw_rad, 0.02, 0.0);
     const Eigen::Matrix3d truth = homography(R, t_over_d_for(R, 0.1, 3.0));
     const cv::Mat image = seen(taught, yaw_rad, 0.1, 3.0);
-    const heel::FrameView frame = frame_at(image, 20 * number);
+    const FrameView frame = frame_at(image, 20 * number);
     const PoseEstimate far = from_afar.estimate(frame), searched = tracker.estimate(frame);
     ASSERT_TRUE(searched.found()) << number;
     EXPECT_FALSE(searched.tracked);
     EXPECT_GT(searched.certainty, 2.0 * far.certainty) << number;
-    EXPECT_LT(heel::test::corner_error_px(homography_of(searched), truth), 1.0) << number;
-    heel::FrameView next = frame;
+    EXPECT_LT(test::corner_error_px(homography_of(searched), truth), 1.0) << number;
+    FrameView next = frame;
     next.header.t_capture_ns += kFramePeriod_ns;
     const PoseEstimate tracked = tracker.estimate(next);
     ASSERT_TRUE(tracked.tracked) << number;
@@ -150,7 +145,7 @@ TEST(PoseTracker, KeepsItsPersonWhenAnotherWearsTheSameShirt) {
 
 TEST(PoseTracker, WithoutTrackingItIsTheEstimator) {
   const ShirtTemplate taught = shirt();
-  heel::VisionConfig config = flat_shirt_config();
+  VisionConfig config = flat_shirt_config();
   config.tracking = false;
   PoseTracker tracker(taught, robot_camera(), config);
   PoseEstimator estimator(taught, robot_camera(), config);
@@ -160,7 +155,7 @@ TEST(PoseTracker, WithoutTrackingItIsTheEstimator) {
     const PoseEstimate whole = estimator.estimate(frame_at(view, number));
     ASSERT_TRUE(whole.found());
     EXPECT_FALSE(tracked.tracked);
-    EXPECT_EQ(heel::test::pose_bytes(tracked), heel::test::pose_bytes(whole));
+    EXPECT_EQ(test::pose_bytes(tracked), test::pose_bytes(whole));
   }
 }
 
@@ -169,8 +164,8 @@ TEST(PoseTracker, ExpectedViewGrowsWithTimeAndContainsTheBack) {
   PoseEstimator estimator(taught, robot_camera(), flat_shirt_config());
   const PoseEstimate pose = estimator.estimate(frame_at(seen(taught, 0.3, 0.2, 1.0), 0));
   ASSERT_TRUE(pose.found());
-  const heel::ExpectedView soon = estimator.expected_view(pose, kFramePeriod_ns);
-  const heel::ExpectedView late = estimator.expected_view(pose, 10 * kFramePeriod_ns);
+  const ExpectedView soon = estimator.expected_view(pose, kFramePeriod_ns);
+  const ExpectedView late = estimator.expected_view(pose, 10 * kFramePeriod_ns);
   EXPECT_LT(late.region.x_px, soon.region.x_px);
   EXPECT_GT(late.region.height_px, soon.region.height_px);
   EXPECT_LT(late.sigma_min_px, soon.sigma_min_px);
@@ -182,16 +177,17 @@ TEST(PoseTracker, ExpectedViewGrowsWithTimeAndContainsTheBack) {
 }
 
 TEST(PoseTracker, AllocatesNothingAfterConstruction) {
-  if (!heel::test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   const ShirtTemplate taught = shirt();
-  PoseTracker tracker(taught, robot_camera(), heel::VisionConfig{});
+  PoseTracker tracker(taught, robot_camera(), VisionConfig{});
   const cv::Mat view = seen(taught, 0.3, 0.0, 1.2), clutter = texture(9, 640, 480);
-  const std::uint64_t before = heel::test::allocations_of_this_thread();
+  const std::uint64_t before = test::allocations_of_this_thread();
   tracker.estimate(frame_at(view, 0));
   const bool tracked = tracker.estimate(frame_at(view, 1)).tracked;
   tracker.estimate(frame_at(clutter, 2));
-  EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
+  EXPECT_EQ(test::allocations_of_this_thread() - before, 0u);
   EXPECT_TRUE(tracked);
 }
 
 }  // namespace
+}  // namespace heel

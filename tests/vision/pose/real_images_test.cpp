@@ -10,14 +10,13 @@
 #include "support/sanitized.h"
 #include "support/test_data.h"
 
+namespace heel {
 namespace {
 
-using heel::PoseEstimate;
-using heel::ShirtTemplate;
-using heel::test::view_of;
+using test::view_of;
 
 /// The camera is unknown, but every focal length gives the same homography.
-ShirtTemplate taught_from(const cv::Mat& image, const heel::Region& roi, bool oriented) {
+ShirtTemplate taught_from(const cv::Mat& image, const Region& roi, bool oriented) {
   ShirtTemplate shirt;
   shirt.grey.assign(image.data, image.data + image.total());
   shirt.camera.width_px = image.cols;
@@ -44,26 +43,26 @@ std::string pair_name(const testing::TestParamInfo<Pair>& tested) {
   return tested.param.set + std::to_string(tested.param.to);
 }
 
-class OxfordPairTest : public testing::TestWithParam<Pair> {};
+class PoseOfOxfordPairs : public testing::TestWithParam<Pair> {};
 
-TEST_P(OxfordPairTest, CornerErrorBelowThreePixels) {
+TEST_P(PoseOfOxfordPairs, CornerErrorBelowThreePixels) {
   const auto [set, to, oriented] = GetParam();
-  HEEL_NEEDS_TEST_DATA(heel::test::oxford_folder(set));
-  const heel::test::OxfordPair pair = heel::test::load_oxford_pair(set, to);
+  HEEL_NEEDS_TEST_DATA(test::oxford_folder(set));
+  const test::OxfordPair pair = test::load_oxford_pair(set, to);
   ASSERT_EQ(pair.reference.size(), pair.current.size());
 
   const ShirtTemplate whole =
       taught_from(pair.reference, {0, 0, pair.reference.cols, pair.reference.rows}, oriented);
   const PoseEstimate pose =
-      heel::PoseEstimator(whole, whole.camera, heel::VisionConfig{}).estimate(view_of(pair.current));
+      PoseEstimator(whole, whole.camera, VisionConfig{}).estimate(view_of(pair.current));
   ASSERT_TRUE(pose.found()) << to_string(pose.reason);
-  const double error_px = heel::test::mean_corner_error_px(pair, homography_of(pose));
+  const double error_px = test::mean_corner_error_px(pair, homography_of(pose));
   RecordProperty("corner_error_px", std::to_string(error_px));
   std::cout << pair.name() << ": corner error " << error_px << " px, " << pose.inliers << " inliers\n";
   EXPECT_LT(error_px, 3.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Real, OxfordPairTest,
+INSTANTIATE_TEST_SUITE_P(Real, PoseOfOxfordPairs,
                          testing::Values(Pair{"graf", 2, false}, Pair{"graf", 3, false},
                                          Pair{"boat", 2, true}, Pair{"boat", 3, true}, Pair{"boat", 4, true},
                                          Pair{"boat", 5, true}, Pair{"leuven", 2, false},
@@ -73,21 +72,21 @@ INSTANTIATE_TEST_SUITE_P(Real, OxfordPairTest,
 
 // The knitted back of frame 1000. By inspection of the frames: it is completely in view from about 925, walks
 // away and stands until 1175, and turns away until about 1185. No other person in the film wears it.
-TEST(PersonFromBehind, FoundWhereSheIsAndNowhereElse) {
+TEST(PoseOfAPersonFromBehind, FoundWhereSheIsAndNowhereElse) {
   HEEL_NEEDS_TEST_DATA("person/one-by-one.mp4");
   std::vector<cv::Mat> frames;
-  cv::VideoCapture video(heel::test::data_path("person/one-by-one.mp4"));
+  cv::VideoCapture video(test::data_path("person/one-by-one.mp4"));
   for (cv::Mat frame; video.read(frame);) {
     cv::Mat grey;
     cv::cvtColor(frame, grey, cv::COLOR_BGR2GRAY);
     frames.push_back(grey);
   }
   ASSERT_EQ(frames.size(), 1394u);
-  const heel::Region back{400, 90, 100, 175};
+  const Region back{400, 90, 100, 175};
   const ShirtTemplate shirt = taught_from(frames[1000], back, false);
-  heel::PoseEstimator estimator(shirt, shirt.camera, heel::VisionConfig{});
+  PoseEstimator estimator(shirt, shirt.camera, VisionConfig{});
 
-  const std::size_t step = heel::test::kThreadSanitizer ? 50 : heel::test::kSanitized ? 5 : 1;
+  const std::size_t step = test::kThreadSanitizer ? 50 : test::kSanitized ? 5 : 1;
   int looked_at = 0, certain = 0, others = 0, found_in_others = 0;
   for (std::size_t i = 0; i < frames.size(); i += step) {
     const bool in_view = i >= 950 && i <= 1170;
@@ -110,3 +109,4 @@ TEST(PersonFromBehind, FoundWhereSheIsAndNowhereElse) {
 }
 
 }  // namespace
+}  // namespace heel

@@ -32,7 +32,7 @@ TEST(ThreadPool, AtLeastTheCallerWorks) {
   EXPECT_LE(ThreadPool(0).threads(), 4);
 }
 
-TEST(WorldPicture, IsTheSameForAnyNumberOfThreads) {
+TEST(WorldPictureThreads, IsTheSameForAnyNumberOfThreads) {
   Scenario scenario;
   scenario.camera.model = default_camera_model();
   scenario.camera.readout_ms = 20;

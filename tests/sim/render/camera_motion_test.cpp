@@ -11,7 +11,7 @@ namespace {
 using test::expect_marks_at_truth;
 using test::mark_px;
 using test::marked_scenario;
-using test::View;
+using test::PictureMoment;
 
 TEST(RollingShutter, MarksAreWhereTheTruthSays) {
   Scenario scenario = marked_scenario();
@@ -25,7 +25,7 @@ TEST(RollingShutter, MarksAreWhereTheTruthSays) {
 
 TEST(RollingShutter, RowsAreSkewedByTheTurn) {
   Scenario scenario = marked_scenario();
-  const View turning{0.0, {-1.6, 0, 0, 0, 0.8}};
+  const PictureMoment turning{0.0, {-1.6, 0, 0, 0, 0.8}};
   World global(scenario);
   scenario.camera.readout_ms = 33;
   World rolling(scenario);

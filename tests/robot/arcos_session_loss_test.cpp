@@ -41,7 +41,7 @@ struct DrivingBench : SessionBench {
   }
 };
 
-TEST(SessionSilence, LostThenConnectedAnewWithZeroFirst) {
+TEST(ArcosSessionSilence, LostThenConnectedAnewWithZeroFirst) {
   DrivingBench bench;
   bench.robot.mute = true;
   bench.run(1.8);
@@ -58,7 +58,7 @@ TEST(SessionSilence, LostThenConnectedAnewWithZeroFirst) {
   bench.expect_position(2.0, 0.5);
 }
 
-TEST(SessionSilence, StopAndCloseAreSentIntoTheSilence) {
+TEST(ArcosSessionSilence, StopAndCloseAreSentIntoTheSilence) {
   DrivingBench bench;
   bench.robot.mute = true;
   bench.run(3.0);
@@ -68,7 +68,7 @@ TEST(SessionSilence, StopAndCloseAreSentIntoTheSilence) {
   for (std::size_t i = stop; i < bench.robot.log.size(); ++i) EXPECT_EQ(bench.robot.log[i].value, 0);
 }
 
-TEST(SessionLine, LostAndOpenedAgain) {
+TEST(ArcosSessionLine, LostAndOpenedAgain) {
   DrivingBench bench;
   bench.session.line_lost(bench.now_ns);
   bench.line_up = false;
@@ -86,7 +86,7 @@ TEST(SessionLine, LostAndOpenedAgain) {
   bench.expect_position(2.0, 0.5);
 }
 
-TEST(SessionLine, OdometryGoesOnWhetherOrNotTheCountersWereZeroed) {
+TEST(ArcosSessionLine, OdometryGoesOnWhetherOrNotTheCountersWereZeroed) {
   for (const bool zeroed : {false, true}) {
     DrivingBench bench;
     bench.session.line_lost(bench.now_ns);
@@ -103,7 +103,7 @@ TEST(SessionLine, OdometryGoesOnWhetherOrNotTheCountersWereZeroed) {
   }
 }
 
-TEST(SessionReset, NoticeMeansConnectAnewFromTheSamePlace) {
+TEST(ArcosSessionReset, NoticeMeansConnectAnewFromTheSamePlace) {
   for (const std::uint8_t id : Bytes{0xFE, 0xFF}) {
     DrivingBench bench;
     bench.robot.say(arcos::frame_body(Bytes{id}));
@@ -120,7 +120,7 @@ TEST(SessionReset, NoticeMeansConnectAnewFromTheSamePlace) {
   }
 }
 
-TEST(SessionOpen, NoSipAfterOpenStartsAgain) {
+TEST(ArcosSessionOpen, NoSipAfterOpenStartsAgain) {
   SessionBench bench;
   ASSERT_TRUE(bench.run_until(LinkPhase::Opening));
   bench.robot.open = false;
@@ -131,7 +131,7 @@ TEST(SessionOpen, NoSipAfterOpenStartsAgain) {
   EXPECT_TRUE(bench.run_until(LinkPhase::Running));
 }
 
-TEST(SessionDamage, GarbledSipsAreCountedAndPassedOver) {
+TEST(ArcosSessionDamage, GarbledSipsAreCountedAndPassedOver) {
   DrivingBench bench;
   const std::uint64_t sips = bench.session.state().sips;
   for (int i = 0; i < 10; ++i) {
@@ -147,7 +147,7 @@ TEST(SessionDamage, GarbledSipsAreCountedAndPassedOver) {
   EXPECT_EQ(bench.session.state().phase, LinkPhase::Running);
 }
 
-TEST(SessionDamage, AFalseHeaderHoldsUpSipsForLessThanTheSupervisorsPatience) {
+TEST(ArcosSessionDamage, AFalseHeaderHoldsUpSipsForLessThanTheSupervisorsPatience) {
   DrivingBench bench;
   bench.session.receive(Bytes{0xFA, 0xFB, 249}, bench.now_ns);
   const TimeNs begin_ns = bench.now_ns;
@@ -158,7 +158,7 @@ TEST(SessionDamage, AFalseHeaderHoldsUpSipsForLessThanTheSupervisorsPatience) {
   EXPECT_GE(bench.session.state().sips, sips + 12);  // none was lost
 }
 
-TEST(SessionDamage, SoundChecksumBrokenLayoutIsNamed) {
+TEST(ArcosSessionDamage, SoundChecksumBrokenLayoutIsNamed) {
   DrivingBench bench;
   const arcos::Frame frame = arcos::frame_body(Bytes{0x33, 1, 2, 3});
   bench.session.receive(frame.bytes(), bench.now_ns);
@@ -167,7 +167,7 @@ TEST(SessionDamage, SoundChecksumBrokenLayoutIsNamed) {
   EXPECT_EQ(bench.session.state().phase, LinkPhase::Running);
 }
 
-TEST(SessionStamp, SipIsStampedAtItsFirstByte) {
+TEST(ArcosSessionStamp, SipIsStampedAtItsFirstByte) {
   DrivingBench bench;
   const arcos::Frame frame = arcos::encode_sip(bench.robot.sip);
   bench.session.receive(frame.bytes().first(7), bench.now_ns + 1);

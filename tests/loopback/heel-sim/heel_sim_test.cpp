@@ -13,8 +13,20 @@
 #include "support/temporary_folder.h"
 #include "support/text.h"
 
-namespace heel::test {
+namespace heel {
 namespace {
+
+using test::Bytes;
+using test::eventually;
+using test::i16_at;
+using test::is_moving_sip;
+using test::is_sip;
+using test::monotonic_s;
+using test::occurrences;
+using test::Process;
+using test::RawClient;
+using test::sleep_s;
+using test::TemporaryFolder;
 
 constexpr int kOpen = 1, kClose = 2, kEnable = 4, kVel = 11, kConfig = 18, kHostBaud = 50;
 
@@ -40,17 +52,17 @@ struct Sim {
 };
 
 /// Both kinds of line, by name.
-class AnyLine : public testing::TestWithParam<const char*> {
+class HeelSim : public testing::TestWithParam<const char*> {
  protected:
   std::string robot() const {
     return std::string(GetParam()) == "pty" ? "pty:" + folder.file("robot") : "tcp:0";
   }
   TemporaryFolder folder;
 };
-INSTANTIATE_TEST_SUITE_P(Lines, AnyLine, testing::Values("pty", "tcp"),
+INSTANTIATE_TEST_SUITE_P(Lines, HeelSim, testing::Values("pty", "tcp"),
                          [](const auto& line) { return std::string(line.param); });
 
-TEST_P(AnyLine, SyncsOpensMovesStopsByWatchdogResumesAndCloses) {
+TEST_P(HeelSim, SyncsOpensMovesStopsByWatchdogResumesAndCloses) {
   Sim sim(robot());
   RawClient client = RawClient::at(sim.address);
   ASSERT_TRUE(client.sync()) << sim.process.output();
@@ -84,7 +96,7 @@ TEST_P(AnyLine, SyncsOpensMovesStopsByWatchdogResumesAndCloses) {
   }
 }
 
-TEST_P(AnyLine, AClientMayGoAndAnotherFindsTheRobotStillOpen) {
+TEST_P(HeelSim, AClientMayGoAndAnotherFindsTheRobotStillOpen) {
   Sim sim(robot());
   {
     RawClient first = RawClient::at(sim.address);
@@ -100,7 +112,7 @@ TEST_P(AnyLine, AClientMayGoAndAnotherFindsTheRobotStillOpen) {
   EXPECT_TRUE(second.sync());
 }
 
-TEST_P(AnyLine, AClientDoesNotGetWhatWasSentBeforeItCame) {
+TEST_P(HeelSim, AClientDoesNotGetWhatWasSentBeforeItCame) {
   Sim sim(robot());
   {
     RawClient first = RawClient::at(sim.address);
@@ -120,7 +132,7 @@ TEST_P(AnyLine, AClientDoesNotGetWhatWasSentBeforeItCame) {
   EXPECT_LE(fewest, 400u);
 }
 
-TEST_P(AnyLine, AHalfMadeHandshakeIsForgottenWhenItsClientGoes) {
+TEST_P(HeelSim, AHalfMadeHandshakeIsForgottenWhenItsClientGoes) {
   Sim sim(robot());
   for (int i = 0; i < 3; ++i) {
     RawClient client = RawClient::at(sim.address);
@@ -130,7 +142,7 @@ TEST_P(AnyLine, AHalfMadeHandshakeIsForgottenWhenItsClientGoes) {
   }
 }
 
-TEST_P(AnyLine, PacketsTakeTheirLineTime) {
+TEST_P(HeelSim, PacketsTakeTheirLineTime) {
   Sim sim(robot());
   RawClient client = RawClient::at(sim.address);
   ASSERT_TRUE(client.sync());
@@ -148,7 +160,7 @@ TEST_P(AnyLine, PacketsTakeTheirLineTime) {
   EXPECT_LE(longest_wait_s, 0.1);
 }
 
-TEST_P(AnyLine, FaultsComeFromTheCommandLine) {
+TEST_P(HeelSim, FaultsComeFromTheCommandLine) {
   Sim sim(robot(), {"--fault", "left_open@0", "--fault", "bumper@0.2=4"});
   ASSERT_TRUE(sim.process.says("fault bumper"));
   RawClient client = RawClient::at(sim.address);
@@ -156,7 +168,7 @@ TEST_P(AnyLine, FaultsComeFromTheCommandLine) {
   EXPECT_FALSE(client.wait_for(bumped).empty()) << "no front bumper in the high byte";
 }
 
-TEST_P(AnyLine, TruthHasARowEvery20Ms) {
+TEST_P(HeelSim, TruthHasARowEvery20Ms) {
   const std::string path = folder.file("truth.csv");
   Sim sim(robot(), {"--truth", path, "--duration", "5", "--exact", "--fault", "left_open@0=300"});
   ASSERT_NE(sim.address, "");
@@ -165,7 +177,7 @@ TEST_P(AnyLine, TruthHasARowEvery20Ms) {
     client.send(0);  // PULSE: the robot drives
     EXPECT_EQ(sim.process.wait(), 0);
   }
-  std::istringstream lines(heel::test::read_text(path));
+  std::istringstream lines(test::read_text(path));
   std::string line;
   std::getline(lines, line);
   std::map<std::string, std::size_t> column;
@@ -186,7 +198,7 @@ TEST_P(AnyLine, TruthHasARowEvery20Ms) {
   EXPECT_EQ(rows.back()[column["robot_x_m"]], rows.back()[column["odom_x_m"]]);
 }
 
-TEST(Pty, KeepsItsRateAndAWrongOneIsGarbageBothWays) {
+TEST(HeelSimOnPty, KeepsItsRateAndAWrongOneIsGarbageBothWays) {
   TemporaryFolder folder;
   Sim sim("pty:" + folder.file("robot"));
   RawClient client = RawClient::at(sim.address);
@@ -210,7 +222,7 @@ TEST(Pty, KeepsItsRateAndAWrongOneIsGarbageBothWays) {
   })) << "not bytes without a good packet";
 }
 
-TEST(Pty, HostBaudAsTheAriaClientDoesIt) {
+TEST(HeelSimOnPty, HostBaudAsTheAriaClientDoesIt) {
   TemporaryFolder folder;
   Sim sim("pty:" + folder.file("robot"));
   RawClient client = RawClient::at(sim.address);
@@ -234,7 +246,7 @@ TEST(Pty, HostBaudAsTheAriaClientDoesIt) {
   for (int i = 0; i < 20; ++i) ASSERT_FALSE(client.next_sip().empty()) << "SIP " << i;
 }
 
-TEST(Pty, TheSymlinkGoesWithTheProcessAndAStaleOneIsReplaced) {
+TEST(HeelSimOnPty, TheSymlinkGoesWithTheProcessAndAStaleOneIsReplaced) {
   TemporaryFolder folder;
   const std::string path = folder.file("robot");
   for (const int number : {SIGTERM, SIGINT, SIGHUP}) {
@@ -255,7 +267,7 @@ TEST(Pty, TheSymlinkGoesWithTheProcessAndAStaleOneIsReplaced) {
   EXPECT_TRUE(client.sync());
 }
 
-TEST(Pty, AnotherProcessesLinkIsLeftAlone) {
+TEST(HeelSimOnPty, AnotherProcessesLinkIsLeftAlone) {
   TemporaryFolder folder;
   const std::string path = folder.file("robot");
   Sim older("pty:" + path);
@@ -268,7 +280,7 @@ TEST(Pty, AnotherProcessesLinkIsLeftAlone) {
   EXPECT_TRUE(client.sync());
 }
 
-TEST(Tcp, ASecondClientWaitsUntilTheFirstHasGone) {
+TEST(HeelSimOnTcp, ASecondClientWaitsUntilTheFirstHasGone) {
   Sim sim("tcp:0");
   RawClient first = RawClient::at(sim.address);
   ASSERT_TRUE(first.sync());
@@ -285,9 +297,9 @@ struct BadOption {
   std::vector<std::string> arguments;
   std::string complaint;
 };
-class BadOptions : public testing::TestWithParam<BadOption> {};
+class HeelSimOptions : public testing::TestWithParam<BadOption> {};
 
-TEST_P(BadOptions, AreRefusedByNameAndExpectation) {
+TEST_P(HeelSimOptions, AreRefusedByNameAndExpectation) {
   std::vector<std::string> argv = GetParam().arguments;
   argv.insert(argv.begin(), HEEL_SIM_PROGRAM);
   Process process(argv);
@@ -296,7 +308,7 @@ TEST_P(BadOptions, AreRefusedByNameAndExpectation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    CommandLines, BadOptions,
+    CommandLines, HeelSimOptions,
     testing::Values(
         BadOption{"NoRobot", {}, "--robot"},
         BadOption{"AnUnknownLine", {"--robot", "usb:1"}, "--robot usb:1: not an address (expected pty:PATH"},
@@ -316,4 +328,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& option) { return option.param.name; });
 
 }  // namespace
-}  // namespace heel::test
+}  // namespace heel

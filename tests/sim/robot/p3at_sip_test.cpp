@@ -6,8 +6,12 @@
 
 #include "sim/robot/virtual_client.h"
 
-namespace heel::sim::test {
+namespace heel::sim {
 namespace {
+
+using test::fast_exact_settings;
+using test::Received;
+using test::VirtualClient;
 
 using arcos::CommandId;
 
@@ -16,7 +20,7 @@ arcos::Sip sip_after(VirtualClient& client, int ms = 250) {
   return client.last_sip();
 }
 
-TEST(SipMotion, IdTellsStandingFromMoving) {
+TEST(P3AtSipMotion, IdTellsStandingFromMoving) {
   VirtualClient client(fast_exact_settings());
   client.open_and_enable();
   EXPECT_EQ(sip_after(client).id, 0x32);
@@ -29,7 +33,7 @@ TEST(SipMotion, IdTellsStandingFromMoving) {
   EXPECT_EQ(sip_after(client, 1500).id, 0x32);
 }
 
-TEST(SipMotion, TurningShowsInWheelsAndRotationalVelocity) {
+TEST(P3AtSipMotion, TurningShowsInWheelsAndRotationalVelocity) {
   VirtualClient client(fast_exact_settings());
   client.open_and_enable();
   client.command(CommandId::RVel, 20);
@@ -40,9 +44,9 @@ TEST(SipMotion, TurningShowsInWheelsAndRotationalVelocity) {
   EXPECT_EQ(sip.rotation_ddeg_s, 200);
 }
 
-class PositionUnits : public testing::TestWithParam<double> {};
+class P3AtPositionUnits : public testing::TestWithParam<double> {};
 
-TEST_P(PositionUnits, WrapNaturallyIn16Bits) {
+TEST_P(P3AtPositionUnits, WrapNaturallyIn16Bits) {
   const double mm_per_unit = GetParam();
   P3AtSettings settings = fast_exact_settings();
   settings.mm_per_position_unit = mm_per_unit;
@@ -64,9 +68,9 @@ TEST_P(PositionUnits, WrapNaturallyIn16Bits) {
   EXPECT_NEAR(std::remainder(sip.x_pos - units, 65536.0), 0.0, 125.0 / mm_per_unit);
 }
 
-INSTANTIATE_TEST_SUITE_P(Factors, PositionUnits, testing::Values(1.0, 0.465));
+INSTANTIATE_TEST_SUITE_P(Factors, P3AtPositionUnits, testing::Values(1.0, 0.465));
 
-TEST(SipHeading, IsSignedOrCountsFromZeroAsConfigured) {
+TEST(P3AtSipHeading, IsSignedOrCountsFromZeroAsConfigured) {
   for (const bool from_zero : {false, true}) {
     P3AtSettings settings = fast_exact_settings();
     settings.heading_from_zero = from_zero;
@@ -79,7 +83,7 @@ TEST(SipHeading, IsSignedOrCountsFromZeroAsConfigured) {
   }
 }
 
-TEST(SipHeading, CompassCountsClockwiseInTwoDegrees) {
+TEST(P3AtSipHeading, CompassCountsClockwiseInTwoDegrees) {
   P3AtSettings settings = fast_exact_settings();
   settings.start.heading_rad = std::numbers::pi / 2.0;
   VirtualClient client(settings);
@@ -87,7 +91,7 @@ TEST(SipHeading, CompassCountsClockwiseInTwoDegrees) {
   EXPECT_EQ(sip_after(client).compass_2deg, 135);
 }
 
-TEST(SipTail, HoldsBatteryChargeDigitalAndFaultFlags) {
+TEST(P3AtSipTail, HoldsBatteryChargeDigitalAndFaultFlags) {
   P3AtSettings settings = fast_exact_settings();
   settings.battery_v = 12.5;
   settings.charge_state = 3;
@@ -113,7 +117,7 @@ TEST(SipTail, HoldsBatteryChargeDigitalAndFaultFlags) {
   EXPECT_FALSE(sip_after(older).fault_flags.has_value());
 }
 
-TEST(SipTail, TheBatteryDrains) {
+TEST(P3AtSipTail, TheBatteryDrains) {
   P3AtSettings settings = fast_exact_settings();
   settings.battery_drain_v_per_h = 36.0;
   VirtualClient client(settings);
@@ -123,7 +127,7 @@ TEST(SipTail, TheBatteryDrains) {
 
 // ── bumpers, stalls, buttons ──
 
-TEST(Bumpers, ShowTheirSegmentsFrontHighRearLow) {
+TEST(P3AtBumpers, ShowTheirSegmentsFrontHighRearLow) {
   VirtualClient client(fast_exact_settings());
   client.open();
   client.robot.touch_bumper(0b0000101, 0b1000000);
@@ -141,9 +145,9 @@ struct BumpCase {
   bool front;
   bool stalls;
 };
-class BumpStall : public testing::TestWithParam<BumpCase> {};
+class P3AtBumpStall : public testing::TestWithParam<BumpCase> {};
 
-TEST_P(BumpStall, StopsTheRobotOnlyInTheDirectionOfTheBumper) {
+TEST_P(P3AtBumpStall, StopsTheRobotOnlyInTheDirectionOfTheBumper) {
   const BumpCase bump = GetParam();
   VirtualClient client(fast_exact_settings());
   client.open_and_enable();
@@ -159,14 +163,14 @@ TEST_P(BumpStall, StopsTheRobotOnlyInTheDirectionOfTheBumper) {
   EXPECT_NEAR(client.robot.truth().v_m_s, bump.speed_mm_s * 1e-3, 1e-9) << "it goes on when let go";
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, BumpStall,
+INSTANTIATE_TEST_SUITE_P(Table, P3AtBumpStall,
                          testing::Values(BumpCase{0, 300, true, false}, BumpCase{0, -300, false, false},
                                          BumpCase{1, 300, true, true}, BumpCase{1, -300, false, false},
                                          BumpCase{1, -300, true, false}, BumpCase{2, 300, true, false},
                                          BumpCase{2, -300, false, true}, BumpCase{2, 300, false, false},
                                          BumpCase{3, 300, true, true}, BumpCase{3, -300, false, true}));
 
-TEST(Stall, ABlockedWheelCutsPowerAfterHalfASecondAndTriesAgain) {
+TEST(P3AtStall, ABlockedWheelCutsPowerAfterHalfASecondAndTriesAgain) {
   VirtualClient client(fast_exact_settings());
   client.open_and_enable();
   client.command(CommandId::Vel, 300);
@@ -187,7 +191,7 @@ TEST(Stall, ABlockedWheelCutsPowerAfterHalfASecondAndTriesAgain) {
   EXPECT_FALSE(client.robot.truth().stall_left);
 }
 
-TEST(Stall, TwoShortPushesAreNotOneLongOne) {
+TEST(P3AtStall, TwoShortPushesAreNotOneLongOne) {
   VirtualClient client(fast_exact_settings());
   client.open_and_enable();
   client.command(CommandId::Vel, 300);
@@ -201,7 +205,7 @@ TEST(Stall, TwoShortPushesAreNotOneLongOne) {
   EXPECT_FALSE(client.happened(RobotEventKind::Stalled));
 }
 
-TEST(Stall, StandingAgainstAWallWithoutPushingIsNone) {
+TEST(P3AtStall, StandingAgainstAWallWithoutPushingIsNone) {
   VirtualClient client(fast_exact_settings());
   client.open_and_enable();
   client.robot.block_wheels(true, true);
@@ -209,7 +213,7 @@ TEST(Stall, StandingAgainstAWallWithoutPushingIsNone) {
   EXPECT_FALSE(client.happened(RobotEventKind::Stalled));
 }
 
-TEST(StopButton, SwitchesMotorsOffUntilAnExplicitEnable) {
+TEST(P3AtStopButton, SwitchesMotorsOffUntilAnExplicitEnable) {
   VirtualClient client(fast_exact_settings());
   client.open_and_enable();
   client.command(CommandId::Vel, 300);
@@ -229,7 +233,7 @@ TEST(StopButton, SwitchesMotorsOffUntilAnExplicitEnable) {
   EXPECT_EQ(sip_after(client).flags & arcos::kFlagMotorsEnabled, arcos::kFlagMotorsEnabled);
 }
 
-TEST(StopButton, WithEStallItStallsToo) {
+TEST(P3AtStopButton, WithEStallItStallsToo) {
   VirtualClient client(fast_exact_settings());
   client.open_and_enable();
   client.command(CommandId::EStall, 1);
@@ -248,7 +252,7 @@ TEST(StopButton, WithEStallItStallsToo) {
 
 // ── sonars ──
 
-TEST(Sonar, IsOnAfterOpenAndGivesAFewReadingsASip) {
+TEST(P3AtSonar, IsOnAfterOpenAndGivesAFewReadingsASip) {
   VirtualClient client(fast_exact_settings());
   client.open();
   client.run_fed_ms(2050);
@@ -274,9 +278,9 @@ struct SonarCase {
   int argument;
   int flags;
 };
-class SonarCommand : public testing::TestWithParam<SonarCase> {};
+class P3AtSonarCommand : public testing::TestWithParam<SonarCase> {};
 
-TEST_P(SonarCommand, SwitchesArrays) {
+TEST_P(P3AtSonarCommand, SwitchesArrays) {
   VirtualClient client(fast_exact_settings());
   client.open();
   if ((GetParam().argument & 1) != 0) client.command(CommandId::Sonar, 0);
@@ -292,11 +296,11 @@ TEST_P(SonarCommand, SwitchesArrays) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Arguments, SonarCommand,
+INSTANTIATE_TEST_SUITE_P(Arguments, P3AtSonarCommand,
                          testing::Values(SonarCase{0, 0}, SonarCase{1, 0b110}, SonarCase{3, 0b010},
                                          SonarCase{5, 0b100}, SonarCase{2, 0b100}, SonarCase{4, 0b010}));
 
-TEST(Sonar, MeasuresFromItsMountInTheWorld) {
+TEST(P3AtSonar, MeasuresFromItsMountInTheWorld) {
   P3AtSettings settings = fast_exact_settings();
   settings.start = {1.0, 2.0, std::numbers::pi / 2.0};  // looks along +y
   VirtualClient client(settings);
@@ -326,7 +330,7 @@ TEST(Sonar, MeasuresFromItsMountInTheWorld) {
   EXPECT_EQ(range_mm[12], 5000);
 }
 
-TEST(Sonar, PollingChoosesOrderAndSensorsFromOne) {
+TEST(P3AtSonar, PollingChoosesOrderAndSensorsFromOne) {
   VirtualClient client(fast_exact_settings());
   client.open();
   client.send(arcos::encode_text(CommandId::Polling, std::string_view("\x04\x05\x04", 3)));
@@ -345,7 +349,7 @@ TEST(Sonar, PollingChoosesOrderAndSensorsFromOne) {
   EXPECT_EQ((std::set<int>(numbers.begin(), numbers.end())), (std::set<int>{3, 4}));
 }
 
-TEST(Sonar, MountsAreTheReferencesTable) {
+TEST(P3AtSonar, MountsAreTheReferencesTable) {
   const double expected[16][3] = {{147, 136, 90},    {193, 119, 50},     {227, 79, 30},     {245, 27, 10},
                                   {245, -27, -10},   {227, -79, -30},    {193, -119, -50},  {147, -136, -90},
                                   {-144, -136, -90}, {-189, -119, -130}, {-223, -79, -150}, {-241, -27, -170},
@@ -359,4 +363,4 @@ TEST(Sonar, MountsAreTheReferencesTable) {
 }
 
 }  // namespace
-}  // namespace heel::sim::test
+}  // namespace heel::sim

@@ -38,7 +38,7 @@ struct RunningBench : SessionBench {
   }
 };
 
-TEST(SessionMotion, VelAndRvelEveryTickAlsoZero) {
+TEST(ArcosSessionMotion, VelAndRvelEveryTickAlsoZero) {
   RunningBench bench;
   bench.run(2.0);
   EXPECT_EQ(bench.robot.received(CommandId::Vel).size(), 100u);
@@ -46,7 +46,7 @@ TEST(SessionMotion, VelAndRvelEveryTickAlsoZero) {
   EXPECT_EQ(bench.robot.log.size(), 200u);
 }
 
-TEST(SessionMotion, MeanIsWhatWasAsked) {
+TEST(ArcosSessionMotion, MeanIsWhatWasAsked) {
   RunningBench bench;
   bench.v_m_s = 0.2003;
   bench.yaw_rate_rad_s = -0.01;  // −0.573 deg/s: less than one unit
@@ -58,7 +58,7 @@ TEST(SessionMotion, MeanIsWhatWasAsked) {
   }
 }
 
-TEST(SessionMotion, FirstCommandAfterEnableIsZeroThenAsAsked) {
+TEST(ArcosSessionMotion, FirstCommandAfterEnableIsZeroThenAsAsked) {
   SessionBench bench;
   bench.v_m_s = 0.3;
   bench.yaw_rate_rad_s = 0.5;
@@ -72,7 +72,7 @@ TEST(SessionMotion, FirstCommandAfterEnableIsZeroThenAsAsked) {
   EXPECT_EQ(bench.robot.received(CommandId::Vel).back().value, 300);
 }
 
-TEST(SessionMotion, ExpiredCountsAsZero) {
+TEST(ArcosSessionMotion, ExpiredCountsAsZero) {
   RunningBench bench;
   bench.v_m_s = 0.3;
   bench.yaw_rate_rad_s = 0.5;
@@ -86,7 +86,7 @@ TEST(SessionMotion, ExpiredCountsAsZero) {
   EXPECT_EQ(bench.robot.log.size(), 20u);
 }
 
-TEST(SessionMotion, NotANumberCountsAsZeroAndLimitsHold) {
+TEST(ArcosSessionMotion, NotANumberCountsAsZeroAndLimitsHold) {
   RunningBench bench;
   bench.v_m_s = std::numeric_limits<double>::quiet_NaN();
   bench.yaw_rate_rad_s = std::numeric_limits<double>::infinity();
@@ -99,7 +99,7 @@ TEST(SessionMotion, NotANumberCountsAsZeroAndLimitsHold) {
   EXPECT_EQ(bench.robot.received(CommandId::RVel).back().value, bench_config().yaw_rate_limit_deg_s);
 }
 
-TEST(SessionMotion, AfterAGapTheFirstIsZero) {
+TEST(ArcosSessionMotion, AfterAGapTheFirstIsZero) {
   RunningBench bench;
   bench.v_m_s = 0.3;
   bench.run(0.5);
@@ -116,7 +116,7 @@ TEST(SessionMotion, AfterAGapTheFirstIsZero) {
   EXPECT_EQ(bench.robot.received(CommandId::Vel).at(0).value, 300);
 }
 
-TEST(SessionPacing, NeverMoreThanItsShareOfTheLineNorACommandEach4ms) {
+TEST(ArcosSessionPacing, NeverMoreThanItsShareOfTheLineNorACommandEach4ms) {
   for (const int baud : kRobotBauds) {
     for (const TimeNs tick_ns : {5 * kNsPerMs, 10 * kNsPerMs, 20 * kNsPerMs}) {
       SessionBench bench(bench_config(("serial:/dev/ttyS0@" + std::to_string(baud)).c_str()));
@@ -141,7 +141,7 @@ TEST(SessionPacing, NeverMoreThanItsShareOfTheLineNorACommandEach4ms) {
   }
 }
 
-TEST(SessionPacing, BehindATcpServerTheRobotsOwnRateCounts) {
+TEST(ArcosSessionPacing, BehindATcpServerTheRobotsOwnRateCounts) {
   for (const std::uint8_t code : {std::uint8_t{0}, std::uint8_t{2}}) {
     SessionBench bench(bench_config("tcp:robot:8101"));
     bench.robot.config.host_baud = code;
@@ -152,7 +152,7 @@ TEST(SessionPacing, BehindATcpServerTheRobotsOwnRateCounts) {
   }
 }
 
-TEST(SessionDisabled, StopButtonAndEStallHoldUntilANewSession) {
+TEST(ArcosSessionDisabled, StopButtonAndEStallHoldUntilANewSession) {
   for (const auto flag : {arcos::kFlagStopButton, arcos::kFlagEStall}) {
     RunningBench bench;
     bench.v_m_s = 0.3;
@@ -184,7 +184,7 @@ TEST(SessionDisabled, StopButtonAndEStallHoldUntilANewSession) {
   }
 }
 
-TEST(SessionDisabled, MotorsSwitchedOnAtTheRobotDoNotDriveUnasked) {
+TEST(ArcosSessionDisabled, MotorsSwitchedOnAtTheRobotDoNotDriveUnasked) {
   RunningBench bench;
   bench.robot.set_flag(arcos::kFlagMotorsEnabled, false);
   bench.run(0.3);
@@ -198,7 +198,7 @@ TEST(SessionDisabled, MotorsSwitchedOnAtTheRobotDoNotDriveUnasked) {
   for (const Received& command : bench.robot.log) ASSERT_EQ(command.value, 0);
 }
 
-TEST(SessionDisabled, AReconnectionDoesNotEnableTheMotors) {
+TEST(ArcosSessionDisabled, AReconnectionDoesNotEnableTheMotors) {
   RunningBench bench;
   bench.robot.set_flag(arcos::kFlagStopButton, true);
   bench.run(0.3);
@@ -214,7 +214,7 @@ TEST(SessionDisabled, AReconnectionDoesNotEnableTheMotors) {
   EXPECT_TRUE(bench.run_until(LinkPhase::Running));
 }
 
-TEST(SessionClose, StopSonarOffCloseInThisOrderAndThenNothing) {
+TEST(ArcosSessionClose, StopSonarOffCloseInThisOrderAndThenNothing) {
   RunningBench bench;
   const auto bytes = bench.session.close(bench.now_ns);
   EXPECT_EQ(std::vector<std::uint8_t>(bytes.begin(), bytes.end()),
@@ -226,7 +226,7 @@ TEST(SessionClose, StopSonarOffCloseInThisOrderAndThenNothing) {
   EXPECT_TRUE(bench.session.close(bench.now_ns).empty());
 }
 
-TEST(SessionClose, FromEveryPhaseButNotWithoutALine) {
+TEST(ArcosSessionClose, FromEveryPhaseButNotWithoutALine) {
   for (double seconds = 0.0; seconds < 2.0; seconds += 0.02) {
     SessionBench bench;
     bench.run(seconds);
@@ -237,7 +237,7 @@ TEST(SessionClose, FromEveryPhaseButNotWithoutALine) {
   EXPECT_TRUE(lost.session.close(lost.now_ns).empty());
 }
 
-TEST(SessionState, SipFieldsInSi) {
+TEST(ArcosSessionState, SipFieldsInSi) {
   RunningBench bench;
   bench.robot.sip.left_mm_s = 250;
   bench.robot.sip.right_mm_s = 350;
@@ -259,7 +259,7 @@ TEST(SessionState, SipFieldsInSi) {
   EXPECT_DOUBLE_EQ(state.battery_v, 26.3);
 }
 
-TEST(SessionState, EachSonarKeepsWhatItHeardLastAndWhen) {
+TEST(ArcosSessionState, EachSonarKeepsWhatItHeardLastAndWhen) {
   RunningBench bench;
   const RobotState& state = bench.session.state();
   EXPECT_EQ(state.sonar[3].t_ns, 0) << "has not been heard";

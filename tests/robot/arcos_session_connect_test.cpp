@@ -12,7 +12,7 @@ using test::Received;
 using test::SessionBench;
 using Kind = SessionEventKind;
 
-TEST(SessionConnect, WholeScriptInOrder) {
+TEST(ArcosSessionConnect, WholeScriptInOrder) {
   SessionBench bench;
   ASSERT_TRUE(bench.run_until(LinkPhase::Running));
   struct Expected {
@@ -51,7 +51,7 @@ TEST(SessionConnect, WholeScriptInOrder) {
   EXPECT_EQ(bench.count(Kind::ConfigReceived), 1);
 }
 
-TEST(SessionConnect, PhasesInOrder) {
+TEST(ArcosSessionConnect, PhasesInOrder) {
   SessionBench bench;
   EXPECT_EQ(bench.session.state().phase, LinkPhase::Syncing);
   EXPECT_TRUE(bench.run_until(LinkPhase::Opening));
@@ -62,20 +62,20 @@ TEST(SessionConnect, PhasesInOrder) {
   EXPECT_TRUE(bench.run_until(LinkPhase::Running));
 }
 
-TEST(SessionConnect, SaysNothingBeforeItHasListened) {
+TEST(ArcosSessionConnect, SaysNothingBeforeItHasListened) {
   SessionBench bench;
   bench.run(0.28);
   EXPECT_EQ(bench.robot.bytes_received, 0u);
 }
 
-TEST(SessionConnect, JunkBeforeTheFirstEcho) {
+TEST(ArcosSessionConnect, JunkBeforeTheFirstEcho) {
   SessionBench bench;
   bench.robot.junk = "WMS2\r";
   EXPECT_TRUE(bench.run_until(LinkPhase::Running));
   EXPECT_EQ(bench.session.state().bytes_discarded, 5u);
 }
 
-TEST(SessionConnect, RobotThatAnswersLate) {
+TEST(ArcosSessionConnect, RobotThatAnswersLate) {
   SessionBench bench;
   bench.robot.mute = true;
   bench.run(1.0);
@@ -83,13 +83,13 @@ TEST(SessionConnect, RobotThatAnswersLate) {
   EXPECT_TRUE(bench.run_until(LinkPhase::Running));
 }
 
-TEST(SessionConnect, LastEchoLost) {
+TEST(ArcosSessionConnect, LastEchoLost) {
   SessionBench bench;
   bench.robot.last_echoes_to_swallow = 1;
   EXPECT_TRUE(bench.run_until(LinkPhase::Running));
 }
 
-TEST(SessionConnect, RobotLeftOpenIsStoppedAndClosedBeforeAnyPulse) {
+TEST(ArcosSessionConnect, RobotLeftOpenIsStoppedAndClosedBeforeAnyPulse) {
   SessionBench bench;
   bench.robot.open = true;
   bench.robot.set_flag(arcos::kFlagMotorsEnabled, true);
@@ -101,7 +101,7 @@ TEST(SessionConnect, RobotLeftOpenIsStoppedAndClosedBeforeAnyPulse) {
   EXPECT_TRUE(bench.robot.log[2].is(CommandId::Sync0));
 }
 
-TEST(SessionConnect, MotorsAlreadyOnAreNotDrivenBeforeZeroHasGoneOut) {
+TEST(ArcosSessionConnect, MotorsAlreadyOnAreNotDrivenBeforeZeroHasGoneOut) {
   SessionBench bench;
   bench.robot.set_flag(arcos::kFlagMotorsEnabled, true);
   bench.v_m_s = 0.5;
@@ -114,7 +114,7 @@ TEST(SessionConnect, MotorsAlreadyOnAreNotDrivenBeforeZeroHasGoneOut) {
   EXPECT_EQ(speeds.back().value, 500);
 }
 
-TEST(SessionBaud, FindsTheRateTheRobotWasLeftAt) {
+TEST(ArcosSessionBaud, FindsTheRateTheRobotWasLeftAt) {
   for (const int baud : kRobotBauds) {
     SessionBench bench(bench_config("serial:/dev/ttyUSB0@38400"));
     bench.robot.baud = baud;
@@ -129,7 +129,7 @@ TEST(SessionBaud, FindsTheRateTheRobotWasLeftAt) {
   }
 }
 
-TEST(SessionBaud, OpenAtAnotherRateIsHeardAndClosed) {
+TEST(ArcosSessionBaud, OpenAtAnotherRateIsHeardAndClosed) {
   SessionBench bench(bench_config("serial:/dev/ttyUSB0@115200"));
   bench.robot.baud = 9600;
   bench.robot.open = true;
@@ -137,7 +137,7 @@ TEST(SessionBaud, OpenAtAnotherRateIsHeardAndClosed) {
   EXPECT_TRUE(bench.robot.log[0].is(CommandId::Stop));
 }
 
-TEST(SessionBaud, AWholeSweepWithoutAnswerAsksForTheDeviceAnew) {
+TEST(ArcosSessionBaud, AWholeSweepWithoutAnswerAsksForTheDeviceAnew) {
   SessionBench bench(bench_config("serial:/dev/ttyUSB0@38400"));
   bench.robot.mute = true;
   bench.run(5 * 2.0);
@@ -149,14 +149,14 @@ TEST(SessionBaud, AWholeSweepWithoutAnswerAsksForTheDeviceAnew) {
   EXPECT_FALSE(bench.session.line_exhausted());
 }
 
-TEST(SessionBaud, APtyIsSweptAsASerialLineIs) {
+TEST(ArcosSessionBaud, APtyIsSweptAsASerialLineIs) {
   SessionBench bench(bench_config("pty:/dev/pts/0"));
   bench.robot.baud = 9600;
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 30.0));
   EXPECT_EQ(bench.session.wanted_baud(), 9600);
 }
 
-TEST(SessionBaud, NothingToTuneOverTcp) {
+TEST(ArcosSessionBaud, NothingToTuneOverTcp) {
   SessionBench bench(bench_config("tcp:robot:8101"));
   bench.robot.mute = true;
   const int baud = bench.session.wanted_baud();
@@ -165,7 +165,7 @@ TEST(SessionBaud, NothingToTuneOverTcp) {
   EXPECT_TRUE(bench.session.line_exhausted());
 }
 
-TEST(SessionConfig, MissingOrDamagedIsDoneWithout) {
+TEST(ArcosSessionConfig, MissingOrDamagedIsDoneWithout) {
   for (const bool damaged : {false, true}) {
     SessionBench bench;
     bench.robot.answers_config = damaged;
@@ -178,7 +178,7 @@ TEST(SessionConfig, MissingOrDamagedIsDoneWithout) {
   }
 }
 
-TEST(SessionConfig, ControllersOwnLimitsAreNotExceeded) {
+TEST(ArcosSessionConfig, ControllersOwnLimitsAreNotExceeded) {
   SessionBench bench;
   bench.robot.config.trans_vel_top = 500;
   bench.robot.config.trans_acc_top = 1000;
@@ -193,7 +193,7 @@ TEST(SessionConfig, ControllersOwnLimitsAreNotExceeded) {
   EXPECT_EQ(sent(CommandId::SetRa, 0), bench_config().yaw_acceleration_deg_s2);
 }
 
-TEST(SessionConfig, NotAskedWhenNotWanted) {
+TEST(ArcosSessionConfig, NotAskedWhenNotWanted) {
   RobotConfig config = bench_config();
   config.request_config = false;
   SessionBench bench(config);
@@ -202,7 +202,7 @@ TEST(SessionConfig, NotAskedWhenNotWanted) {
   EXPECT_EQ(bench.count(Kind::ConfigMissing), 0);
 }
 
-TEST(SessionConfig, SonarsAreOnOrOffAsConfigured) {
+TEST(ArcosSessionConfig, SonarsAreOnOrOffAsConfigured) {
   for (const bool on : {true, false}) {
     RobotConfig config = bench_config();
     config.sonar = on;
@@ -212,7 +212,7 @@ TEST(SessionConfig, SonarsAreOnOrOffAsConfigured) {
   }
 }
 
-TEST(SessionEnable, AskedAgainUntilTheFlagConfirms) {
+TEST(ArcosSessionEnable, AskedAgainUntilTheFlagConfirms) {
   SessionBench bench;
   bench.robot.enables_to_ignore = 2;
   ASSERT_TRUE(bench.run_until(LinkPhase::Running));
@@ -221,7 +221,7 @@ TEST(SessionEnable, AskedAgainUntilTheFlagConfirms) {
   EXPECT_EQ(bench.count(Kind::EnableRepeated), 2);
 }
 
-TEST(SessionEnable, FailureIsNamedAndLeavesTheMotorsAlone) {
+TEST(ArcosSessionEnable, FailureIsNamedAndLeavesTheMotorsAlone) {
   SessionBench bench;
   bench.robot.enables_to_ignore = 1000;
   bench.v_m_s = 0.5;
@@ -232,7 +232,7 @@ TEST(SessionEnable, FailureIsNamedAndLeavesTheMotorsAlone) {
   for (const Received& speed : bench.robot.received(CommandId::Vel)) ASSERT_EQ(speed.value, 0);
 }
 
-TEST(SessionEnable, ButtonHeldFromTheBeginning) {
+TEST(ArcosSessionEnable, ButtonHeldFromTheBeginning) {
   SessionBench bench;
   bench.robot.set_flag(arcos::kFlagStopButton, true);
   ASSERT_TRUE(bench.run_until(LinkPhase::Disabled));

@@ -2,8 +2,11 @@
 // is, brings the old motion back.
 #include "sim/robot/virtual_client.h"
 
-namespace heel::sim::test {
+namespace heel::sim {
 namespace {
+
+using test::exact_settings;
+using test::VirtualClient;
 
 using arcos::CommandId;
 
@@ -19,7 +22,7 @@ double speed(const VirtualClient& client) {
   return client.robot.truth().v_m_s;
 }
 
-TEST(Watchdog, StopsTwoSecondsAfterTheLastCommand) {
+TEST(P3AtWatchdog, StopsTwoSecondsAfterTheLastCommand) {
   VirtualClient client = driving();
   const TimeNs t_sent_ns = client.t_ns;
   client.run_ms(2005);
@@ -36,7 +39,7 @@ TEST(Watchdog, StopsTwoSecondsAfterTheLastCommand) {
   EXPECT_TRUE(client.robot.truth().watchdog_stopped);
 }
 
-TEST(Watchdog, IsFedByAnyCommandEvenAnUnknownOne) {
+TEST(P3AtWatchdog, IsFedByAnyCommandEvenAnUnknownOne) {
   for (const char* hex : {"fafb03000000", "fafb03010001", "fafb03c800c8", "fafb061c3b01001d3b"}) {
     VirtualClient client = driving();
     for (int i = 0; i < 4; ++i) {
@@ -48,7 +51,7 @@ TEST(Watchdog, IsFedByAnyCommandEvenAnUnknownOne) {
   }
 }
 
-TEST(Watchdog, IsNotFedByBrokenPackets) {
+TEST(P3AtWatchdog, IsNotFedByBrokenPackets) {
   VirtualClient client = driving();
   for (int i = 0; i < 30; ++i) {
     client.send_hex("fafb03000001");  // wrong checksum
@@ -57,7 +60,7 @@ TEST(Watchdog, IsNotFedByBrokenPackets) {
   EXPECT_TRUE(client.happened(RobotEventKind::WatchdogStop));
 }
 
-TEST(Watchdog, ABarePulseResumesTheOldMotion) {
+TEST(P3AtWatchdog, ABarePulseResumesTheOldMotion) {
   VirtualClient client = driving();
   client.command(CommandId::RVel, 10);
   client.run_ms(4000);
@@ -69,7 +72,7 @@ TEST(Watchdog, ABarePulseResumesTheOldMotion) {
   EXPECT_TRUE(client.happened(RobotEventKind::WatchdogResume));
 }
 
-TEST(Watchdog, AStopAsTheFirstCommandKeepsItStanding) {
+TEST(P3AtWatchdog, AStopAsTheFirstCommandKeepsItStanding) {
   for (const CommandId id : {CommandId::Stop, CommandId::EStop, CommandId::Close}) {
     VirtualClient client = driving();
     client.run_ms(4000);
@@ -83,7 +86,7 @@ TEST(Watchdog, AStopAsTheFirstCommandKeepsItStanding) {
   }
 }
 
-TEST(Watchdog, ResumesAMoveUnderWay) {
+TEST(P3AtWatchdog, ResumesAMoveUnderWay) {
   VirtualClient client(exact_settings());
   client.open_and_enable();
   client.command(CommandId::Move, 1500);
@@ -94,7 +97,7 @@ TEST(Watchdog, ResumesAMoveUnderWay) {
   EXPECT_NEAR(client.robot.true_pose().x_m, 1.5, 0.001);
 }
 
-TEST(Watchdog, SleepsBeforeOpenAndWhenSetToZero) {
+TEST(P3AtWatchdog, SleepsBeforeOpenAndWhenSetToZero) {
   VirtualClient connected(exact_settings());
   connected.sync();
   connected.run_ms(5000);
@@ -107,7 +110,7 @@ TEST(Watchdog, SleepsBeforeOpenAndWhenSetToZero) {
   EXPECT_NEAR(speed(never), 0.3, 1e-9);
 }
 
-TEST(Watchdog, ARobotLeftOpenInMotionGoesOnWithTheFirstByteItUnderstands) {
+TEST(P3AtWatchdog, ARobotLeftOpenInMotionGoesOnWithTheFirstByteItUnderstands) {
   P3AtSettings settings = exact_settings();
   settings.faults.push_back({.kind = FaultKind::LeftOpen, .t_ns = 0, .duration_ns = 0, .amount = 400.0});
   VirtualClient client(settings);
@@ -120,4 +123,4 @@ TEST(Watchdog, ARobotLeftOpenInMotionGoesOnWithTheFirstByteItUnderstands) {
 }
 
 }  // namespace
-}  // namespace heel::sim::test
+}  // namespace heel::sim

@@ -5,14 +5,18 @@
 
 #include "sim/robot/virtual_client.h"
 
-namespace heel::sim::test {
+namespace heel::sim {
 namespace {
+
+using test::fast_exact_settings;
+using test::from_hex;
+using test::VirtualClient;
 
 using arcos::CommandId;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A fast line, so that commands arrive within a millisecond of being sent.
-class Motion : public testing::Test {
+class P3AtMotion : public testing::Test {
  protected:
   void SetUp() override { client.open_and_enable(); }
   RobotTruth truth() const { return client.robot.truth(); }
@@ -30,7 +34,7 @@ class Motion : public testing::Test {
   VirtualClient client{fast_exact_settings()};
 };
 
-TEST_F(Motion, AcceleratesAtSetAAndReachesTheSetpoint) {
+TEST_F(P3AtMotion, AcceleratesAtSetAAndReachesTheSetpoint) {
   client.command(CommandId::SetA, 500);
   client.command(CommandId::Vel, 400);
   EXPECT_NEAR(ms_until(3000, [](const RobotTruth& t) { return t.v_m_s >= 0.2; }), 400, 4);
@@ -43,7 +47,7 @@ TEST_F(Motion, AcceleratesAtSetAAndReachesTheSetpoint) {
   EXPECT_EQ(truth().pose.y_m, 0.0);
 }
 
-TEST_F(Motion, ANegativeSetAIsTheDeceleration) {
+TEST_F(P3AtMotion, ANegativeSetAIsTheDeceleration) {
   client.send_hex("fafb06051b58025d1d");  // SETA −600: 1B and the magnitude
   client.command(CommandId::SetA, 300);
   client.command(CommandId::Vel, 600);
@@ -55,7 +59,7 @@ TEST_F(Motion, ANegativeSetAIsTheDeceleration) {
   EXPECT_TRUE(truth().motors_enabled) << "STOP keeps the motors on";
 }
 
-TEST_F(Motion, ReversingDeceleratesToZeroBeforeItAccelerates) {
+TEST_F(P3AtMotion, ReversingDeceleratesToZeroBeforeItAccelerates) {
   client.command(CommandId::SetA, 200);
   client.command(CommandId::SetA, -800);
   client.command(CommandId::Vel, 400);
@@ -65,7 +69,7 @@ TEST_F(Motion, ReversingDeceleratesToZeroBeforeItAccelerates) {
   EXPECT_NEAR(ms_until(3000, [](const RobotTruth& t) { return t.v_m_s <= -0.2 + 1e-9; }), 1000, 5);
 }
 
-TEST_F(Motion, EStopOverridesTheDeceleration) {
+TEST_F(P3AtMotion, EStopOverridesTheDeceleration) {
   client.command(CommandId::Vel, 600);
   client.run_fed_ms(2500);
   client.command(CommandId::EStop);
@@ -73,7 +77,7 @@ TEST_F(Motion, EStopOverridesTheDeceleration) {
   EXPECT_TRUE(truth().motors_enabled);
 }
 
-TEST_F(Motion, AnAccelerationOfZeroIsIgnored) {
+TEST_F(P3AtMotion, AnAccelerationOfZeroIsIgnored) {
   client.command(CommandId::SetA, 0);
   client.command(CommandId::SetRa, 0);
   client.command(CommandId::Vel, 300);
@@ -81,7 +85,7 @@ TEST_F(Motion, AnAccelerationOfZeroIsIgnored) {
   EXPECT_NEAR(truth().v_m_s, 0.3, 1e-9);
 }
 
-TEST_F(Motion, SpeedIsClampedToSetVAndSetVToTheTop) {
+TEST_F(P3AtMotion, SpeedIsClampedToSetVAndSetVToTheTop) {
   client.command(CommandId::SetV, 250);
   client.command(CommandId::Vel, 700);
   client.run_fed_ms(3000);
@@ -92,7 +96,7 @@ TEST_F(Motion, SpeedIsClampedToSetVAndSetVToTheTop) {
   EXPECT_NEAR(truth().v_m_s, 1.2, 1e-9);
 }
 
-TEST_F(Motion, RotationIsClampedToSetRvAndRampsAtSetRa) {
+TEST_F(P3AtMotion, RotationIsClampedToSetRvAndRampsAtSetRa) {
   client.command(CommandId::SetRv, 40);
   client.command(CommandId::SetRa, 80);
   client.command(CommandId::RVel, 90);
@@ -103,7 +107,7 @@ TEST_F(Motion, RotationIsClampedToSetRvAndRampsAtSetRa) {
   EXPECT_NEAR(truth().yaw_rate_rad_s, -10 * kDegree, 1e-9);
 }
 
-TEST_F(Motion, VelAndRvelDriveAnArc) {
+TEST_F(P3AtMotion, VelAndRvelDriveAnArc) {
   client.command(CommandId::Vel, 300);
   client.command(CommandId::RVel, 20);
   client.run_fed_ms(2000);  // both ramps over
@@ -118,7 +122,7 @@ TEST_F(Motion, VelAndRvelDriveAnArc) {
   EXPECT_NEAR(end.pose.y_m - start.pose.y_m, -radius_m * (std::cos(h1) - std::cos(h0)), 1e-5);
 }
 
-TEST_F(Motion, Vel2IsTheTwoWheelsLeftInTheHighByte) {
+TEST_F(P3AtMotion, Vel2IsTheTwoWheelsLeftInTheHighByte) {
   client.send_hex("fafb06201bf604161f");  // left −100, right +200, the reference's bytes
   client.run_fed_ms(3000);
   EXPECT_NEAR(truth().wheels.left_m_s, -0.1, 1e-9);
@@ -126,7 +130,7 @@ TEST_F(Motion, Vel2IsTheTwoWheelsLeftInTheHighByte) {
   EXPECT_NEAR(truth().yaw_rate_rad_s, 0.3 / 0.588, 1e-9);
 }
 
-TEST_F(Motion, MoveIsATrapezoidThatEndsWhereItShould) {
+TEST_F(P3AtMotion, MoveIsATrapezoidThatEndsWhereItShould) {
   client.command(CommandId::SetV, 400);
   client.command(CommandId::Move, 1000);
   // Ramps of 0.4 m/s at 0.3 m/s² take 1.333 s and 0.267 m each; 0.467 m remain at 0.4 m/s.
@@ -138,7 +142,7 @@ TEST_F(Motion, MoveIsATrapezoidThatEndsWhereItShould) {
   EXPECT_NEAR(truth().pose.x_m, 0.75, 0.0005);
 }
 
-TEST_F(Motion, HeadIsAbsoluteDheadFromHereDcheadFromTheLastSetpoint) {
+TEST_F(P3AtMotion, HeadIsAbsoluteDheadFromHereDcheadFromTheLastSetpoint) {
   const auto heading_deg = [this] { return truth().pose.heading_rad / kDegree; };
   client.command(CommandId::Head, 90);
   client.run_fed_ms(4000);
@@ -159,7 +163,7 @@ TEST_F(Motion, HeadIsAbsoluteDheadFromHereDcheadFromTheLastSetpoint) {
   EXPECT_NEAR(heading_deg(), here_deg - 10.0, 1.0);
 }
 
-TEST_F(Motion, HeadTurnsTheShorterWay) {
+TEST_F(P3AtMotion, HeadTurnsTheShorterWay) {
   client.command(CommandId::Head, 170);
   client.run_fed_ms(5000);
   client.command(CommandId::Head, -170);
@@ -167,7 +171,7 @@ TEST_F(Motion, HeadTurnsTheShorterWay) {
   EXPECT_NEAR(truth().pose.heading_rad / kDegree, 190.0, 0.02);
 }
 
-TEST_F(Motion, HeadTakesTheTrapezoidsTime) {
+TEST_F(P3AtMotion, HeadTakesTheTrapezoidsTime) {
   client.command(CommandId::SetRv, 60);
   client.command(CommandId::Head, 90);
   // Ramps of 60 deg/s at 100 deg/s²: 0.6 s and 18 deg each; 54 deg remain at 60 deg/s.
@@ -177,7 +181,7 @@ TEST_F(Motion, HeadTakesTheTrapezoidsTime) {
   EXPECT_NEAR(ms, 2100, 30);
 }
 
-TEST_F(Motion, SetOZeroesOdometryAndKeepsTheHeadingHeld) {
+TEST_F(P3AtMotion, SetOZeroesOdometryAndKeepsTheHeadingHeld) {
   client.command(CommandId::Vel, 200);
   client.run_fed_ms(1000);
   client.command(CommandId::Stop);
@@ -193,7 +197,7 @@ TEST_F(Motion, SetOZeroesOdometryAndKeepsTheHeadingHeld) {
   EXPECT_NEAR(truth().pose.heading_rad, 55 * kDegree, 0.001);
 }
 
-TEST_F(Motion, EnableZeroLetsItRollOutAndTheSetpointWaitsForEnable) {
+TEST_F(P3AtMotion, EnableZeroLetsItRollOutAndTheSetpointWaitsForEnable) {
   client.command(CommandId::Vel, 300);
   client.run_fed_ms(2000);
   client.command(CommandId::Enable, 0);
@@ -207,7 +211,7 @@ TEST_F(Motion, EnableZeroLetsItRollOutAndTheSetpointWaitsForEnable) {
   EXPECT_NEAR(truth().v_m_s, 0.3, 1e-9) << "a client that sends no zero first drives off";
 }
 
-TEST(MotorsOff, NothingMovesBeforeEnable) {
+TEST(P3AtMotorsOff, NothingMovesBeforeEnable) {
   VirtualClient client(fast_exact_settings());
   client.open();
   client.command(CommandId::Vel, 300);
@@ -224,7 +228,7 @@ TEST(MotorsOff, NothingMovesBeforeEnable) {
   EXPECT_EQ(client.robot.true_pose().x_m, 0.0);
 }
 
-TEST(Steps, ResultsDoNotDependOnHowOftenItIsAdvanced) {
+TEST(P3AtSteps, ResultsDoNotDependOnHowOftenItIsAdvanced) {
   const auto drive_with_steps_of = [](TimeNs step_ns) {
     P3At robot(P3AtSettings{}, 7);
     std::vector<std::uint8_t> out;
@@ -251,4 +255,4 @@ TEST(Steps, ResultsDoNotDependOnHowOftenItIsAdvanced) {
 }
 
 }  // namespace
-}  // namespace heel::sim::test
+}  // namespace heel::sim

@@ -2,12 +2,15 @@
 #include "arcos/other_packets.h"
 #include "sim/robot/virtual_client.h"
 
-namespace heel::sim::test {
+namespace heel::sim {
 namespace {
+
+using test::exact_settings;
+using test::VirtualClient;
 
 using arcos::CommandId;
 
-TEST(ConfigPac, HoldsTheSettingsThatHoldAfterBoot) {
+TEST(P3AtConfigPac, HoldsTheSettingsThatHoldAfterBoot) {
   VirtualClient client(exact_settings());
   client.open();
   client.send_hex("fafb06123b0100133b");
@@ -35,7 +38,7 @@ TEST(ConfigPac, HoldsTheSettingsThatHoldAfterBoot) {
   EXPECT_EQ(config.kinematics_delay, 0);
 }
 
-TEST(ConfigPac, AnswersWithAndWithoutArgumentAndBeforeOpenToo) {
+TEST(P3AtConfigPac, AnswersWithAndWithoutArgumentAndBeforeOpenToo) {
   for (const char* hex : {"fafb03120012", "fafb06123b0100133b"}) {
     VirtualClient client(exact_settings());
     client.sync();
@@ -45,7 +48,7 @@ TEST(ConfigPac, AnswersWithAndWithoutArgumentAndBeforeOpenToo) {
   }
 }
 
-TEST(ConfigPac, ShowsTheConstantsThatWereSet) {
+TEST(P3AtConfigPac, ShowsTheConstantsThatWereSet) {
   VirtualClient client(exact_settings());
   client.open();
   client.command(CommandId::TicksMm, 100);
@@ -63,7 +66,7 @@ TEST(ConfigPac, ShowsTheConstantsThatWereSet) {
   EXPECT_EQ(config.drift_factor, -12);
 }
 
-TEST(ConfigPac, NeverPassesItsChecksumUnderTheFault) {
+TEST(P3AtConfigPac, NeverPassesItsChecksumUnderTheFault) {
   P3AtSettings settings = exact_settings();
   settings.faults.push_back({.kind = FaultKind::BadConfig, .t_ns = 0, .duration_ns = 0, .amount = 0.0});
   VirtualClient client(settings);
@@ -78,7 +81,7 @@ TEST(ConfigPac, NeverPassesItsChecksumUnderTheFault) {
   EXPECT_GT(client.sips().size(), 15u);
 }
 
-TEST(Encoder, ComesOnceOrWithEverySipUntilStopped) {
+TEST(P3AtEncoder, ComesOnceOrWithEverySipUntilStopped) {
   VirtualClient client(exact_settings());
   client.open_and_enable();
   client.command(CommandId::Encoder, 1);
@@ -102,7 +105,7 @@ TEST(Encoder, ComesOnceOrWithEverySipUntilStopped) {
   EXPECT_TRUE(client.of_id(0x90).empty());
 }
 
-TEST(Io, TellsTheDigitalOutputs) {
+TEST(P3AtIo, TellsTheDigitalOutputs) {
   VirtualClient client(exact_settings());
   client.open();
   client.send(arcos::encode_digout(0xFF, 0x81));
@@ -115,7 +118,7 @@ TEST(Io, TellsTheDigitalOutputs) {
   EXPECT_EQ(io.outputs[0], 0x81);
 }
 
-TEST(Joystick, AnswersARequest) {
+TEST(P3AtJoystick, AnswersARequest) {
   VirtualClient client(exact_settings());
   client.open();
   client.command(CommandId::JoyRequest, 1);
@@ -124,7 +127,7 @@ TEST(Joystick, AnswersARequest) {
   EXPECT_EQ(client.of_id(0xF8)[0].body.size(), 9u);
 }
 
-TEST(Maintenance, LeavesItDeafUntilReset) {
+TEST(P3AtMaintenance, LeavesItDeafUntilReset) {
   VirtualClient client(exact_settings());
   client.open();
   client.send_hex("fafb03ff00ff");
@@ -138,7 +141,7 @@ TEST(Maintenance, LeavesItDeafUntilReset) {
   ASSERT_NO_FATAL_FAILURE(client.sync());
 }
 
-TEST(ResetCommand, IsObeyed) {
+TEST(P3AtResetCommand, IsObeyed) {
   VirtualClient client(exact_settings());
   client.open();
   client.send_hex("fafb03fd00fd");
@@ -148,4 +151,4 @@ TEST(ResetCommand, IsObeyed) {
 }
 
 }  // namespace
-}  // namespace heel::sim::test
+}  // namespace heel::sim

@@ -1,6 +1,4 @@
 // Features on pairs of images with known geometry: synthetic ones, and real ones of the test data.
-#include "support/oxford_pairs.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -9,11 +7,19 @@
 #include <string>
 
 #include "heel/matching.h"
+#include "support/oxford_pairs.h"
 #include "support/test_data.h"
 #include "vision/features/test_image.h"
 
-namespace heel::test {
+namespace heel {
 namespace {
+
+using test::BlobField;
+using test::load_oxford_pair;
+using test::oxford_folder;
+using test::OxfordPair;
+using test::TestImage;
+using test::view_of;
 
 using Point = std::array<double, 2>;
 
@@ -60,19 +66,16 @@ struct Turned {
   Turned inverse() const { return {-angle_rad, 1.0 / zoom}; }
 };
 
-class FeaturesPairs : public testing::Test {
- protected:
-  static TestImage seen_through(const Turned& turn) {
-    static const BlobField field(300, 300, 400, 9);
-    const Turned back = turn.inverse();
-    return image_of(301, 301, [&](double x, double y) {
-      const Point p = back.map({x, y});
-      return field(p[0], p[1]);
-    });
-  }
-};
+TestImage seen_through(const Turned& turn) {
+  static const BlobField field(300, 300, 400, 9);
+  const Turned back = turn.inverse();
+  return image_of(301, 301, [&](double x, double y) {
+    const Point p = back.map({x, y});
+    return field(p[0], p[1]);
+  });
+}
 
-TEST_F(FeaturesPairs, OrientedFeaturesFollowRotationAndScale) {
+TEST(FeaturePairs, OrientedFeaturesFollowRotationAndScale) {
   const FeatureSettings settings{.octaves = 3, .max_features = 300, .oriented = true};
   const TestImage straight = seen_through({0.0, 1.0});
   const FeatureSet first = extract(straight.view(), settings);
@@ -86,7 +89,7 @@ TEST_F(FeaturesPairs, OrientedFeaturesFollowRotationAndScale) {
   }
 }
 
-TEST_F(FeaturesPairs, UprightFeaturesFollowScaleButNotRotation) {
+TEST(FeaturePairs, UprightFeaturesFollowScaleButNotRotation) {
   const FeatureSettings settings{.octaves = 3, .max_features = 300};
   const TestImage straight = seen_through({0.0, 1.0});
   const FeatureSet first = extract(straight.view(), settings);
@@ -108,7 +111,7 @@ struct RealPair {
   double min_precision;
 };
 
-TEST(FeaturesRealPairs, MatchTheOxfordImages) {
+TEST(FeaturePairs, MatchTheOxfordImages) {
   for (const char* set : {"graf", "boat", "leuven"}) HEEL_NEEDS_TEST_DATA(oxford_folder(set));
   const FeatureSettings settings{.octaves = 3, .max_features = 500, .oriented = true, .spread = false};
   // Lower bounds a little below what was measured when this was written.
@@ -134,4 +137,4 @@ TEST(FeaturesRealPairs, MatchTheOxfordImages) {
 }
 
 }  // namespace
-}  // namespace heel::test
+}  // namespace heel

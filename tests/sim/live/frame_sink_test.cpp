@@ -1,10 +1,11 @@
 // "file:PICTURE.pgm": the newest frame as a file, never half of one.
+#include "sim/live/frame_sink.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
-#include "sim/live/frame_sink.h"
 #include "support/complaint.h"
 #include "support/temporary_folder.h"
 
@@ -18,7 +19,7 @@ FrameHeader of_four_by_two() {
   return header;
 }
 
-TEST(PictureSink, TheFileIsTheNewestFrame) {
+TEST(FrameSink, TheFileIsTheNewestFrame) {
   const test::TemporaryFolder folder;
   const std::string path = folder.file("now.pgm");
   const auto sink = open_frame_sink("file:" + path, 4, 2, 30.0);
@@ -35,9 +36,9 @@ TEST(PictureSink, TheFileIsTheNewestFrame) {
       << "nothing is left beside it";
 }
 
-TEST(PictureSink, SaysWhatItCannotDo) {
+TEST(FrameSink, SaysWhatItCannotDo) {
   const auto complaint = [](const std::string& address) {
-    return heel::test::complaint_of(
+    return test::complaint_of(
         [&] { open_frame_sink(address, 4, 2, 30.0)->put(of_four_by_two(), std::vector<std::uint8_t>(8)); });
   };
   EXPECT_EQ(complaint("file:now.png"), "--camera file:now.png (expected file:PICTURE.pgm)");

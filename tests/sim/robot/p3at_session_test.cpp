@@ -2,12 +2,16 @@
 #include "arcos/other_packets.h"
 #include "sim/robot/virtual_client.h"
 
-namespace heel::sim::test {
+namespace heel::sim {
 namespace {
+
+using test::exact_settings;
+using test::from_hex;
+using test::VirtualClient;
 
 using arcos::CommandId;
 
-TEST(Session, EchoesTheThreeSyncsAndNamesItself) {
+TEST(P3AtSession, EchoesTheThreeSyncsAndNamesItself) {
   P3AtSettings settings = exact_settings();
   settings.name = "Mops";
   VirtualClient client(settings);
@@ -19,7 +23,7 @@ TEST(Session, EchoesTheThreeSyncsAndNamesItself) {
   EXPECT_EQ(echo, std::string("Mops\0Pioneer\0p3at-sh\0", 21));
 }
 
-TEST(Session, SendsJunkBeforeTheFirstEchoOnly) {
+TEST(P3AtSession, SendsJunkBeforeTheFirstEchoOnly) {
   VirtualClient client(exact_settings());
   client.send_hex("fafb03000000");
   client.run_ms(60);
@@ -31,7 +35,7 @@ TEST(Session, SendsJunkBeforeTheFirstEchoOnly) {
   EXPECT_EQ(client.raw, from_hex("fafb03000000"));
 }
 
-TEST(Session, IgnoresSyncsOutOfOrder) {
+TEST(P3AtSession, IgnoresSyncsOutOfOrder) {
   VirtualClient client(exact_settings());
   client.send_hex("fafb03010001");
   client.send_hex("fafb03020002");
@@ -44,7 +48,7 @@ TEST(Session, IgnoresSyncsOutOfOrder) {
   EXPECT_EQ(client.robot.truth().session, Session::Synced0);
 }
 
-TEST(Session, RepeatsALostEcho) {
+TEST(P3AtSession, RepeatsALostEcho) {
   VirtualClient client(exact_settings());
   for (const char* hex : {"fafb03000000", "fafb03010001", "fafb03010001", "fafb03000000", "fafb03010001"}) {
     client.send_hex(hex);
@@ -54,7 +58,7 @@ TEST(Session, RepeatsALostEcho) {
   EXPECT_EQ(client.robot.truth().session, Session::Synced1);
 }
 
-TEST(Session, SendsNoSipBeforeOpenAndOneEvery100MsAfter) {
+TEST(P3AtSession, SendsNoSipBeforeOpenAndOneEvery100MsAfter) {
   VirtualClient client(exact_settings());
   client.sync();
   client.run_ms(500);
@@ -69,9 +73,9 @@ TEST(Session, SendsNoSipBeforeOpenAndOneEvery100MsAfter) {
   }
 }
 
-class OpenAndClose : public testing::TestWithParam<const char*> {};
+class P3AtOpenAndClose : public testing::TestWithParam<const char*> {};
 
-TEST_P(OpenAndClose, WorkWithThisSpelling) {
+TEST_P(P3AtOpenAndClose, WorkWithThisSpelling) {
   const std::string both = GetParam();
   const std::string open = both.substr(0, both.find(' '));
   const std::string close = both.substr(both.find(' ') + 1);
@@ -94,12 +98,12 @@ TEST_P(OpenAndClose, WorkWithThisSpelling) {
   ASSERT_NO_FATAL_FAILURE(client.sync());
 }
 
-INSTANTIATE_TEST_SUITE_P(Spellings, OpenAndClose,
+INSTANTIATE_TEST_SUITE_P(Spellings, P3AtOpenAndClose,
                          testing::Values("fafb03010001 fafb03020002",              // p2os, Soar: no argument
                                          "fafb06013b0100023b fafb06023b0100033b",  // ARIA: INT 1
                                          "fafb04013b013b fafb04023b023b"));        // a lone type byte
 
-TEST(Session, IdsOfTheSyncsMeanPulseOpenAndCloseOnceConnected) {
+TEST(P3AtSession, IdsOfTheSyncsMeanPulseOpenAndCloseOnceConnected) {
   VirtualClient client(exact_settings());
   client.open();
   client.forget();
@@ -114,7 +118,7 @@ TEST(Session, IdsOfTheSyncsMeanPulseOpenAndCloseOnceConnected) {
   EXPECT_EQ(client.robot.truth().session, Session::Waiting);
 }
 
-TEST(Session, LeftOpenItAnswersASyncWithSipsAndClosesOnRequest) {
+TEST(P3AtSession, LeftOpenItAnswersASyncWithSipsAndClosesOnRequest) {
   P3AtSettings settings = exact_settings();
   settings.faults.push_back({.kind = FaultKind::LeftOpen, .t_ns = 0, .duration_ns = 0, .amount = 0.0});
   VirtualClient client(settings);
@@ -129,7 +133,7 @@ TEST(Session, LeftOpenItAnswersASyncWithSipsAndClosesOnRequest) {
   ASSERT_NO_FATAL_FAILURE(client.sync());
 }
 
-TEST(Session, AHangUpForgetsAHandshakeButNotAnOpenSession) {
+TEST(P3AtSession, AHangUpForgetsAHandshakeButNotAnOpenSession) {
   VirtualClient client(exact_settings());
   client.sync();
   client.robot.line_dropped();
@@ -140,7 +144,7 @@ TEST(Session, AHangUpForgetsAHandshakeButNotAnOpenSession) {
   EXPECT_EQ(client.robot.truth().session, Session::Open);
 }
 
-TEST(Session, WhatIsOnTheWireWhenTheClientHangsUpStillArrives) {
+TEST(P3AtSession, WhatIsOnTheWireWhenTheClientHangsUpStillArrives) {
   for (int ms = 0; ms < 10; ++ms) {  // CLOSE takes 6 ms at 9600 baud
     VirtualClient client(exact_settings());
     client.open();
@@ -152,7 +156,7 @@ TEST(Session, WhatIsOnTheWireWhenTheClientHangsUpStillArrives) {
   }
 }
 
-TEST(Session, SurvivesGarbageAndUnknownCommands) {
+TEST(P3AtSession, SurvivesGarbageAndUnknownCommands) {
   VirtualClient client(exact_settings());
   client.send_hex("00fffafbfafb03000001fafb");  // noise, a wrong checksum, a lone header
   client.run_ms(400);
@@ -162,7 +166,7 @@ TEST(Session, SurvivesGarbageAndUnknownCommands) {
   EXPECT_EQ(client.robot.truth().session, Session::Open);
 }
 
-TEST(Session, ResetSendsTheNoticeAndLosesTheState) {
+TEST(P3AtSession, ResetSendsTheNoticeAndLosesTheState) {
   for (const int notice : {0xFE, 0xFF}) {
     VirtualClient client(exact_settings());
     client.open_and_enable();
@@ -185,4 +189,4 @@ TEST(Session, ResetSendsTheNoticeAndLosesTheState) {
 }
 
 }  // namespace
-}  // namespace heel::sim::test
+}  // namespace heel::sim

@@ -1,4 +1,6 @@
 // The link and the simulated P3-AT as two ends of real lines, in real time: pty and TCP, hang-up and return.
+#include "robot/robot_link.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 
 #include "loopback/robot/robot_thread.h"
 #include "realtime/clock.h"
-#include "robot/robot_link.h"
 #include "support/process.h"
 
 namespace heel {
@@ -66,7 +67,7 @@ bool closed_and_at_rest(const RobotThread& robot) {
   });
 }
 
-TEST(LinkOverPty, DrivesAndShutsDown) {
+TEST(RobotLinkOverPty, DrivesAndShutsDown) {
   const std::string address = pty_address("drive");
   RobotThread robot(address);
   LinkBench bench(address);
@@ -82,7 +83,7 @@ TEST(LinkOverPty, DrivesAndShutsDown) {
   EXPECT_TRUE(closed_and_at_rest(robot));
 }
 
-TEST(LinkOverPty, ShutsDownWithinFourTenthsOfASecond) {
+TEST(RobotLinkOverPty, ShutsDownWithinFourTenthsOfASecond) {
   // A busy machine may hold up one shutdown; a link that takes too long takes it every time.
   TimeNs shortest_ns = kNsPerS;
   for (int i = 0; i < 5 && shortest_ns >= 400 * kNsPerMs; ++i) {
@@ -97,7 +98,7 @@ TEST(LinkOverPty, ShutsDownWithinFourTenthsOfASecond) {
   EXPECT_LT(shortest_ns, 400 * kNsPerMs);
 }
 
-TEST(LinkOverPty, FindsTheRateOfARobotAsItComesAndRaisesIt) {
+TEST(RobotLinkOverPty, FindsTheRateOfARobotAsItComesAndRaisesIt) {
   const std::string address = pty_address("rate");
   RobotThread robot(address, 9600);
   LinkBench bench(address + "@57600");
@@ -106,7 +107,7 @@ TEST(LinkOverPty, FindsTheRateOfARobotAsItComesAndRaisesIt) {
   EXPECT_TRUE(bench.run_until_driving(robot)) << robot.truth().v_m_s;
 }
 
-TEST(LinkOverPty, SipsAreStampedAsTheyComeNotAtTheTick) {
+TEST(RobotLinkOverPty, SipsAreStampedAsTheyComeNotAtTheTick) {
   const std::string address = pty_address("stamp");
   RobotThread robot(address);
   LinkBench bench(address);
@@ -126,7 +127,7 @@ TEST(LinkOverPty, SipsAreStampedAsTheyComeNotAtTheTick) {
   EXPECT_TRUE(stamped_before_the_deadline);
 }
 
-TEST(LinkOverPty, HungUpAndBack) {
+TEST(RobotLinkOverPty, HungUpAndBack) {
   const std::string address = pty_address("hangup");
   auto robot = std::make_unique<RobotThread>(address);
   LinkBench bench(address);
@@ -140,7 +141,7 @@ TEST(LinkOverPty, HungUpAndBack) {
   EXPECT_EQ(bench.link.state().reconnects, 1u);
 }
 
-TEST(LinkOverPty, ADestroyedLinkLeavesTheRobotClosed) {
+TEST(RobotLinkOverPty, ADestroyedLinkLeavesTheRobotClosed) {
   const std::string address = pty_address("destroyed");
   RobotThread robot(address);
   {
@@ -151,14 +152,14 @@ TEST(LinkOverPty, ADestroyedLinkLeavesTheRobotClosed) {
   EXPECT_TRUE(closed_and_at_rest(robot));
 }
 
-TEST(LinkOverTcp, Drives) {
+TEST(RobotLinkOverTcp, Drives) {
   RobotThread robot("tcp:127.0.0.1:0");
   LinkBench bench(robot.address());
   ASSERT_TRUE(bench.run_until(LinkPhase::Running));
   EXPECT_TRUE(bench.run_until_driving(robot)) << robot.truth().v_m_s;
 }
 
-TEST(LinkWithoutARobot, NeitherBlocksNorEnds) {
+TEST(RobotLinkWithoutARobot, NeitherBlocksNorEnds) {
   // A busy machine may hold up one of the runs; a link that blocks holds up every one.
   TimeNs longest_ns = kNsPerS;
   for (int i = 0; i < 5 && longest_ns >= 50 * kNsPerMs; ++i) {

@@ -1,15 +1,17 @@
 // The server between robot and line, in virtual time: a process that was held up must not make the robot look
 // deaf.
+#include "sim/transport/robot_server.h"
+
 #include <algorithm>
 #include <string>
 
 #include "sim/robot/virtual_client.h"
-#include "sim/transport/robot_server.h"
 
-namespace heel::sim::test {
+namespace heel::sim {
 namespace {
 
 using arcos::CommandId;
+using test::fast_exact_settings;
 
 /// A line whose client is always there.
 class ScriptedLine : public Transport {
@@ -30,9 +32,9 @@ class ScriptedLine : public Transport {
   std::vector<std::uint8_t> from_client;
 };
 
-class HeldUpServer : public testing::Test {
+class RobotServerTest : public testing::Test {
  protected:
-  HeldUpServer()
+  RobotServerTest()
       : robot(fast_exact_settings()),
         server(robot, line, [this](TimeNs, const std::string& what) { events += what + "\n"; }) {
     for (const CommandId id : {CommandId::Sync0, CommandId::Sync1, CommandId::Sync2, CommandId::Open}) {
@@ -60,7 +62,7 @@ class HeldUpServer : public testing::Test {
   TimeNs t_ns = 0;
 };
 
-TEST_F(HeldUpServer, TheRobotDrivesOnWithWhatTheClientSentMeanwhile) {
+TEST_F(RobotServerTest, TheRobotDrivesOnWithWhatTheClientSentMeanwhile) {
   ASSERT_NEAR(robot.truth().v_m_s, 0.2, 1e-6);
   for (int i = 0; i < 3; ++i) {
     held_up_ms(1900, 0);
@@ -70,11 +72,11 @@ TEST_F(HeldUpServer, TheRobotDrivesOnWithWhatTheClientSentMeanwhile) {
   EXPECT_EQ(events.find("watchdog"), std::string::npos) << events;
 }
 
-TEST_F(HeldUpServer, ASilentClientsWatchdogRunsOutAllTheSame) {
+TEST_F(RobotServerTest, ASilentClientsWatchdogRunsOutAllTheSame) {
   held_up_ms(2500, 2500);
   EXPECT_NE(events.find("watchdog stop"), std::string::npos) << events;
   EXPECT_LT(robot.truth().v_m_s, 0.2);
 }
 
 }  // namespace
-}  // namespace heel::sim::test
+}  // namespace heel::sim

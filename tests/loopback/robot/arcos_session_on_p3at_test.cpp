@@ -94,7 +94,7 @@ class Bench {
   double yaw_rate_rad_s = 0.0;
 };
 
-TEST(SessionOnP3At, ConnectsAtEveryRateItMayHaveBeenLeftAt) {
+TEST(ArcosSessionOnP3At, ConnectsAtEveryRateItMayHaveBeenLeftAt) {
   for (const int baud : kRobotBauds) {
     sim::P3AtSettings settings = exact_robot();
     settings.boot_baud = baud;
@@ -106,7 +106,7 @@ TEST(SessionOnP3At, ConnectsAtEveryRateItMayHaveBeenLeftAt) {
   }
 }
 
-TEST(SessionOnP3At, MeanSpeedsAreWhatWasAskedAt9600Baud) {
+TEST(ArcosSessionOnP3At, MeanSpeedsAreWhatWasAskedAt9600Baud) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
@@ -131,7 +131,7 @@ TEST(SessionOnP3At, MeanSpeedsAreWhatWasAskedAt9600Baud) {
   EXPECT_LT(bench.robot.input_backlog(), 30u);  // commands do not queue up on the line
 }
 
-TEST(SessionOnP3At, ASlowLineIsMadeFasterBeforeTheMotorsRun) {
+TEST(ArcosSessionOnP3At, ASlowLineIsMadeFasterBeforeTheMotorsRun) {
   for (const int wished : {19200, 38400, 57600, 115200}) {
     Bench bench(exact_robot(), ("pty:robot@" + std::to_string(wished)).c_str());
     bench.start();
@@ -152,7 +152,7 @@ TEST(SessionOnP3At, ASlowLineIsMadeFasterBeforeTheMotorsRun) {
   }
 }
 
-TEST(SessionOnP3At, ALossyLineIsMadeFasterOrStaysReachable) {
+TEST(ArcosSessionOnP3At, ALossyLineIsMadeFasterOrStaysReachable) {
   for (int seed = 0; seed < 20; ++seed) {
     Bench bench(exact_robot(), "pty:robot");
     bench.inject(FaultKind::GarbleBytes, 0.0, 0.01);
@@ -163,7 +163,7 @@ TEST(SessionOnP3At, ALossyLineIsMadeFasterOrStaysReachable) {
   }
 }
 
-TEST(SessionOnP3At, ANewCommandDoesNotWaitBehindOldOnes) {
+TEST(ArcosSessionOnP3At, ANewCommandDoesNotWaitBehindOldOnes) {
   for (const int baud : kRobotBauds) {
     sim::P3AtSettings settings = exact_robot();
     settings.boot_baud = baud;
@@ -191,7 +191,7 @@ TEST(SessionOnP3At, ANewCommandDoesNotWaitBehindOldOnes) {
   }
 }
 
-TEST(SessionOnP3At, OlderModelCountsInOtherUnits) {
+TEST(ArcosSessionOnP3At, OlderModelCountsInOtherUnits) {
   sim::P3AtSettings settings = sim::p3at_h8_settings();
   settings.chassis = exact_robot().chassis;
   Bench bench(settings);
@@ -207,7 +207,7 @@ TEST(SessionOnP3At, OlderModelCountsInOtherUnits) {
   bench.expect_odometry_is_truth(0.05);
 }
 
-TEST(SessionOnP3At, LeftOpenAndMovingItIsStoppedNotJolted) {
+TEST(ArcosSessionOnP3At, LeftOpenAndMovingItIsStoppedNotJolted) {
   Bench bench;
   bench.inject(FaultKind::LeftOpen, 0.0, 400.0);
   bench.run(0.1);
@@ -222,7 +222,7 @@ TEST(SessionOnP3At, LeftOpenAndMovingItIsStoppedNotJolted) {
   EXPECT_NEAR(bench.robot.truth().v_m_s, 0.0, 1e-6);
 }
 
-TEST(SessionOnP3At, KilledWhileDrivingItStandsWithinTheWatchdogAndDoesNotResume) {
+TEST(ArcosSessionOnP3At, KilledWhileDrivingItStandsWithinTheWatchdogAndDoesNotResume) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
@@ -244,7 +244,7 @@ TEST(SessionOnP3At, KilledWhileDrivingItStandsWithinTheWatchdogAndDoesNotResume)
   EXPECT_EQ(bench.session.state().phase, LinkPhase::Running);
 }
 
-TEST(SessionOnP3At, LossyLineIsLivedWith) {
+TEST(ArcosSessionOnP3At, LossyLineIsLivedWith) {
   for (const auto kind : {FaultKind::DropBytes, FaultKind::GarbleBytes}) {
     Bench bench;
     bench.inject(kind, 0.0, 0.005);
@@ -265,7 +265,7 @@ TEST(SessionOnP3At, LossyLineIsLivedWith) {
   }
 }
 
-TEST(SessionOnP3At, SilenceThenBackWithTheSamePose) {
+TEST(ArcosSessionOnP3At, SilenceThenBackWithTheSamePose) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
@@ -280,7 +280,7 @@ TEST(SessionOnP3At, SilenceThenBackWithTheSamePose) {
   bench.expect_odometry_is_truth(0.02);
 }
 
-TEST(SessionOnP3At, ControllerResetWhileDriving) {
+TEST(ArcosSessionOnP3At, ControllerResetWhileDriving) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
@@ -297,7 +297,7 @@ TEST(SessionOnP3At, ControllerResetWhileDriving) {
   bench.expect_odometry_is_truth(0.2);
 }
 
-TEST(SessionOnP3At, StopButtonHoldsUntilANewSession) {
+TEST(ArcosSessionOnP3At, StopButtonHoldsUntilANewSession) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
@@ -319,7 +319,7 @@ TEST(SessionOnP3At, StopButtonHoldsUntilANewSession) {
   EXPECT_GT(bench.robot.truth().v_m_s, 0.35);
 }
 
-TEST(SessionOnP3At, ConfigThatNeverPassesItsChecksum) {
+TEST(ArcosSessionOnP3At, ConfigThatNeverPassesItsChecksum) {
   Bench bench;
   bench.inject(FaultKind::BadConfig);
   bench.start();
@@ -327,7 +327,7 @@ TEST(SessionOnP3At, ConfigThatNeverPassesItsChecksum) {
   EXPECT_EQ(bench.count(Kind::ConfigMissing), 1);
 }
 
-TEST(SessionOnP3At, BumpersAndStallsAreSeen) {
+TEST(ArcosSessionOnP3At, BumpersAndStallsAreSeen) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
@@ -346,7 +346,7 @@ TEST(SessionOnP3At, BumpersAndStallsAreSeen) {
   EXPECT_TRUE(stalled);
 }
 
-TEST(SessionOnP3At, CloseLeavesItClosedAndAtRest) {
+TEST(ArcosSessionOnP3At, CloseLeavesItClosedAndAtRest) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));

@@ -7,7 +7,7 @@
 namespace heel {
 namespace {
 
-TEST(SessionMemory, NoAllocationAfterConstruction) {
+TEST(ArcosSessionMemory, NoAllocationAfterConstruction) {
   if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer keeps the allocator";
   test::ScriptedRobot robot;
   ArcosSession session(test::bench_config());

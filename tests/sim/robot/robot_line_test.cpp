@@ -3,8 +3,13 @@
 
 #include "sim/robot/virtual_client.h"
 
-namespace heel::sim::test {
+namespace heel::sim {
 namespace {
+
+using test::exact_settings;
+using test::from_hex;
+using test::Received;
+using test::VirtualClient;
 
 using arcos::CommandId;
 constexpr int kRates[] = {9600, 19200, 38400, 57600, 115200};
@@ -75,7 +80,7 @@ TEST(UartLine, ASlowerReceiverSeesFewerBytesAFasterOneMore) {
   EXPECT_GE(fast_out.size(), 50u);
 }
 
-TEST(Pacing, AConfigPacAt9600TakesItsLineTime) {
+TEST(RobotLinePacing, AConfigPacAt9600TakesItsLineTime) {
   for (const int baud : {9600, 38400}) {
     P3AtSettings settings = exact_settings();
     settings.boot_baud = baud;
@@ -91,7 +96,7 @@ TEST(Pacing, AConfigPacAt9600TakesItsLineTime) {
   }
 }
 
-TEST(Pacing, CommandsArriveOneAfterTheOther) {
+TEST(RobotLinePacing, CommandsArriveOneAfterTheOther) {
   VirtualClient client(exact_settings());
   client.open();
   for (int i = 0; i < 20; ++i) client.command(CommandId::Pulse);
@@ -103,7 +108,7 @@ TEST(Pacing, CommandsArriveOneAfterTheOther) {
   EXPECT_TRUE(client.robot.truth().motors_enabled);
 }
 
-TEST(Pacing, AFullLineLosesCyclesNotBytes) {
+TEST(RobotLinePacing, AFullLineLosesCyclesNotBytes) {
   VirtualClient client(exact_settings());
   client.open();
   client.command(CommandId::Encoder, 2);
@@ -118,7 +123,7 @@ TEST(Pacing, AFullLineLosesCyclesNotBytes) {
   EXPECT_EQ(parser.counters().checksum_errors, 0u);
 }
 
-TEST(Baud, OnlyTheRightRateGetsAnEcho) {
+TEST(RobotLineBaud, OnlyTheRightRateGetsAnEcho) {
   for (const int robot_baud : kRates) {
     for (const int host_baud : kRates) {
       P3AtSettings settings = exact_settings();
@@ -132,7 +137,7 @@ TEST(Baud, OnlyTheRightRateGetsAnEcho) {
   }
 }
 
-TEST(Baud, ASweepFindsARobotLeftAtAnotherRateAfterGarbage) {
+TEST(RobotLineBaud, ASweepFindsARobotLeftAtAnotherRateAfterGarbage) {
   P3AtSettings settings = exact_settings();
   settings.boot_baud = 57600;
   VirtualClient client(settings);
@@ -146,7 +151,7 @@ TEST(Baud, ASweepFindsARobotLeftAtAnotherRateAfterGarbage) {
   EXPECT_EQ(found, 57600);
 }
 
-TEST(Baud, HostBaudAsTheAriaClientDoesIt) {
+TEST(RobotLineBaud, HostBaudAsTheAriaClientDoesIt) {
   VirtualClient client(exact_settings());
   client.robot.set_host_baud(9600);
   client.open();
@@ -171,7 +176,7 @@ TEST(Baud, HostBaudAsTheAriaClientDoesIt) {
   EXPECT_TRUE(client.of_id(0).empty());
 }
 
-TEST(Baud, HostBaudIsIgnoredWhenItCannotBeChanged) {
+TEST(RobotLineBaud, HostBaudIsIgnoredWhenItCannotBeChanged) {
   P3AtSettings settings = exact_settings();
   settings.autobaud = 0;
   VirtualClient client(settings);
@@ -181,7 +186,7 @@ TEST(Baud, HostBaudIsIgnoredWhenItCannotBeChanged) {
   EXPECT_EQ(client.robot.baud(), 9600);
 }
 
-TEST(Baud, AnImpossibleCodeIsIgnored) {
+TEST(RobotLineBaud, AnImpossibleCodeIsIgnored) {
   VirtualClient client(exact_settings());
   client.open();
   client.command(CommandId::HostBaud, 5);
@@ -190,4 +195,4 @@ TEST(Baud, AnImpossibleCodeIsIgnored) {
 }
 
 }  // namespace
-}  // namespace heel::sim::test
+}  // namespace heel::sim

@@ -23,7 +23,7 @@ struct SlowBench : SessionBench {
   }
 };
 
-TEST(SessionRate, IsRaisedBeforeLimitsAndMotors) {
+TEST(ArcosSessionRate, IsRaisedBeforeLimitsAndMotors) {
   SlowBench bench;
   ASSERT_TRUE(bench.run_until(LinkPhase::Running));
   EXPECT_EQ(bench.robot.baud, 38400);
@@ -42,7 +42,7 @@ TEST(SessionRate, IsRaisedBeforeLimitsAndMotors) {
   EXPECT_EQ(bench.count(Kind::Synchronised), 1);
 }
 
-TEST(SessionRate, IsKeptOverAReconnectionAndRaisedAgainAfterARestart) {
+TEST(ArcosSessionRate, IsKeptOverAReconnectionAndRaisedAgainAfterARestart) {
   SlowBench bench;
   ASSERT_TRUE(bench.run_until(LinkPhase::Running));
   bench.session.line_lost(bench.now_ns);
@@ -59,7 +59,7 @@ TEST(SessionRate, IsKeptOverAReconnectionAndRaisedAgainAfterARestart) {
   EXPECT_EQ(bench.robot.baud, 38400);
 }
 
-TEST(SessionRate, IsNotTouchedWhereTheRobotCannotOrNobodyWantsIt) {
+TEST(ArcosSessionRate, IsNotTouchedWhereTheRobotCannotOrNobodyWantsIt) {
   for (const int autobaud : {-1, 0, 1}) {
     SlowBench bench;
     bench.robot.config.autobaud.reset();
@@ -80,7 +80,7 @@ TEST(SessionRate, IsNotTouchedWhereTheRobotCannotOrNobodyWantsIt) {
   EXPECT_TRUE(faster.robot.received(CommandId::HostBaud).empty());
 }
 
-TEST(SessionRate, ARobotThatDoesNotFollowIsMetAtTheOldRateAndNotAskedAgain) {
+TEST(ArcosSessionRate, ARobotThatDoesNotFollowIsMetAtTheOldRateAndNotAskedAgain) {
   SlowBench bench;
   bench.robot.host_bauds_to_follow = 0;
   ASSERT_TRUE(bench.run_until_asked());
@@ -95,7 +95,7 @@ TEST(SessionRate, ARobotThatDoesNotFollowIsMetAtTheOldRateAndNotAskedAgain) {
   EXPECT_EQ(bench.robot.received(CommandId::HostBaud).size(), 1u);
 }
 
-TEST(SessionRate, ARobotThatFollowsUnheardIsCalledBack) {
+TEST(ArcosSessionRate, ARobotThatFollowsUnheardIsCalledBack) {
   SlowBench bench;
   bench.robot.unheard_at = 38400;
   ASSERT_TRUE(bench.run_until_asked());
@@ -106,7 +106,7 @@ TEST(SessionRate, ARobotThatFollowsUnheardIsCalledBack) {
   EXPECT_EQ(bench.count(Kind::Synchronised), 1);  // it never was away
 }
 
-TEST(SessionRate, LostAllTheSameItIsFoundByTheSweep) {
+TEST(ArcosSessionRate, LostAllTheSameItIsFoundByTheSweep) {
   SlowBench bench;
   bench.robot.host_bauds_to_follow = 1;  // it follows once, and not back
   bench.robot.unheard_at = 38400;
@@ -121,7 +121,7 @@ TEST(SessionRate, LostAllTheSameItIsFoundByTheSweep) {
   EXPECT_EQ(bench.robot.received(CommandId::HostBaud).size(), 2u);
 }
 
-TEST(SessionRate, LineLostWhileTheNewRateIsTried) {
+TEST(ArcosSessionRate, LineLostWhileTheNewRateIsTried) {
   SlowBench bench;
   ASSERT_TRUE(bench.run_until_asked());
   for (int i = 0; i < 10 && bench.session.wanted_baud() == 9600; ++i) bench.tick();
