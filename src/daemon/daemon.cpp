@@ -172,6 +172,7 @@ void Daemon::stop() {
   vision_thread_.join();
   telemetry_.stop();
   telemetry_thread_.join();
+  status_.send_kept();
   log_counters();
   spdlog::info("heeld stopped");
 }

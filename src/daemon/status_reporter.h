@@ -22,6 +22,8 @@ class StatusReporter {
   void reload_started(TimeNs now_ns) { notifier_.reloading(now_ns); }
   void reload_ended();
   void stopping() { notifier_.stopping(); }
+  /// Sends systemd again what it did not take before.
+  void send_kept() { notifier_.send_kept(); }
 
   /// True: the newest tick stopped the robot, and its command is zero.
   bool at_rest() const;

@@ -61,7 +61,7 @@ struct Outcome {
 /// Runs `argv` to its end with empty standard input. Standard output goes to `out_path` where one is given.
 Outcome run_program(const std::vector<std::string>& argv, const std::string& out_path = {});
 
-/// Receives what sd_notify sends.
+/// Receives the messages of a service to systemd, sd_notify(3).
 class NotifySocket {
  public:
   explicit NotifySocket(const std::string& path);
@@ -81,7 +81,7 @@ class NotifySocket {
   int fd_ = -1;
   std::mutex mutex_;
   std::vector<std::string> messages_;  // guarded by mutex_
-  std::thread reader_;  // as systemd does, it reads all the time: a full socket would block the sender
+  std::thread reader_;                 // reads all the time, as systemd does
 };
 
 void sleep_s(double seconds);

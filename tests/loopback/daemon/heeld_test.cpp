@@ -13,6 +13,7 @@
 
 #include "core/config.h"
 #include "loopback/daemon/scene.h"
+#include "support/full_notify_socket.h"
 #include "support/process.h"
 #include "support/temporary_folder.h"
 #include "support/text.h"
@@ -50,7 +51,8 @@ bool reloaded_and_ready(const std::vector<std::string>& messages) {
 /// The film lasts longer than any test waits.
 constexpr int kFramesOfALongFilm = 4000;
 constexpr int kFramesOfAShortFilm = 400;
-constexpr double kWatchdog_s = 2.0;  // of the P3-AT's firmware
+constexpr double kWatchdog_s = 2.0;     // of the P3-AT's firmware
+constexpr double kStopTimeout_s = 5.0;  // TimeoutStopSec of heeld.service: systemd then kills heeld
 
 class Heeld : public ::testing::Test {
  protected:
@@ -72,10 +74,11 @@ class Heeld : public ::testing::Test {
     robot_ = std::make_unique<Process>(argv, scene_.path("robot.log"));
     ASSERT_TRUE(robot_->says("ready at")) << robot_->output();
   }
-  void start_heeld(const std::string& config) {
-    daemon_ = std::make_unique<Process>(
-        std::vector<std::string>{HEELD_PROGRAM, "--config", config}, scene_.path("heeld.log"),
-        std::map<std::string, std::string>{{"NOTIFY_SOCKET", notify_.path()}});
+  void start_heeld(const std::string& config) { start_heeld(config, notify_.path()); }
+  void start_heeld(const std::string& config, const std::string& notify_socket) {
+    daemon_ = std::make_unique<Process>(std::vector<std::string>{HEELD_PROGRAM, "--config", config},
+                                        scene_.path("heeld.log"),
+                                        std::map<std::string, std::string>{{"NOTIFY_SOCKET", notify_socket}});
   }
   double speed() const { return newest_truth(scene_.path("truth.csv")).v_m_s; }
   bool drives() {
@@ -110,6 +113,28 @@ TEST_F(Heeld, GetsReadyFollowsAndStopsOnSigterm) {
   EXPECT_TRUE(stands()) << logs();
   // By STOP, not by the watchdog.
   EXPECT_THAT(robot_->output(), Not(HasSubstr("watchdog")));
+}
+
+// systemd hangs, and its notification socket is full.
+TEST_F(Heeld, StopsTheRobotOnSigtermInTimeThoughSystemdReadsNothing) {
+  test::FullNotifySocket notify(scene_.path("full"));
+  double took_s = 0.0;
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    start_robot();
+    start_heeld(scene_.write_config(), notify.name());
+    ASSERT_TRUE(drives()) << logs();
+    const double t_signal_s = monotonic_s();
+    daemon_->signal(SIGTERM);
+    ASSERT_EQ(daemon_->wait(), 0) << logs();
+    took_s = monotonic_s() - t_signal_s;
+    ASSERT_TRUE(robot_->says("closed")) << logs();
+    ASSERT_TRUE(stands()) << logs();
+    EXPECT_THAT(robot_->output(), Not(HasSubstr("watchdog")));
+    if (took_s < kStopTimeout_s) break;
+    robot_.reset();
+  }
+  EXPECT_LT(took_s, kStopTimeout_s) << logs();
+  EXPECT_THAT(notify.take(), testing::IsEmpty()) << "the socket was not full";
 }
 
 TEST_F(Heeld, IsNotReadyWithoutARobotAndSaysWhy) {
