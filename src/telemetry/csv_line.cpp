@@ -8,10 +8,10 @@ namespace heel {
 namespace {
 
 /// The shortest text that reads back as the same number.
-class Digits {
+class NumberText {
  public:
   template <typename Number>
-  explicit Digits(Number value) {
+  explicit NumberText(Number value) {
     end_ = std::to_chars(bytes_.data(), bytes_.data() + bytes_.size(), value).ptr;
   }
   std::string_view view() const { return {bytes_.data(), static_cast<std::size_t>(end_ - bytes_.data())}; }
@@ -38,24 +38,24 @@ void CsvLine::begin_cell() {
 
 void CsvLine::number(double value) {
   begin_cell();
-  put(std::isnan(value) ? "nan" : Digits(value).view());
+  put(std::isnan(value) ? "nan" : NumberText(value).view());
 }
 
 void CsvLine::integer(std::int64_t value) {
   begin_cell();
-  put(Digits(value).view());
+  put(NumberText(value).view());
 }
 
 void CsvLine::integer(std::uint64_t value) {
   begin_cell();
-  put(Digits(value).view());
+  put(NumberText(value).view());
 }
 
 void CsvLine::seconds(TimeNs t_ns) {
   begin_cell();
   if (t_ns < 0) put('-');
   const auto magnitude = t_ns < 0 ? -static_cast<std::uint64_t>(t_ns) : static_cast<std::uint64_t>(t_ns);
-  put(Digits(magnitude / kNsPerS).view());
+  put(NumberText(magnitude / kNsPerS).view());
   put('.');
   std::uint64_t rest = magnitude % kNsPerS;
   for (std::uint64_t unit = kNsPerS / 10; unit > 0; unit /= 10) {
