@@ -297,6 +297,9 @@ struct BadOption {
   std::vector<std::string> arguments;
   std::string complaint;
 };
+void PrintTo(const BadOption& bad, std::ostream* out) {
+  *out << testing::PrintToString(bad.arguments);
+}
 class HeelSimOptions : public testing::TestWithParam<BadOption> {};
 
 TEST_P(HeelSimOptions, AreRefusedByNameAndExpectation) {

@@ -71,6 +71,9 @@ struct Shared {
   const char* text;
   double duration_s;
 };
+void PrintTo(const Shared& shared, std::ostream* out) {
+  *out << shared.duration_s << " s";
+}
 
 evaluation::FollowMetrics run(const LockstepSettings& settings) {
   evaluation::RunRecord record("", settings);

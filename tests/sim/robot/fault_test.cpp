@@ -148,9 +148,13 @@ TEST(RobotFaults, ResetBumperButtonStallAndBaudTakeEffect) {
 }
 
 struct StallCase {
+  const char* name;
   double amount;
   bool left, right;
 };
+void PrintTo(const StallCase& stall, std::ostream* out) {
+  *out << "amount " << stall.amount;
+}
 class StallFault : public testing::TestWithParam<StallCase> {};
 
 TEST_P(StallFault, BlocksTheWheelsNamed) {
@@ -168,8 +172,9 @@ TEST_P(StallFault, BlocksTheWheelsNamed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Wheels, StallFault,
-                         testing::Values(StallCase{0, true, true}, StallCase{1, true, false},
-                                         StallCase{2, false, true}));
+                         testing::Values(StallCase{"Both", 0, true, true}, StallCase{"Left", 1, true, false},
+                                         StallCase{"Right", 2, false, true}),
+                         [](const auto& stall) { return std::string(stall.param.name); });
 
 }  // namespace
 }  // namespace heel::sim

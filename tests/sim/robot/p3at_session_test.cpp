@@ -73,21 +73,27 @@ TEST(P3AtSession, SendsNoSipBeforeOpenAndOneEvery100MsAfter) {
   }
 }
 
-class P3AtOpenAndClose : public testing::TestWithParam<const char*> {};
+/// Packets that open and close the session, in hexadecimal, and the clients that send them.
+struct OpenAndCloseCase {
+  const char* name;
+  const char* open;
+  const char* close;
+};
+void PrintTo(const OpenAndCloseCase& tested, std::ostream* out) {
+  *out << tested.open << " " << tested.close;
+}
+class P3AtOpenAndClose : public testing::TestWithParam<OpenAndCloseCase> {};
 
 TEST_P(P3AtOpenAndClose, WorkWithThisSpelling) {
-  const std::string both = GetParam();
-  const std::string open = both.substr(0, both.find(' '));
-  const std::string close = both.substr(both.find(' ') + 1);
   VirtualClient client(exact_settings());
   client.sync();
-  client.send_hex(open);
+  client.send_hex(GetParam().open);
   client.run_ms(300);
   EXPECT_FALSE(client.sips().empty());
   client.command(CommandId::Enable, 1);
   client.command(CommandId::Vel, 300);
   client.run_ms(1000);
-  client.send_hex(close);
+  client.send_hex(GetParam().close);
   client.run_ms(100);
   EXPECT_EQ(client.robot.truth().session, Session::Waiting);
   EXPECT_FALSE(client.robot.truth().motors_enabled);
@@ -98,10 +104,12 @@ TEST_P(P3AtOpenAndClose, WorkWithThisSpelling) {
   ASSERT_NO_FATAL_FAILURE(client.sync());
 }
 
-INSTANTIATE_TEST_SUITE_P(Spellings, P3AtOpenAndClose,
-                         testing::Values("fafb03010001 fafb03020002",              // p2os, Soar: no argument
-                                         "fafb06013b0100023b fafb06023b0100033b",  // ARIA: INT 1
-                                         "fafb04013b013b fafb04023b023b"));        // a lone type byte
+INSTANTIATE_TEST_SUITE_P(
+    Spellings, P3AtOpenAndClose,
+    testing::Values(OpenAndCloseCase{"P2osAndSoarWithoutArgument", "fafb03010001", "fafb03020002"},
+                    OpenAndCloseCase{"AriaWithTheInteger1", "fafb06013b0100023b", "fafb06023b0100033b"},
+                    OpenAndCloseCase{"ATypeByteWithoutArgument", "fafb04013b013b", "fafb04023b023b"}),
+    [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST(P3AtSession, IdsOfTheSyncsMeanPulseOpenAndCloseOnceConnected) {
   VirtualClient client(exact_settings());

@@ -68,7 +68,9 @@ TEST_P(P3AtPositionUnits, WrapNaturallyIn16Bits) {
   EXPECT_NEAR(std::remainder(sip.x_pos - units, 65536.0), 0.0, 125.0 / mm_per_unit);
 }
 
-INSTANTIATE_TEST_SUITE_P(Factors, P3AtPositionUnits, testing::Values(1.0, 0.465));
+INSTANTIATE_TEST_SUITE_P(Factors, P3AtPositionUnits, testing::Values(1.0, 0.465), [](const auto& factor) {
+  return std::to_string(std::lround(factor.param * 1000)) + "MicrometresPerUnit";
+});
 
 TEST(P3AtSipHeading, IsSignedOrCountsFromZeroAsConfigured) {
   for (const bool from_zero : {false, true}) {
@@ -144,7 +146,15 @@ struct BumpCase {
   int speed_mm_s;
   bool front;
   bool stalls;
+
+  std::string name() const {
+    return "BumpStall" + std::to_string(bump_stall) + (speed_mm_s > 0 ? "Forward" : "Backward") +
+           (front ? "FrontBumper" : "RearBumper");
+  }
 };
+void PrintTo(const BumpCase& bump, std::ostream* out) {
+  *out << (bump.stalls ? "stalls" : "drives on");
+}
 class P3AtBumpStall : public testing::TestWithParam<BumpCase> {};
 
 TEST_P(P3AtBumpStall, StopsTheRobotOnlyInTheDirectionOfTheBumper) {
@@ -168,7 +178,8 @@ INSTANTIATE_TEST_SUITE_P(Table, P3AtBumpStall,
                                          BumpCase{1, 300, true, true}, BumpCase{1, -300, false, false},
                                          BumpCase{1, -300, true, false}, BumpCase{2, 300, true, false},
                                          BumpCase{2, -300, false, true}, BumpCase{2, 300, false, false},
-                                         BumpCase{3, 300, true, true}, BumpCase{3, -300, false, true}));
+                                         BumpCase{3, 300, true, true}, BumpCase{3, -300, false, true}),
+                         [](const auto& bump) { return bump.param.name(); });
 
 TEST(P3AtStall, ABlockedWheelCutsPowerAfterHalfASecondAndTriesAgain) {
   VirtualClient client(fast_exact_settings());
@@ -278,6 +289,9 @@ struct SonarCase {
   int argument;
   int flags;
 };
+void PrintTo(const SonarCase& sonar, std::ostream* out) {
+  *out << "flags " << sonar.flags;
+}
 class P3AtSonarCommand : public testing::TestWithParam<SonarCase> {};
 
 TEST_P(P3AtSonarCommand, SwitchesArrays) {
@@ -298,7 +312,8 @@ TEST_P(P3AtSonarCommand, SwitchesArrays) {
 
 INSTANTIATE_TEST_SUITE_P(Arguments, P3AtSonarCommand,
                          testing::Values(SonarCase{0, 0}, SonarCase{1, 0b110}, SonarCase{3, 0b010},
-                                         SonarCase{5, 0b100}, SonarCase{2, 0b100}, SonarCase{4, 0b010}));
+                                         SonarCase{5, 0b100}, SonarCase{2, 0b100}, SonarCase{4, 0b010}),
+                         [](const auto& sonar) { return "Argument" + std::to_string(sonar.param.argument); });
 
 TEST(P3AtSonar, MeasuresFromItsMountInTheWorld) {
   P3AtSettings settings = fast_exact_settings();
