@@ -1,4 +1,5 @@
-// heel pose: the vision stage on the frames of images, folders and videos; one result for each frame.
+// heel pose: the vision stage of heeld on the frames of images, folders and videos; one result for each
+// frame.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -7,16 +8,18 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "commands.h"
+#include "config/config_load.h"
 #include "files/camera_info.h"
 #include "files/frame_input.h"
 #include "files/image_file.h"
 #include "files/template_file.h"
 #include "heel/error.h"
-#include "heel/pose_estimator.h"
+#include "heel/pose_tracker.h"
 #include "picture.h"
 #include "pose_output.h"
 
@@ -27,16 +30,48 @@ constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
 struct PoseOptions {
   std::vector<std::string> inputs;
+  std::string config_file;
   std::string template_file;
   std::string camera_file;
   bool json = false;
   bool oriented = false;
+  bool independent = false;
   std::string picture_dir;
   std::uint64_t first = 0;
   std::uint64_t last = kNoLimit;
-  double rate_hz = 30.0;
+  std::optional<double> rate_hz;
+  std::optional<int> max_features;
+  std::optional<int> octaves;
+};
+
+/// What heeld would run with, by the configuration file and the options, which replace the file's values.
+struct Setup {
+  ShirtTemplate shirt;
+  CameraModel camera;
+  std::string camera_file;
+  double image_rate_hz = 0.0;
   VisionConfig vision;
 };
+
+Setup load_setup(const PoseOptions& options) {
+  Config config;
+  if (!options.config_file.empty()) {
+    config = load_config(options.config_file).config;
+  } else if (options.template_file.empty() || options.camera_file.empty()) {
+    throw Error("expected --config, or both --template and --camera-info (see heel pose --help)");
+  }
+  Setup setup;
+  setup.shirt = read_template(options.template_file.empty() ? config.target.shirt : options.template_file);
+  if (config.target.distance_m > 0.0) setup.shirt.distance_m = config.target.distance_m;
+  if (options.oriented) setup.shirt.oriented = true;
+  setup.camera_file = options.camera_file.empty() ? config.camera.info : options.camera_file;
+  setup.camera = read_camera_model(setup.camera_file);
+  setup.image_rate_hz = options.rate_hz.value_or(config.camera.rate_hz);
+  setup.vision = config.vision;
+  setup.vision.max_features = options.max_features.value_or(config.vision.max_features);
+  setup.vision.octaves = options.octaves.value_or(config.vision.octaves);
+  return setup;
+}
 
 FrameView view_of(const InputFrame& frame) {
   FrameView view = frame_view_of(frame.grey);
@@ -45,9 +80,9 @@ FrameView view_of(const InputFrame& frame) {
   return view;
 }
 
-PoseRow estimate(PoseEstimator& estimator, const InputFrame& frame) {
+PoseRow estimate(PoseTracker& tracker, const InputFrame& frame) {
   const auto start = std::chrono::steady_clock::now();
-  const PoseEstimate pose = estimator.estimate(view_of(frame));
+  const PoseEstimate pose = tracker.estimate(view_of(frame));
   const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
   return {frame.number, frame.t_s, pose, elapsed.count()};
 }
@@ -91,9 +126,11 @@ void make_folder(const std::string& folder) {
 }
 
 /// Estimates and prints every frame from the first to the last that the options name.
-void process_frames(const PoseOptions& options, const ShirtTemplate& shirt, const CameraModel& camera) {
-  PoseEstimator estimator(shirt, camera, options.vision);
-  FrameInput input(options.inputs, options.rate_hz);
+void process_frames(const PoseOptions& options, Setup setup) {
+  FrameInput input(options.inputs, setup.image_rate_hz);
+  // A single picture has no frame before or after it that could share the work of a search.
+  if (options.independent || input.stated_frame_count() == 1) setup.vision.tracking = false;
+  PoseTracker tracker(setup.shirt, setup.camera, setup.vision);
   const Progress progress(input.stated_frame_count());
   PoseSummary summary;
   InputFrame frame;
@@ -101,11 +138,12 @@ void process_frames(const PoseOptions& options, const ShirtTemplate& shirt, cons
   if (!input.skip(options.first))
     throw Error(fmt::format("--first {}: the input ends before that frame", options.first));
   while (input.next(frame) && frame.number <= options.last) {
-    require_size(frame, camera, options.camera_file);
-    const PoseRow row = estimate(estimator, frame);
+    require_size(frame, setup.camera, setup.camera_file);
+    const PoseRow row = estimate(tracker, frame);
     std::puts((options.json ? pose_json(row) : pose_table_row(row)).c_str());
     summary.add(row);
-    if (!options.picture_dir.empty()) write_pose_picture(options.picture_dir, frame, row.pose, shirt, camera);
+    if (!options.picture_dir.empty())
+      write_pose_picture(options.picture_dir, frame, row.pose, setup.shirt, setup.camera);
     progress.show(frame.number);
   }
   std::fflush(stdout);
@@ -116,11 +154,9 @@ void run_pose(const PoseOptions& options) {
   if (options.last < options.first)
     throw Error(fmt::format("--last {}: before --first {} (expected the same frame or a later one)",
                             options.last, options.first));
-  ShirtTemplate shirt = read_template(options.template_file);
-  if (options.oriented) shirt.oriented = true;
-  const CameraModel camera = read_camera_model(options.camera_file);
+  const Setup setup = load_setup(options);
   if (!options.picture_dir.empty()) make_folder(options.picture_dir);
-  process_frames(options, shirt, camera);
+  process_frames(options, setup);
 }
 
 }  // namespace
@@ -129,7 +165,9 @@ void add_pose_command(CLI::App& app) {
   auto options = std::make_shared<PoseOptions>();
   CLI::App* command = app.add_subcommand(
       "pose",
-      "Where the shirt is, and which way it faces, in images, folders of images or videos.\n"
+      "Where the shirt is, and which way it faces, in images, folders of images or videos. Runs what heeld\n"
+      "runs: frames follow each other and the shirt is tracked, except with --independent and in a single\n"
+      "picture.\n"
       "With --json one object a line: frame (from 0), t_s, found, reason, certainty (inliers / template\n"
       "features), inliers, yaw_rad (positive: walking to the image's right), yaw_sigma_rad, t_over_d [3],\n"
       "position_m [3] (null when the template's distance is not known), H_cur_from_ref [9] (row-major,\n"
@@ -138,11 +176,18 @@ void add_pose_command(CLI::App& app) {
   command->add_option("inputs", options->inputs, "images, folders of images, videos")
       ->required()
       ->type_name("INPUT");
-  command->add_option("--template", options->template_file, "template file made by heel teach")
-      ->required()
+  command
+      ->add_option("--config", options->config_file,
+                   "heeld's configuration file: template, camera and [vision] (default: every key at its "
+                   "default)")
+      ->type_name("FILE");
+  command
+      ->add_option("--template", options->template_file,
+                   "template file made by heel teach (default: target.shirt of --config)")
       ->type_name("T.heel");
-  command->add_option("--camera-info", options->camera_file, "the camera that took the input")
-      ->required()
+  command
+      ->add_option("--camera-info", options->camera_file,
+                   "the camera that took the input (default: camera.info of --config)")
       ->type_name("CAM.yaml");
   command->add_flag("--json", options->json, "one JSON object a line (default: a table)");
   command
@@ -151,19 +196,25 @@ void add_pose_command(CLI::App& app) {
       ->type_name("DIR");
   command->add_option("--first", options->first, "first frame processed")->type_name("N");
   command->add_option("--last", options->last, "last frame processed")->type_name("N");
-  command->add_option("--rate", options->rate_hz, "frame rate of images (default 30)")
+  command
+      ->add_option("--rate", options->rate_hz,
+                   "frame rate of images (default: camera.rate_hz of --config, else 30)")
       ->type_name("HZ")
       ->check(number_from(0.001, 10000.0));
+  command->add_flag("--independent", options->independent,
+                    "the pictures have nothing to do with each other: search each on its own, track nothing");
   command->add_flag("--oriented", options->oriented,
                     "oriented descriptors, also when the template says upright");
-  command->add_option("--max", options->vision.max_features, "at most this many features a frame")
+  command
+      ->add_option("--max", options->max_features,
+                   "at most this many features a frame (default: vision.max_features)")
       ->type_name("N")
-      ->check(CLI::Range(50, 5000))
-      ->capture_default_str();
-  command->add_option("--octaves", options->vision.octaves, "octaves of scale searched in a frame")
+      ->check(CLI::Range(50, 5000));
+  command
+      ->add_option("--octaves", options->octaves,
+                   "octaves of scale searched in a frame (default: vision.octaves)")
       ->type_name("N")
-      ->check(CLI::Range(1, 4))
-      ->capture_default_str();
+      ->check(CLI::Range(1, 4));
   command->callback([options] { run_pose(*options); });
 }
 

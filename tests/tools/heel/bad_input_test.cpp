@@ -170,6 +170,10 @@ TEST(BadInput, OfPoseIsRefused) {
       {f.pose({image, "--first", "3"}), "heel pose: ", "--first 3"},
       {f.pose({image, "--first", "3", "--last", "2"}), "heel pose: ", "--last 2"},
       {f.pose({image, "--octaves", "9"}), "heel pose: ", "--octaves"},
+      {{"pose", image, "--template", f.at("shirt.heel")},
+       "heel pose: ",
+       "expected --config, or both --template and --camera-info"},
+      {f.pose({image, "--config", f.at("absent.toml")}), "heel pose: ", "absent.toml"},
       {f.pose({image, "--rate", "0"}), "heel pose: ", "--rate"},
       {f.pose({image, "--picture-dir", f.at("words.txt") + "/x"}), "heel pose: ", "--picture-dir"},
   });
