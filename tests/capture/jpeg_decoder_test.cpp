@@ -1,4 +1,4 @@
-// JPEG to grey: right, and unharmed by what is not right.
+// JPEG to grey: good images are decoded, bad ones are refused and do no harm.
 #include "capture/jpeg_decoder.h"
 
 #include <gmock/gmock.h>
@@ -52,12 +52,12 @@ class JpegDecoderTest : public testing::Test {
   std::vector<std::uint8_t> grey_ = std::vector<std::uint8_t>(2 * kWidth * kHeight);
 };
 
-TEST_F(JpegDecoderTest, ColourImagesBecomeTheirLuma) {
+TEST_F(JpegDecoderTest, ColourImagesGiveTheirLuma) {
   ASSERT_TRUE(decode(made_jpeg())) << decoder_.problem();
   EXPECT_LT(mean_error(), 1.5);
 }
 
-// As Motion-JPEG cameras send them: without the Huffman tables that are the standard's anyway.
+// Motion-JPEG cameras send images without Huffman tables, because they use those of the standard.
 TEST_F(JpegDecoderTest, ImagesWithoutHuffmanTablesAreDecodedWithTheStandardOnes) {
   const std::vector<std::uint8_t> jpeg = made_jpeg();
   std::vector<std::uint8_t> bare(jpeg.begin(), jpeg.begin() + 2);
@@ -86,7 +86,7 @@ TEST_F(JpegDecoderTest, TruncatedImagesAreRefusedWhereverTheyEnd) {
     EXPECT_FALSE(decode(part)) << bytes << " of " << jpeg.size() << " bytes";
     EXPECT_STRNE(decoder_.problem(), "") << bytes;
   }
-  EXPECT_TRUE(decode(jpeg)) << "the decoder is fit for the next image: " << decoder_.problem();
+  EXPECT_TRUE(decode(jpeg)) << "the decoder must decode the next image: " << decoder_.problem();
 }
 
 TEST_F(JpegDecoderTest, AnotherSizeIsRefusedBeforeAnythingIsWritten) {
@@ -96,13 +96,13 @@ TEST_F(JpegDecoderTest, AnotherSizeIsRefusedBeforeAnythingIsWritten) {
   EXPECT_THAT(grey_, testing::Each(0xab));
 }
 
-TEST_F(JpegDecoderTest, DamagedBytesNeverHarmTheProgram) {
+TEST_F(JpegDecoderTest, DamagedBytesDoNoHarm) {
   const std::vector<std::uint8_t> jpeg = made_jpeg();
   for (unsigned seed = 0; seed < 300; ++seed) {
     std::mt19937 random(seed);
     std::vector<std::uint8_t> damaged = jpeg;
     for (int i = 0; i < 8; ++i) damaged[random() % damaged.size()] = static_cast<std::uint8_t>(random());
-    decode(damaged);  // any verdict, under the sanitizers
+    decode(damaged);  // any result is right; the sanitizers check the memory accesses
   }
   EXPECT_TRUE(decode(jpeg));
   EXPECT_LT(mean_error(), 1.5);

@@ -1,4 +1,4 @@
-// Luma out of camera formats, with odd strides and short last rows.
+// Luma from camera formats, with odd strides and short last rows.
 #include "capture/pixel_format.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace heel {
 namespace {
 
-TEST(PixelFormat, NamesThereAndBack) {
+TEST(PixelFormat, NamesAreParsedToTheirFormats) {
   std::set<std::string> names;
   for (const PixelFormat format : pixel_formats()) {
     names.insert(to_string(format));
@@ -33,8 +33,8 @@ TEST(PixelFormat, TheLastRowNeedsNoPadding) {
   EXPECT_EQ(luma_bytes_needed(PixelFormat::Mjpg, 640, 480, 0), 0u);
 }
 
-/// Frames of every width and padding, exactly as long as promised: the address sanitizer sees a byte read
-/// beyond.
+/// Frames of every width and padding, exactly as long as luma_bytes_needed says: the address sanitizer finds
+/// a byte read after the end.
 void expect_luma(PixelFormat format, std::vector<std::uint8_t> (*pixel)(std::uint8_t), double tolerance) {
   for (const std::uint32_t width_px : {1u, 2u, 7u, 64u, 101u}) {
     for (const std::uint32_t padding : {0u, 1u, 13u}) {

@@ -1,4 +1,4 @@
-// Camera addresses and the factory: what is accepted, and what a wrong one is told.
+// Camera addresses and the factory: what is accepted, and the messages for wrong ones.
 #include "capture/factory/source_address.h"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ std::string complaint_about(const std::string& address) {
   return test::complaint_of([&] { parse_source_address(address); });
 }
 
-TEST(SourceAddress, EachKindWithItsRest) {
+TEST(SourceAddress, IsSplitIntoKindAndRest) {
   const SourceAddress v4l2 = parse_source_address("v4l2:/dev/video0");
   EXPECT_EQ(v4l2.kind, SourceKind::V4l2);
   EXPECT_EQ(v4l2.rest, "/dev/video0");
@@ -30,7 +30,7 @@ TEST(SourceAddress, EachKindWithItsRest) {
   EXPECT_EQ(parse_source_address("file:C:/odd:name").rest, "C:/odd:name") << "only the first colon counts";
 }
 
-TEST(SourceAddress, WrongOnesAreNamedWithWhatWasExpected) {
+TEST(SourceAddress, WrongAddressesAreNamedWithWhatIsExpected) {
   EXPECT_THAT(complaint_about("/dev/video0"),
               AllOf(HasSubstr("'/dev/video0'"), HasSubstr("expected v4l2:PATH")));
   EXPECT_THAT(complaint_about("usb:0"), AllOf(HasSubstr("unknown kind 'usb'"), HasSubstr("sim:NAME")));
@@ -38,7 +38,7 @@ TEST(SourceAddress, WrongOnesAreNamedWithWhatWasExpected) {
   EXPECT_THAT(complaint_about(""), HasSubstr("no kind before a colon"));
 }
 
-TEST(FrameSourceFactory, OpeningWhatIsNotThereIsOneLineThatNamesIt) {
+TEST(FrameSourceFactory, OpeningAMissingCameraGivesOneLineThatNamesIt) {
   CameraConfig config;
   config.source = "file:/nowhere/at/all.mp4";
   EXPECT_THAT(test::complaint_of([&] { open_frame_source(config); }),
@@ -49,7 +49,7 @@ TEST(FrameSourceFactory, OpeningWhatIsNotThereIsOneLineThatNamesIt) {
   EXPECT_THROW(make_frame_source(config), Error);
 }
 
-TEST(FrameSourceFactory, ALibcameraCameraThatIsNotThereIsNamed) {
+TEST(FrameSourceFactory, AMissingLibcameraCameraIsNamed) {
   CameraConfig config;
   config.source = "libcamera:no such camera";
   EXPECT_THAT(test::complaint_of([&] { open_frame_source(config); }),

@@ -1,4 +1,5 @@
-// Frames made for tests: every pixel is a function of sequence and place, so that mixtures show.
+// Frames made for tests: every pixel is a function of sequence and place, so that a mixture of two frames
+// shows.
 #pragma once
 
 #include <cstdint>

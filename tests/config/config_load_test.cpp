@@ -1,4 +1,4 @@
-// The parser against hand-written files: what is taken, what is refused, and what is said about it.
+// The parser with hand-written files: what is accepted, what is refused, and the messages.
 #include "config/config_load.h"
 
 #include <gmock/gmock.h>
@@ -30,7 +30,7 @@ std::vector<std::string> complaints_about(const std::string& text) {
   return {};
 }
 
-TEST(ConfigLoad, TakesValuesAndRemembersTheirLines) {
+TEST(ConfigLoad, ReadsValuesAndTheirLines) {
   const LoadedConfig loaded = parse_config("[control]\n\ngain_yaw_1_s = 3\nreverse = true\n", "/etc/f.toml");
   EXPECT_EQ(loaded.config.control.gain_yaw_1_s, 3.0);
   EXPECT_TRUE(loaded.config.control.reverse);
@@ -58,7 +58,7 @@ TEST(ConfigLoad, UnknownSectionNamesPlaceAndNearest) {
               ElementsAre("f.toml:1:2: contorl: no such section; did you mean control?"));
 }
 
-TEST(ConfigLoad, SaysEverythingThatIsWrong) {
+TEST(ConfigLoad, ReportsAllErrorsAtOnce) {
   EXPECT_THAT(
       complaints_about("[gate]\nv_max_m_s = 'fast'\nacceleration_m_s2 = -1\n[camera]\nwidth_px = 640.5\n"
                        "at_end = \"pause\"\nsource = \"usb\"\n[robot]\nsonar = 1\n"),
@@ -95,7 +95,7 @@ TEST(ConfigLoad, ChecksKeysAgainstEachOther) {
   EXPECT_THAT(complaints_about("[supervisor]\ncertainty_drop = 0.5\n"),
               ElementsAre("f.toml:2:1: supervisor.certainty_drop: 0.5 (must not be larger than "
                           "supervisor.certainty_follow)"));
-  // The key at fault stands at its default: there is no line to name.
+  // The wrong key has its default: there is no line to name.
   std::ostringstream standing;
   standing << SupervisorConfig{}.certainty_drop;
   EXPECT_THAT(complaints_about("[supervisor]\ncertainty_follow = 0.01\n"),
@@ -108,7 +108,7 @@ TEST(ConfigLoad, DefaultsPassTheirOwnChecks) {
   EXPECT_TRUE(complaints_about(default_config_text()).empty());
 }
 
-TEST(ConfigLoad, RelativePathsStartAtTheFile) {
+TEST(ConfigLoad, RelativePathsAreRelativeToTheFile) {
   const Config config =
       parse_config(
           "[target]\nshirt = \"red.heel\"\n[camera]\nsource = \"file:../v.mp4\"\ninfo = \"/a/c.yaml\"\n"
@@ -173,12 +173,12 @@ TEST(ConfigTable, EveryKeyIsDescribedOnceInAKnownSectionWithADefaultInRange) {
   }
 }
 
-TEST(ConfigTable, RemovedKeysAreNoKeys) {
+TEST(ConfigTable, RemovedKeysAreNotInTheTable) {
   for (const auto& removed : removed_config_keys())
     for (const auto& key : config_keys()) EXPECT_NE(key.full_name(), removed.full_name);
 }
 
-TEST(ConfigTable, EveryNumberRefusesJustOutsideItsRange) {
+TEST(ConfigTable, EveryNumberJustOutsideItsRangeIsRefused) {
   int numbers = 0;
   for (const auto& key : config_keys()) {
     if (type_name(key) != "int" && type_name(key) != "real") continue;

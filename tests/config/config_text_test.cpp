@@ -1,4 +1,4 @@
-// The committed example file and manual are those that the table of keys makes. To write them again:
+// The committed example file and manual equal those made from the table of keys. To write them again:
 //   heeld --print-default-config > config/heel.toml;  heeld --print-config-manual > docs/configuration.md
 #include "config/config_text.h"
 

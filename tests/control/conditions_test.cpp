@@ -94,7 +94,7 @@ TEST(Conditions, EachInputRaisesItsOwnBitAlone) {
   }
 }
 
-TEST(Conditions, DisabledIsNoFaultOfTheLine) {
+TEST(Conditions, MotorsOffAreNotALinkFault) {
   Bench bench;
   bench.start_following();
   bench.input.robot.phase = LinkPhase::Disabled;
@@ -182,7 +182,7 @@ TEST(Conditions, LostAfterTheTimeoutAndFollowedAgainByTheSameRule) {
   EXPECT_EQ(bench.frame(), 0);
 }
 
-TEST(Conditions, LostBeforeEverSeenIsNoTargetYet) {
+TEST(Conditions, ATargetNeverFollowedIsNotYetSeenNotLost) {
   Bench bench;
   for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.idle(kFrame_ns) & (kTargetLost | kNoTargetYet), kNoTargetYet);
 }

@@ -23,7 +23,7 @@ struct Following {
   Pose2 person{3.0, 0.0, 0.0};
   double person_v_m_s = 0.5, person_yaw_rate_rad_s = 0.0;
   bool camera = true, visible = true;
-  double ahead_m = 0.0;  // what the front sonar left of the middle measures, when more than 0
+  double ahead_m = 0.0;  // range of the front sonar just left of the middle; 0: free
   ControlInput input;
   TickRecord record;
   double v_m_s = 0.0, yaw_rate_rad_s = 0.0;
@@ -91,7 +91,7 @@ TEST(ControlStage, WaitsForFramesThenStartsWithinTheAccelerationLimit) {
   EXPECT_GT(run.v_m_s, 0.2);
 }
 
-TEST(ControlStage, TheRecordHoldsTheInputAndWhatBecameOfThePose) {
+TEST(ControlStage, TheRecordHoldsTheInputAndTheStatusOfThePose) {
   Following run;
   run.tick();
   EXPECT_EQ(run.record.input.now_ns, 5 * kNsPerS);
@@ -129,7 +129,7 @@ TEST(ControlStage, FollowsAWalkingPersonRoundABend) {
   EXPECT_NEAR(wrap_angle_rad(run.robot.heading_rad - run.person.heading_rad), 0.0, 0.03);
 }
 
-TEST(ControlStage, TargetLostComesToRestInTime) {
+TEST(ControlStage, ComesToRestInTimeWhenTheTargetIsLost) {
   Following run;
   run.person_v_m_s = 0.7;
   run.run(10.0);
@@ -139,7 +139,7 @@ TEST(ControlStage, TargetLostComesToRestInTime) {
   EXPECT_EQ(run.record.stop_reason, StopReason::TargetLost);
 }
 
-TEST(ControlStage, CameraGoneComesToRestInTime) {
+TEST(ControlStage, ComesToRestInTimeWhenTheCameraIsLost) {
   Following run;
   run.person_v_m_s = 0.7;
   run.run(10.0);
@@ -148,7 +148,7 @@ TEST(ControlStage, CameraGoneComesToRestInTime) {
   EXPECT_EQ(run.record.stop_reason, StopReason::StaleFrame);
 }
 
-TEST(ControlStage, ReasonsAboutTheRobotStopAtOnceAndResumeFromZero) {
+TEST(ControlStage, FaultsOfTheRobotStopAtOnceAndTheRobotResumesFromZero) {
   Following run;
   run.run(10.0);
   ASSERT_GT(run.v_m_s, 0.3);
@@ -182,7 +182,7 @@ TEST(ControlStage, StopsBeforeAnObstacle) {
   EXPECT_NEAR(run.ahead_m * std::cos(0.1745) - 0.068, run.config.gate.clearance_m, 0.07);
 }
 
-TEST(ControlStage, SilentSonarsAreAReasonToRestUnlessTheyAreOff) {
+TEST(ControlStage, RestsWhenTheSonarsAreSilentUnlessTheyAreOff) {
   for (const bool sonar : {true, false}) {
     Following run;
     run.config.robot.sonar = sonar;
@@ -191,14 +191,14 @@ TEST(ControlStage, SilentSonarsAreAReasonToRestUnlessTheyAreOff) {
     ASSERT_GT(run.v_m_s, 0.4);
     for (int i = 0; i < 100; ++i) {
       run.tick();
-      run.input.robot.sonar.fill({7 * kNsPerS, 0.2});  // older than anything, and near
+      run.input.robot.sonar.fill({7 * kNsPerS, 0.2});  // near, but too old to count
     }
     EXPECT_EQ(run.record.stop_reason, sonar ? StopReason::SonarSilent : StopReason::None);
     EXPECT_EQ(run.v_m_s == 0.0, sonar);
   }
 }
 
-TEST(ControlStage, ShutdownIsZero) {
+TEST(ControlStage, ShutdownCommandsZero) {
   Following run;
   run.run(5.0);
   run.input.shutdown = true;
@@ -217,7 +217,7 @@ TEST(ControlStage, AfterAGapInTheTicksTheFirstCommandIsZero) {
   EXPECT_EQ(run.yaw_rate_rad_s, 0.0);
 }
 
-TEST(ControlStage, ReconnectionForgetsTheTarget) {
+TEST(ControlStage, AReconnectionDiscardsTheTarget) {
   Following run;
   run.run(2.0);
   ASSERT_TRUE(run.record.target.known);
@@ -254,7 +254,7 @@ TEST(ControlStage, TheSameInputsGiveTheSameCommands) {
   EXPECT_GT(counts.moving, 400);
 }
 
-TEST(ControlStage, AnotherLawNeedsAnotherStage) {
+TEST(ControlStage, ReconfigureDoesNotChangeTheLaw) {
   Following run, unchanged;
   run.config.control.law = "position";
   run.stage.reconfigure(run.config);
@@ -282,7 +282,7 @@ TEST_P(ControlStageWithEachLaw, FollowsAPersonWhoWalksStraight) {
   EXPECT_EQ(run.yaw_rate_rad_s, 0.0);
 }
 
-/// A person who jumps about, unlike any person, and is not found now and then.
+/// A person who jumps from place to place every 0.8 s and is sometimes not found.
 TEST_P(ControlStageWithEachLaw, CommandsStayWithinTheLimitsOfTheGate) {
   Following run(GetParam());
   run.config.estimate.outliers_to_reset = 2;  // the estimate follows the jumps

@@ -71,14 +71,14 @@ TEST_P(FollowLawTest, IsBoundedForEveryTarget) {
   for (int i = 0; i < 20'000; ++i) {
     const TargetState target = any_target(random);
     const WantedVelocity wanted = velocity(*law, target);
-    // More than the gate allows, but not arbitrarily more.
+    // A law may want more than the gate allows, but within bounds.
     ASSERT_LE(std::abs(wanted.v_m_s), 15.0) << target.x_m << " " << target.y_m << " " << target.yaw_rad;
     ASSERT_LE(std::abs(wanted.yaw_rate_rad_s), 35.0)
         << target.x_m << " " << target.y_m << " " << target.yaw_rad;
   }
 }
 
-TEST_P(FollowLawTest, IsFiniteAtTheCameraBesideItAndVeryFarAway) {
+TEST_P(FollowLawTest, IsFiniteForAPersonAtTheCameraBesideItAndVeryFarAway) {
   for (const bool reverse : {false, true}) {
     config_.control.reverse = reverse;
     const auto law = make_follow_law(config_);
@@ -106,7 +106,7 @@ TEST_P(FollowLawTest, GivesTheSameForTheSameInputs) {
   }
 }
 
-TEST_P(FollowLawTest, TakesOverNewGains) {
+TEST_P(FollowLawTest, UsesNewGains) {
   const auto law = make_follow_law(config_);
   config_.control.gain_distance_1_s = 0.0;
   law->reconfigure(config_);

@@ -22,7 +22,7 @@ VelocityCommand command(double v_m_s, double yaw_rate_rad_s, TimeNs t_issued_ns 
   return {t_issued_ns, t_issued_ns + 200 * kNsPerMs, v_m_s, yaw_rate_rad_s, 0};
 }
 
-/// Nobody and nothing near, or a person at `person_m` from the camera.
+/// No obstacle is near; the person is `person_m` from the camera.
 Clearances free_space(double person_m = kInf) {
   return {person_m, SonarObstacles(p3at_geometry())};
 }
@@ -90,7 +90,7 @@ TEST(Gate, ComesToRestWithinTheDeceleration) {
   EXPECT_LE(seconds_from_ns(now_ns - kNow_ns), longest_s + kTick_s);
 }
 
-TEST(Gate, AtOnceIsZeroNow) {
+TEST(Gate, AtOnceGivesZeroInTheSameTick) {
   const auto out = pass(command(0.7, 1.0), command(0.7, 1.0, kNow_ns - kTick_ns), StopStyle::AtOnce);
   EXPECT_EQ(out.v_m_s, 0.0);
   EXPECT_EQ(out.yaw_rate_rad_s, 0.0);
@@ -132,7 +132,7 @@ TEST(Gate, StopsShortOfTheSeparation) {
             0.0);
 }
 
-TEST(Gate, GivesTheFreeDistanceItUsed) {
+TEST(Gate, ReturnsTheFreeDistanceItUsed) {
   const auto free_distance_m = [](StopStyle style, const Clearances& clearances) {
     return apply_gate(command(0.5, 0), command(0.5, 0, kNow_ns - kTick_ns), style, clearances, kNow_ns,
                       GateConfig{})
@@ -164,7 +164,7 @@ TEST(Gate, StopsShortOfASonarObstacle) {
   EXPECT_GT(obstacle_m, limits.clearance_m + 0.3);
 }
 
-TEST(Gate, BrakesForThePathItDrivesAndForThePathItIsToTake) {
+TEST(Gate, BrakesForObstaclesOnThePresentAndOnTheCommandedPath) {
   const Clearances left = obstacle(0.7, 0.45);  // on an arc to the left, not straight ahead
   const Clearances right = obstacle(0.7, -0.45);
   const auto turning = command(0.6, 0.9, kNow_ns - kTick_ns);

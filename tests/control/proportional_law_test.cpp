@@ -95,7 +95,7 @@ TEST(PositionLaw, IsTheViewLawWithTheGainThatCancelsYaw) {
   }
 }
 
-TEST(PositionLaw, TurnsByThePositionWhicheverWayThePersonFaces) {
+TEST(PositionLaw, TurnsByThePositionWhateverThePersonsYaw) {
   Law law;
   law.yaw_gain = YawGain::CancelsYaw;
   law.config.control.gain_lateral_rad_s_m = 1.3;
@@ -106,7 +106,7 @@ TEST(PositionLaw, TurnsByThePositionWhicheverWayThePersonFaces) {
   }
 }
 
-/// A loop with an exact robot; returns the largest bearing of the person from the camera on the way.
+/// A loop with an exact robot. It keeps the largest bearing of the person from the camera.
 struct Loop {
   Law law;
   Pose2 robot, person;
@@ -130,7 +130,7 @@ struct Loop {
   }
 };
 
-TEST(ViewLawLoop, ConvergesOnToTheLineOfAWalkingPerson) {
+TEST(ViewLawLoop, ConvergesToThePathOfAWalkingPerson) {
   for (const double offset_m : {-0.5, 0.5}) {
     for (const double v_m_s : {0.3, 0.6, 1.0}) {
       Loop loop;
@@ -148,7 +148,7 @@ TEST(ViewLawLoop, ConvergesOnToTheLineOfAWalkingPerson) {
 }
 
 TEST(ViewLawLoop, LinearisedFrequencyAndDampingAreAsTheHeaderSays) {
-  // Lightly damped on purpose, so that a period can be seen: k_yaw = 0, k_z large.
+  // Little damping, so that the loop oscillates for a whole period: k_yaw = 0, k_z large.
   Loop loop;
   loop.law.config.control.gain_yaw_1_s = 0.0;
   loop.law.config.control.gain_distance_1_s = 5.0;
@@ -171,11 +171,11 @@ RC_GTEST_PROP(ViewLawLoop, ThePersonNeverLeavesThePicture, ()) {
   loop.law.config.control.gain_yaw_1_s = between(0.0, 5.0);
   loop.law.config.control.gain_lateral_rad_s_m = between(0.0, 3.0);
   const double limit_rad = loop.law.config.control.bearing_max_rad;
-  // Somebody standing, turned any way, inside the picture.
+  // A person who stands inside the picture, with any yaw.
   const double range_m = between(1.5, 5.0), bearing_rad = between(-0.9, 0.9) * limit_rad;
   loop.person = {loop.law.mount().x_m + range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad),
                  between(-1.2, 1.2)};
-  // As the gate does: no nearer than 0.8 m, which the law itself does not know.
+  // The gate would stop the robot at this range; the law has no such limit.
   for (int i = 0; i < 300 && loop.target().x_m > 1.0; ++i) loop.run(0.02);
   RC_ASSERT(loop.worst_bearing_rad < limit_rad + 0.03);
 }

@@ -1,4 +1,4 @@
-// Which sonar obstacles lie on the path ahead, how far away, and what is kept between two readings.
+// Which sonar obstacles lie on the path ahead, how far away they are, and how they are kept between readings.
 #include "control/sonar_obstacles.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(SonarObstacles, TheNearestCounts) {
   EXPECT_NEAR(obstacles.free_distance_m(0.5, 0.0), 1.0 - kBumper_m, 1e-12);
 }
 
-TEST(SonarObstacles, WhatIsBesideOrBehindOrNotDrivenToIsNotInTheWay) {
+TEST(SonarObstacles, ObstaclesBesideBehindOrOffThePathDoNotCount) {
   EXPECT_EQ(one(1.5, 0.34).free_distance_m(0.5, 0.0), kInfinite_m);
   EXPECT_EQ(one(-1.5, 0.0).free_distance_m(0.5, 0.0), kInfinite_m);
   EXPECT_EQ(one(0.2, 0.3).free_distance_m(0.5, 0.0), kInfinite_m);  // beside the body
@@ -43,7 +43,7 @@ TEST(SonarObstacles, WhatIsBesideOrBehindOrNotDrivenToIsNotInTheWay) {
 
 TEST(SonarObstacles, AtTheBumperNothingIsFree) {
   EXPECT_EQ(one(kBumper_m, 0.0).free_distance_m(0.5, 0.0), 0.0);
-  EXPECT_EQ(one(0.28, 0.2).free_distance_m(0.5, 0.0), 0.0);  // nearer than it can be: pressed
+  EXPECT_EQ(one(0.28, 0.2).free_distance_m(0.5, 0.0), 0.0);  // behind the bumper's edge: it is pressed
 }
 
 TEST(SonarObstacles, BackwardsIsTheMirrorImageOfForwards) {
@@ -58,7 +58,8 @@ TEST(SonarObstacles, BackwardsIsTheMirrorImageOfForwards) {
   EXPECT_GT(in_the_way, 10);
 }
 
-/// By driving the arc in small steps until a disc as wide as the corridor meets the point.
+/// The distance along the arc to the point, found by small steps; infinite when the point is outside the
+/// corridor.
 double driven_m(double x_m, double y_m, double v_m_s, double rate_rad_s) {
   constexpr double kDt_s = 1e-4;
   double at_x = 0.0, at_y = 0.0, heading = 0.0, before = kInfinite_m;
@@ -75,7 +76,7 @@ double driven_m(double x_m, double y_m, double v_m_s, double rate_rad_s) {
   return kInfinite_m;
 }
 
-TEST(SonarObstacles, OnAnArcAsWhenItIsDriven) {
+TEST(SonarObstacles, OnAnArcEqualsTheDistanceFoundByDriving) {
   int obstacles_in_the_way = 0;
   for (const double rate_rad_s : {-0.8, -0.3, 0.2, 0.7})
     for (double x_m = 0.35; x_m < 1.6; x_m += 0.11)
@@ -138,7 +139,7 @@ TEST(SonarObstacleMap, AnEchoStaysInItsPlaceWhileTheRobotDrivesAndTurns) {
   EXPECT_NEAR(obstacles.points()[0].y_m, -0.147, 1e-9);
 }
 
-TEST(SonarObstacleMap, BetweenPacketsTheRobotIsTakenToDriveOn) {
+TEST(SonarObstacleMap, BetweenPacketsTheRobotsMotionIsExtrapolated) {
   SonarObstacleMap map(p3at_geometry());
   RobotState robot = robot_at(0, 0, 0, kRead_ns);
   robot.odometry.v_m_s = 0.5;

@@ -13,7 +13,7 @@ TEST(Supervisor, FollowsWhenNothingHolds) {
   EXPECT_EQ(supervise(0).style, StopStyle::Go);
 }
 
-TEST(Supervisor, EveryRowStandsOnceAndEveryReasonHasARow) {
+TEST(Supervisor, EveryConditionAndEveryReasonHasExactlyOneRow) {
   Conditions seen = 0;
   std::set<StopReason> reasons;
   for (const auto& row : supervisor_table()) {
@@ -27,7 +27,7 @@ TEST(Supervisor, EveryRowStandsOnceAndEveryReasonHasARow) {
   EXPECT_EQ(reasons.size(), static_cast<std::size_t>(StopReason::LowCertainty));
 }
 
-/// The order written out again, independently of the table.
+/// The order of the reasons, written here again and not taken from the table.
 StopReason expected_reason(unsigned c) {
   if (c & kShutdown) return StopReason::Shutdown;
   if (c & kLinkDown) return StopReason::LinkDown;
@@ -48,12 +48,12 @@ TEST(Supervisor, EveryCombinationGivesTheFirstReasonAndItsStyle) {
   for (unsigned conditions = 0; conditions <= kAllConditions; ++conditions) {
     const Verdict verdict = supervise(static_cast<Conditions>(conditions));
     ASSERT_EQ(verdict.reason, expected_reason(conditions)) << conditions;
-    const bool about_senses_only =
+    const bool only_sensor_conditions =
         (conditions & ~unsigned{kSonarSilent | kStaleFrame | kLowCertainty | kTargetLost | kNoTargetYet}) ==
         0;
-    const StopStyle style = conditions == 0     ? StopStyle::Go
-                            : about_senses_only ? StopStyle::ComeToRest
-                                                : StopStyle::AtOnce;
+    const StopStyle style = conditions == 0          ? StopStyle::Go
+                            : only_sensor_conditions ? StopStyle::ComeToRest
+                                                     : StopStyle::AtOnce;
     ASSERT_EQ(verdict.style, style) << conditions;
   }
 }

@@ -1,5 +1,5 @@
-// The capture thread's body against a scripted source: outages, corrupt frames, ends, stops; and against the
-// simulator's channel: no allocation in steady state.
+// The capture thread's loop with a scripted source: outages, corrupt frames, end of stream, stop; and with
+// the simulator's channel: no allocation in steady state.
 #include "daemon/capture_loop.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ namespace {
 constexpr std::uint32_t kWidth = 20;
 constexpr std::uint32_t kHeight = 4;
 
-// Plays a list of openings and results; when the list is over it times out for ever.
+// Gives a list of openings and results; after the end of the list every wait times out.
 class ScriptedSource final : public FrameSource {
  public:
   ScriptedSource() : FrameSource("test:script"), pixels_(kWidth * kHeight) { description_ = "a script"; }
@@ -88,7 +88,7 @@ class CaptureLoopTest : public testing::Test {
 
 using enum FrameResult;
 
-TEST_F(CaptureLoopTest, FramesGoIntoTheRing) {
+TEST_F(CaptureLoopTest, FramesGoIntoTheTripleBuffer) {
   source_.results = {Frame, Frame, Timeout, Frame};
   loop_.run();
   EXPECT_EQ(loop_.counters().captured, 3u);
@@ -97,11 +97,11 @@ TEST_F(CaptureLoopTest, FramesGoIntoTheRing) {
   ASSERT_NE(frame, nullptr);
   EXPECT_EQ(frame->header.sequence, 3u);
   EXPECT_TRUE(test::is_whole(*frame));
-  EXPECT_EQ(source_.closed, 1) << "closed on the way out";
+  EXPECT_EQ(source_.closed, 1) << "the loop closes the source when it ends";
   EXPECT_THAT(kinds(), testing::ElementsAre(EventKind::CameraOpened));
 }
 
-TEST_F(CaptureLoopTest, ALostSourceIsClosedAndOpenedAgainWithGrowingPausesToldOnce) {
+TEST_F(CaptureLoopTest, ALostSourceIsReportedOnceAndOpenedAgainWithGrowingPauses) {
   source_.openings = {OpenResult::Opened, OpenResult::Absent, OpenResult::Absent,
                       OpenResult::Absent, OpenResult::Absent, OpenResult::Opened};
   source_.results = {Frame, Lost, Frame};
@@ -111,7 +111,7 @@ TEST_F(CaptureLoopTest, ALostSourceIsClosedAndOpenedAgainWithGrowingPausesToldOn
   EXPECT_THAT(kinds(), testing::ElementsAre(EventKind::CameraOpened, EventKind::CameraLost,
                                             EventKind::CameraUnavailable, EventKind::CameraOpened));
   ASSERT_EQ(source_.opened_at_ns.size(), 6u);
-  // Pauses of 1, 2, 4, 8 ms; never shorter than asked.
+  // Pauses of 1, 2, 4, 8 ms; a pause is never shorter.
   for (std::size_t i = 2; i < 6; ++i) {
     EXPECT_GE(source_.opened_at_ns[i] - source_.opened_at_ns[i - 1], kNsPerMs << (i - 2)) << i;
   }
@@ -124,14 +124,14 @@ TEST_F(CaptureLoopTest, ASourceLostBeforeItsFirstFrameIsOpenedWithGrowingPauses)
   const auto between_ns = [this](std::size_t i) {
     return source_.opened_at_ns[i] - source_.opened_at_ns[i - 1];
   };
-  // 1, 2, 4 ms without a frame; the frame begins the series again: at once, then 1 ms.
+  // 1, 2, 4 ms without a frame; after a frame the series starts again: no pause, then 1 ms.
   EXPECT_GE(between_ns(1), kNsPerMs);
   EXPECT_GE(between_ns(2), 2 * kNsPerMs);
   EXPECT_GE(between_ns(3), 4 * kNsPerMs);
   EXPECT_GE(between_ns(5), kNsPerMs);
 }
 
-TEST_F(CaptureLoopTest, AnEmptyStreamThatBeginsAgainIsOpenedWithGrowingPauses) {
+TEST_F(CaptureLoopTest, AnEmptyStreamIsRestartedWithGrowingPauses) {
   source_.results = {EndOfStream, EndOfStream, Frame};
   CaptureLoop endless(
       source_, ring_, counts_, events_,
@@ -155,7 +155,7 @@ TEST_F(CaptureLoopTest, EventsCarryTheProblemAndItsTime) {
   EXPECT_LE(event.t_ns, monotonic_now_ns());
 }
 
-TEST_F(CaptureLoopTest, EveryNewReasonInAnOutageIsTold) {
+TEST_F(CaptureLoopTest, EveryNewReasonInAnOutageIsReported) {
   source_.openings = {OpenResult::Absent, OpenResult::Absent, OpenResult::Refused, OpenResult::Refused,
                       OpenResult::Opened};
   source_.results = {Frame};
@@ -164,14 +164,14 @@ TEST_F(CaptureLoopTest, EveryNewReasonInAnOutageIsTold) {
                                             EventKind::CameraOpened));
 }
 
-TEST_F(CaptureLoopTest, UnusableFramesAreCountedNotDeadly) {
+TEST_F(CaptureLoopTest, UnusableFramesAreCountedAndTheLoopContinues) {
   source_.results = {Frame, Error, Error, Frame};
   loop_.run();
   EXPECT_EQ(loop_.counters().captured, 2u);
   EXPECT_EQ(loop_.counters().dropped_by_driver, 2u);
 }
 
-TEST_F(CaptureLoopTest, CountsAreToldWheneverTheyHaveChangedAndOnlyThen) {
+TEST_F(CaptureLoopTest, CountersAreRecordedOnlyWhenTheyHaveChanged) {
   source_.openings = {OpenResult::Opened, OpenResult::Opened};
   source_.results = {Frame, Timeout, Timeout, Frame, Error, Lost, Frame};
   const TimeNs before_ns = monotonic_now_ns();
@@ -192,7 +192,7 @@ TEST_F(CaptureLoopTest, CountsAreToldWheneverTheyHaveChangedAndOnlyThen) {
                                          Told{2, 1, 1, 1}, Told{3, 1, 2, 1}));
 }
 
-TEST_F(CaptureLoopTest, FramesOfAnotherSizeAreRefusedAndToldOnce) {
+TEST_F(CaptureLoopTest, FramesOfAnotherSizeAreRefusedAndReportedOnce) {
   source_.width_px = kWidth - 1;
   source_.results = {Frame, Frame, Frame};
   loop_.run();
@@ -247,7 +247,7 @@ class AllocationCountingSource final : public FrameSource {
 };
 
 TEST(CaptureLoopMemory, DoesNotAllocateInSteadyState) {
-  if (!test::counts_allocations()) GTEST_SKIP() << "the sanitizer's allocator is in the way";
+  if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   const std::string name = "test-" + std::to_string(getpid()) + "-loop";
   SimChannelWriter writer(name, kWidth, kHeight);
   SimSource channel(name);
@@ -258,7 +258,8 @@ TEST(CaptureLoopMemory, DoesNotAllocateInSteadyState) {
   CaptureLoop loop(source, ring, counts, events);
 
   std::jthread thread([&] { loop.run(); });
-  for (Event event; !events.pop(event);) std::this_thread::yield();  // opened: from now on frames are seen
+  for (Event event; !events.pop(event);)
+    std::this_thread::yield();  // the source is open: it sees every frame from now on
   for (std::uint64_t sequence = 1; sequence <= 200; ++sequence) {
     test::make_frame(writer.writable(), sequence, kWidth, kHeight);
     writer.publish();

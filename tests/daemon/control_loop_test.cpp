@@ -1,4 +1,4 @@
-// The control thread's body without a robot: when its deadlines begin.
+// The control thread's loop without a robot: when its deadlines start.
 #include "daemon/control_loop.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace heel {
 namespace {
 
-TEST(ControlLoop, TheTimeBeforeTheThreadRunsIsNoLateness) {
+TEST(ControlLoop, TheTimeBeforeTheThreadRunsIsNotLateness) {
   Config config;
   config.robot.address = "pty:/nonexistent/robot";
   Mailbox<PoseEstimate> poses;
@@ -26,7 +26,7 @@ TEST(ControlLoop, TheTimeBeforeTheThreadRunsIsNoLateness) {
   loop.stop();
   thread.join();
 
-  // However busy the machine is, the first tick cannot be later than this.
+  // The first tick cannot be later than this on any machine, however busy.
   EXPECT_LE(first.lateness_ns, first.input.now_ns - t_run_ns - period_ns);
 }
 

@@ -1,4 +1,4 @@
-// What a loop's thread logs when it starts, and what becomes of a loop that fails.
+// What the thread of a loop logs when it starts, and what happens when the loop fails.
 #include "daemon/loop_thread.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(LoopThread, ARefusedPriorityIsLoggedWithTheReasonAndTheRemedyAndTheLoopRuns
   EXPECT_EQ(log.count("set LimitRTPRIO=60 or grant CAP_SYS_NICE"), 1) << log.text();
 }
 
-TEST(LoopThread, AGrantedPriorityIsNoWarning) {
+TEST(LoopThread, AGrantedPriorityGivesNoWarning) {
   const int error = test::answer_to_fifo_request(kPlan.priority);
   const test::CollectedLog log;
   std::atomic<bool> failed{false};

@@ -1,4 +1,4 @@
-// A world simple enough to be right: a person and a robot on a floor, and the pose a perfect camera measures.
+// An exact world: a person and a robot on a floor, and the pose that a perfect camera measures.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@
 
 namespace heel::test {
 
-/// The template as it was taken: its centre in the reference camera (x right, y down, z = distance).
+/// Where the template's centre was in the reference camera when it was taken (x right, y down, z = distance).
 struct Reference {
   Eigen::Vector3d centre_m{0.0, 0.0, 2.0};
   double distance_m() const { return centre_m.z(); }
@@ -22,8 +22,8 @@ inline Eigen::Matrix3d about_z(double angle_rad) {
   return Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
-/// What vision reports when `person` (heading: walking direction; back centre at `back_z_m`) is seen by the
-/// camera on `robot`. Built from X_cur = R X_ref + t alone.
+/// What vision reports when the camera on `robot` sees `person` (heading: walking direction; the back's
+/// centre at `back_z_m`). Computed only from X_cur = R X_ref + t.
 inline PoseEstimate measured(const Pose2& person, const Pose2& robot, const CameraMount& mount,
                              const Reference& reference, double back_z_m = 1.2) {
   const Eigen::Matrix3d R_odom_from_ref = about_z(person.heading_rad) * R_robot_from_camera(0.0);
@@ -61,7 +61,7 @@ inline Pose2 moved(const Pose2& from, double v_m_s, double yaw_rate_rad_s, doubl
           from.y_m + chord_m * std::sin(from.heading_rad + half), from.heading_rad + 2.0 * half};
 }
 
-/// `point`, given in odom, in the frame of `robot`.
+/// A point of the odometry frame, in the frame of `robot`.
 inline Eigen::Vector2d in_robot(const Pose2& robot, double x_m, double y_m) {
   return Eigen::Rotation2Dd(-robot.heading_rad) * Eigen::Vector2d(x_m - robot.x_m, y_m - robot.y_m);
 }

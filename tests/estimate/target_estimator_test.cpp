@@ -1,5 +1,5 @@
-// The target in odom against truth: a robot that moves and turns, frames that arrive late, a person who
-// stands, walks straight and round bends, and a wrong measurement.
+// The target in the odometry frame against truth: the robot moves and turns, frames arrive late, the person
+// stands, walks straight and walks along bends, and a measurement is wrong.
 #include "estimate/target_estimator.h"
 
 #include <gtest/gtest.h>
@@ -75,9 +75,9 @@ TEST(TargetEstimator, PlacesAFrameWhereTheRobotWasWhenItWasTaken) {
   scene.person = {3.0, 0.5, 0.4};
   scene.v_m_s = 0.6;
   scene.yaw_rate_rad_s = 0.9;
-  scene.latency_ns = 120 * kNsPerMs;  // 0.11 rad of turning: 0.3 m at 3 m if it were ignored
+  scene.latency_ns = 120 * kNsPerMs;  // the robot turns by 0.11 rad: 0.3 m at 3 m if ignored
   scene.run(1.5);
-  EXPECT_LT(scene.position_error_m(), 2e-3);  // the chord between two packets is all that is left
+  EXPECT_LT(scene.position_error_m(), 2e-3);  // only the chord between two packets remains
   EXPECT_NEAR(scene.yaw_error_rad(), 0.0, 1e-6);
 }
 
@@ -87,18 +87,18 @@ TEST(TargetEstimator, PredictsAWalkingAndTurningPerson) {
   scene.person_yaw_rate_rad_s = 0.4;
   scene.v_m_s = 0.6;
   scene.run(3.0);
-  // 60 ms of walking alone would be 0.06 m, of turning 0.024 rad.
+  // Without prediction the error would be 0.06 m (60 ms of walking) and 0.024 rad (of turning).
   EXPECT_LT(scene.position_error_m(), 0.03);
   EXPECT_LT(std::abs(scene.yaw_error_rad()), 0.01);
 }
 
-TEST(TargetEstimator, WithoutFramesThePersonIsTakenToWalkOnButNotToTurnOn) {
+TEST(TargetEstimator, WithoutFramesWalkingIsPredictedForLongerThanTurning) {
   Scene scene;
   scene.person_v_m_s = 1.0;
   scene.person_yaw_rate_rad_s = 0.5;
   scene.run(2.0);
   scene.disturb = [](PoseEstimate& pose) { pose.reason = PoseReason::TooFewMatches; };
-  scene.run(0.1);  // frames under way arrive
+  scene.run(0.1);  // the delayed frames arrive
   const TimeNs seen_ns = scene.estimator.predict(scene.now_ns).t_capture_ns;
   const TargetState seen = scene.estimator.predict(seen_ns);
   const auto after = [&](int ms) {
@@ -130,7 +130,7 @@ TEST(TargetEstimator, SmoothsNoiseWithoutBias) {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0.0, 0.08);
   scene.disturb = [&](PoseEstimate& pose) {
-    // A yaw error as vision makes it: about the shirt's centre, sigma stated.
+    // Vision's yaw error: a rotation about the shirt's centre, with its sigma stated.
     const double wrong_rad = noise(random);
     pose = measured({2.5, 0.0, wrong_rad}, {}, mount_of(scene.config.camera), scene.reference);
     pose.t_capture_ns = scene.now_ns;
@@ -144,7 +144,7 @@ TEST(TargetEstimator, SmoothsNoiseWithoutBias) {
     squares += scene.yaw_error_rad() * scene.yaw_error_rad();
   }
   EXPECT_NEAR(sum / 1000, 0.0, 0.01);
-  EXPECT_LT(std::sqrt(squares / 1000), 0.05);  // of 0.08 measured
+  EXPECT_LT(std::sqrt(squares / 1000), 0.05);  // measurements: 0.08
 }
 
 TEST(TargetEstimator, RejectsOneOutlier) {
@@ -176,19 +176,19 @@ TEST(TargetEstimator, RejectsFramesThatAreNotNewer) {
   EXPECT_FALSE(scene.estimator.update(pose));
 }
 
-TEST(TargetEstimator, ResetForgets) {
+TEST(TargetEstimator, ResetDiscardsTheTarget) {
   Scene scene;
   scene.run(0.5);
   scene.estimator.reset();
   EXPECT_FALSE(scene.estimator.predict(scene.now_ns).known);
 }
 
-TEST(Goal, IsHereWhenTheViewIsTheReferenceView) {
+TEST(Goal, IsTheRobotsPlaceInTheReferenceView) {
   Scene scene;
   scene.reference.centre_m = {0.2, 0.1, 2.0};
   const CameraMount mount = mount_of(scene.config.camera);
-  // Where the person must stand for a robot at the origin to have the reference view: 2 m ahead of the
-  // camera, 0.2 m to its right.
+  // With the person here a robot at the origin has the reference view: 2 m ahead of the camera, 0.2 m to
+  // its right.
   scene.person = {mount.x_m + 2.0, mount.y_m - 0.2, 0.0};
   scene.run(0.3);
   const TargetState target = scene.estimator.predict(scene.now_ns);
@@ -207,7 +207,7 @@ TEST(Goal, IsBehindThePersonAlongTheirDirection) {
   EXPECT_NEAR(target.goal_y_m, 1.0 - behind_m * std::sin(0.6), 1e-9);
 }
 
-TEST(Goal, SetPointsMoveItAsTheirKeysSay) {
+TEST(Goal, SetPointsMoveItAsTheConfigurationKeysSay) {
   Scene scene;
   scene.person = {3.0, 0.0, 0.0};
   scene.run(0.3);

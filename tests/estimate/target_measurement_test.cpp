@@ -1,4 +1,4 @@
-// From the camera to the floor, against poses built from X_cur = R X_ref + t.
+// A camera's pose estimate becomes a measurement on the floor; compared with poses from X_cur = R X_ref + t.
 #include "estimate/target_measurement.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ TEST(TargetMeasurement, RefusesAPlaneSeenFromTheFront) {
   EXPECT_FALSE(measurement_from_pose(test::measured(facing_us, {}, mount, {}), mount).has_value());
 }
 
-TEST(TargetMeasurement, RefusesWhatCannotBeUsed) {
+TEST(TargetMeasurement, RefusesPosesThatCannotBeUsed) {
   const CameraMount mount;
   const PoseEstimate good = test::measured({3.0, 0.2, 0.1}, {}, mount, {});
   ASSERT_TRUE(measurement_from_pose(good, mount).has_value());

@@ -1,4 +1,4 @@
-// Camera files as ROS and OpenCV write them, and one refusal for each thing that can be wrong.
+// Camera files as ROS and OpenCV write them, and a refusal for each possible error.
 #include "files/camera_info.h"
 
 #include <gmock/gmock.h>
@@ -110,7 +110,7 @@ TEST_F(CameraFile, ReadsOpenCvFileStorageInYamlAndJson) {
   }
 }
 
-TEST_F(CameraFile, ComesBackToTheBit) {
+TEST_F(CameraFile, IsReadBackToTheBit) {
   const CameraModel written{.width_px = 768,
                             .height_px = 432,
                             .fx = 700.0 / 3.0,
@@ -157,7 +157,7 @@ struct WrongFile {
   const char* expected;  ///< … with what was expected
 };
 
-TEST_F(CameraFile, RefusesNamingFileKeyAndWhatWasExpected) {
+TEST_F(CameraFile, RefusalsNameFileKeyAndWhatIsExpected) {
   const WrongFile rows[] = {
       {"image_width: 640", "", "image_width: missing", "pixels"},
       {"image_width: 640", "image_width: 640.5", "image_width: '640.5'", "whole number of pixels"},
@@ -190,7 +190,7 @@ TEST_F(CameraFile, RefusesNamingFileKeyAndWhatWasExpected) {
   }
 }
 
-TEST_F(CameraFile, RefusesWhatIsNoMap) {
+TEST_F(CameraFile, RefusesFilesWithoutKeys) {
   EXPECT_THAT(refusal_of(""), HasSubstr("not a camera file"));
   EXPECT_THAT(refusal_of("just words\n"), HasSubstr("not a camera file"));
   EXPECT_THAT(refusal_of("%YAML:1.0"), HasSubstr("not a camera file"));

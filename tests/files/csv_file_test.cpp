@@ -27,7 +27,7 @@ std::string error_of(const std::function<void()>& write) {
   return "";
 }
 
-TEST(CsvFile, WritesCellsAndNanForWhatIsNotFinite) {
+TEST(CsvFile, WritesCellsAndNanForNumbersThatAreNotFinite) {
   const test::TemporaryFolder folder;
   const std::string path = folder.file("cells.csv");
   CsvFile file(path, "name,value,count");
@@ -39,7 +39,7 @@ TEST(CsvFile, WritesCellsAndNanForWhatIsNotFinite) {
   EXPECT_EQ(test::read_text(path), "name,value,count\na,0.333,7\n,nan,nan\n");
 }
 
-TEST(SampledCsv, AsksEveryColumnOnceForEachRow) {
+TEST(SampledCsv, ReadsEveryColumnOnceForEachRow) {
   const test::TemporaryFolder folder;
   const std::string path = folder.file("rows.csv");
   SampledCsv file(path);

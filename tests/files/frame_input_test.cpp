@@ -63,7 +63,7 @@ TEST_F(FrameInputTest, SkipsFramesWithoutChangingTheirNumbers) {
   EXPECT_FALSE(input.skip(2)) << "one frame is left";
 }
 
-TEST_F(FrameInputTest, AnImageIsKnownByItsEndingOrByItsContent) {
+TEST_F(FrameInputTest, AnImageIsRecognisedByItsEndingOrItsContent) {
   const std::string png = image("picture.png", 1);
   std::filesystem::copy(png, folder_.file("without_ending"));
   const std::string damaged = test::write_text(folder_.file("damaged.JPG"), "no image at all");

@@ -1,4 +1,4 @@
-// The KPD writer: both forms, read back field by field.
+// The KPD writer: the binary and the text form, read back field by field.
 #include "files/kpd_file.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Natural order of names.
+// The natural order of file names: numbers in them count as numbers.
 #include "files/natural_order.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace heel {
 namespace {
 
-TEST(NaturalOrder, CountsAsPeopleDo) {
+TEST(NaturalOrder, OrdersNumbersByValue) {
   const std::vector<std::string> sorted{"",
                                         "a",
                                         "a1",

@@ -1,5 +1,4 @@
-// The template file: what is written comes back, and a file that is not whole is refused, whatever happened
-// to it.
+// The template file: a written template is read back equal, and every damaged file is refused.
 #include "files/template_file.h"
 
 #include <gmock/gmock.h>
@@ -50,7 +49,7 @@ std::string refusal_of(const std::string& path) {
   return test::complaint_of([&] { read_template(path); });
 }
 
-/// A file with `header` as its JSON and a checksum that fits: only the content can be wrong.
+/// A file with `header` as its JSON and a right checksum, so that only the content can be wrong.
 std::string with_header(const std::string& file, const std::string& from, const std::string& to) {
   const std::size_t line_end = file.find('\n');
   std::size_t header_bytes = 0;
@@ -74,7 +73,7 @@ class TemplateFile : public ::testing::Test {
   std::string path = folder.file("shirt.heel");
 };
 
-TEST_F(TemplateFile, ComesBackToTheBit) {
+TEST_F(TemplateFile, IsReadBackToTheBit) {
   const ShirtTemplate written = small_template();
   write_template(written, path);
   const ShirtTemplate read = read_template(path);
@@ -102,7 +101,7 @@ TEST_F(TemplateFile, ComesBackToTheBit) {
   EXPECT_EQ(a.k3, b.k3);
 }
 
-TEST_F(TemplateFile, ReplacesAnOlderOneAndLeavesNothingBeside) {
+TEST_F(TemplateFile, ReplacesAnOlderFileAndLeavesNoOtherFile) {
   write_template(small_template(), path);
   ShirtTemplate newer = small_template();
   newer.distance_m = 2.5;
@@ -112,7 +111,7 @@ TEST_F(TemplateFile, ReplacesAnOlderOneAndLeavesNothingBeside) {
   EXPECT_EQ(std::distance(begin(files), end(files)), 1);
 }
 
-TEST_F(TemplateFile, FailedWriteLeavesTheOldOne) {
+TEST_F(TemplateFile, AFailedWriteKeepsTheOldFile) {
   write_template(small_template(), path);
   const std::string before = read_text(path);
   ShirtTemplate wrong = small_template();
@@ -158,7 +157,7 @@ TEST_F(TemplateFile, NamesANewerVersion) {
   EXPECT_THAT(refusal_of(path), HasSubstr("format version 2"));
 }
 
-TEST_F(TemplateFile, RefusesWhatIsNoTemplate) {
+TEST_F(TemplateFile, RefusesFilesThatAreNotTemplates) {
   write_text(path, "\x89PNG\r\n");
   EXPECT_THAT(refusal_of(path), HasSubstr("not a template"));
   EXPECT_THAT(refusal_of(folder.file("absent.heel")), HasSubstr("No such file"));
@@ -171,7 +170,7 @@ struct WrongHeader {
   const char* complaint;
 };
 
-TEST_F(TemplateFile, ChecksWhatTheHeaderSays) {
+TEST_F(TemplateFile, ChecksTheValuesOfTheHeader) {
   const WrongHeader rows[] = {
       {"\"region\"", "\"regiom\"", "region"},
       {"\"fx\": 30.25", "\"fx\": \"wide\"", "header"},
@@ -187,7 +186,7 @@ TEST_F(TemplateFile, ChecksWhatTheHeaderSays) {
   };
   write_template(small_template(), path);
   const std::string whole = read_text(path);
-  ASSERT_EQ(with_header(whole, "1.6", "1.6"), whole);  // the forger itself is right
+  ASSERT_EQ(with_header(whole, "1.6", "1.6"), whole);  // with_header() itself changes nothing else
   for (const WrongHeader& row : rows) {
     write_text(path, with_header(whole, row.from, row.to));
     EXPECT_THAT(refusal_of(path), HasSubstr(row.complaint)) << row.to;

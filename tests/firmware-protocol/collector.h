@@ -1,4 +1,4 @@
-// A parser whose packets are kept, and byte streams to feed it.
+// A parser that keeps its packets, and byte streams to feed to it.
 #pragma once
 
 #include <cstdint>

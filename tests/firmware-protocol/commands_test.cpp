@@ -54,8 +54,8 @@ TEST(Checksum, OddAndEvenBodies) {
   EXPECT_EQ(checksum(Bytes{0x12, 0x34}), 0x1234);
   EXPECT_EQ(checksum(Bytes{0x12, 0x34, 0xff}), 0x12cb);                    // 0x34 ^ 0xff, not a sum
   EXPECT_EQ(checksum(Bytes{0xff, 0xff, 0x00, 0x02}), 0x0001);              // modulo 65536
-  EXPECT_EQ(checksum(Bytes{0xff, 0xff, 0x00, 0x02, 0x01}), 0x0000);        // odd, after the wrap
-  EXPECT_EQ(checksum(Bytes{0xff, 0xff, 0xff, 0xff, 0xff, 0xff}), 0xfffd);  // twice
+  EXPECT_EQ(checksum(Bytes{0xff, 0xff, 0x00, 0x02, 0x01}), 0x0000);        // an odd byte after the wrap
+  EXPECT_EQ(checksum(Bytes{0xff, 0xff, 0xff, 0xff, 0xff, 0xff}), 0xfffd);  // two wraps
 }
 
 TEST(CommandTable, EveryIdOnceWithNameAndMeaning) {
@@ -83,7 +83,7 @@ TEST(CommandEncoding, RefusesWhatTheTableForbids) {
   EXPECT_TRUE(encode_integer(CommandId::SetV, -1).empty());       // cannot be negative
   EXPECT_TRUE(encode_integer(CommandId::Polling, 1).empty());     // is a string
   EXPECT_TRUE(encode_text(CommandId::Vel, "250").empty());        // is an integer
-  EXPECT_TRUE(encode_plain(static_cast<CommandId>(99)).empty());  // in no table
+  EXPECT_TRUE(encode_plain(static_cast<CommandId>(99)).empty());  // not in the table
 }
 
 TEST(CommandEncoding, SendsAtMost200) {
@@ -137,7 +137,7 @@ TEST(CommandDecoding, Vel2AsAPositiveWord) {
   EXPECT_EQ(wheel_speeds_of_vel2(command).right_mm_s, 200);
 }
 
-TEST(CommandDecoding, TextBorrowsItsBytes) {
+TEST(CommandDecoding, TextPointsIntoThePacket) {
   const Bytes body = from_hex("2a2b03313233");
   Command command;
   ASSERT_EQ(decode_command(body, command), DecodeResult::Ok);
@@ -145,7 +145,7 @@ TEST(CommandDecoding, TextBorrowsItsBytes) {
   EXPECT_EQ(to_hex(command.text), "313233");
 }
 
-TEST(CommandDecoding, WhatClientsSendBesides) {
+TEST(CommandDecoding, OtherFormsThatClientsSend) {
   Command command;
   EXPECT_EQ(decode_command(from_hex("01"), command), DecodeResult::Ok);  // OPEN without argument
   EXPECT_FALSE(command.has_integer());
@@ -154,11 +154,12 @@ TEST(CommandDecoding, WhatClientsSendBesides) {
   EXPECT_EQ(decode_command(from_hex("043b0100ff"), command), DecodeResult::Ok);
   EXPECT_EQ(command.value, 1);
   EXPECT_EQ(command.trailing_bytes, 1u);
-  EXPECT_EQ(decode_command(from_hex("63"), command), DecodeResult::Ok);  // in no table: the caller decides
+  EXPECT_EQ(decode_command(from_hex("63"), command),
+            DecodeResult::Ok);  // not in the table: the caller decides
   EXPECT_EQ(command.id, 0x63);
 }
 
-TEST(CommandDecoding, NamesWhatIsWrong) {
+TEST(CommandDecoding, NamesTheError) {
   Command command;
   EXPECT_EQ(decode_command(Bytes{}, command), DecodeResult::Truncated);
   EXPECT_EQ(decode_command(from_hex("0b3bfa"), command), DecodeResult::Truncated);

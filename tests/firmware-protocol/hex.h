@@ -1,4 +1,4 @@
-// Bytes as hexadecimal text, so that tests read like the reference's tables.
+// Bytes as hexadecimal text, as in the tables of the ARCOS manual.
 #pragma once
 
 #include <cstdint>

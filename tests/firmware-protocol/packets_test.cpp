@@ -1,4 +1,4 @@
-// SIP, CONFIGpac, ENCODER, IO and the sync echo: layouts laid out by hand, round trips, and every truncation.
+// SIP, CONFIGpac, ENCODER, IO and the sync echo: layouts written by hand, round trips, and every truncation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using test::from_hex;
 using test::to_hex;
 using test::operator+;
 
-// A moving robot, two sonar readings, the whole tail. Every field has a value no other has.
+// A moving robot, two sonar readings, the whole tail. No two fields have the same value.
 const char* const kSipHead =
     "33"         // id
     "e803 fa00"  // x 1000, y 250
@@ -131,7 +131,7 @@ TEST(SipTruncation, BytesAfterTheLastKnownFieldAreIgnored) {
 
 TEST(SipTruncation, EncodingStopsAtTheFirstUnsetField) {
   Sip sip = full_sip();
-  sip.charge_state.reset();  // the two behind it are set, but would be read as something else
+  sip.charge_state.reset();  // the two after it are set, but would be read as other fields
   Sip back;
   ASSERT_EQ(decode_sip(encode_sip(sip).body(), back), DecodeResult::Ok);
   EXPECT_EQ(back, sip_with_tail_of(7));
@@ -158,7 +158,7 @@ TEST(SipSonars, AsManyAsThePacketHolds) {
   sip.sonar_count++;
   EXPECT_TRUE(encode_sip(sip).empty());
   Bytes body = full_sip_body();
-  body[19] = 255;  // claims more than any packet can hold
+  body[19] = 255;  // states more than any packet can hold
   EXPECT_EQ(decode_sip(body, back), DecodeResult::Truncated);
 }
 
@@ -218,7 +218,7 @@ ConfigPacket full_config() {
   return c;
 }
 
-// In the reference's order, one line for each of its lines.
+// In the order of the ARCOS manual, one line for each of its lines.
 const char* const kConfigHead =
     "20 50696f6e65657200 703361742d736800 583100 01 6801 dc05 5802 a00f f401 72657800 64 02 03"
     "0400 0500 06 6e00 ba40 d007 01 c800 6400 bc02 3c00 6400 ee02"
@@ -243,7 +243,7 @@ TEST(ConfigTruncation, EveryLength) {
     const DecodeResult result = decode_config(std::span(body).first(size), config);
     ASSERT_EQ(result, size < head.size() ? DecodeResult::Truncated : DecodeResult::Ok) << size;
     if (result != DecodeResult::Ok) continue;
-    // What was whole is right, and re-encoding yields those bytes and no others.
+    // The complete fields are right, and encoding them again gives exactly their bytes.
     const Frame again = encode_config(config);
     ASSERT_LE(again.body().size(), size);
     EXPECT_TRUE(std::equal(again.body().begin(), again.body().end(), body.begin())) << size;

@@ -1,8 +1,8 @@
-// The parser on damaged packets. The checksum is weak; these tests say exactly how weak:
-//   * one wrong bit in body or checksum is always noticed;
-//   * two wrong bits in a body of whole pairs go unnoticed when, and only when, they have the same weight in
+// The parser with damaged packets. The checksum is weak; these tests define exactly how weak:
+//   * one wrong bit in body or checksum is always detected;
+//   * two wrong bits in a body of whole pairs are not detected if, and only if, they have the same weight in
 //     two pairs and opposite directions, or both are the pairs' top bits (2 · 2¹⁵ = 0 modulo 65536);
-//   * pairs may change places;
+//   * exchanged pairs are not detected;
 //   * a wrong count moves the checksum to other bytes, which may happen to match (zeros do).
 #include <gtest/gtest.h>
 
@@ -55,20 +55,20 @@ TEST(ParserDamage, OneWrongBitIsNeverAcceptedAndTheNextPacketIs) {
     const Bytes packet = framed(body);
     for (std::size_t bit = 0; bit < packet.size() * 8; ++bit) {
       Collector collector;
-      // A count grown by 128 reaches 128 bytes further: enough sound packets follow to cover it.
+      // A count larger by 128 covers 128 more bytes: enough good packets follow.
       Bytes stream = flipped(packet, bit);
       for (int i = 0; i < 12; ++i) stream = stream + framed(kNext);
       collector.feed(stream);
       ASSERT_EQ(collector.bodies(), std::vector<Bytes>(12, kNext))
           << "bit " << bit << " of " << packet.size() * 8;
       ASSERT_EQ(collector.counters().bytes_discarded, packet.size()) << bit;
-      const bool in_header = bit / 8 < kHeaderSize;  // then it fails in other ways
+      const bool in_header = bit / 8 < kHeaderSize;  // then other errors than the checksum's are counted
       ASSERT_TRUE(in_header || collector.counters().checksum_errors == 1) << bit;
     }
   }
 }
 
-TEST(ParserDamage, TwoWrongBitsSlipThroughExactlyWhenTheyCancel) {
+TEST(ParserDamage, TwoWrongBitsAreAcceptedExactlyWhenTheyCancel) {
   const Bytes body = sip_body(false);
   ASSERT_EQ(body.size() % 2, 0u);
   const Bytes packet = framed(body);
@@ -76,20 +76,20 @@ TEST(ParserDamage, TwoWrongBitsSlipThroughExactlyWhenTheyCancel) {
   const auto weight = [](std::size_t bit) {
     return bit % 8 + (bit / 8 % 2 == 0 ? 8 : 0);
   };  // high byte first
-  int slipped = 0;
+  int accepted = 0;
   for (std::size_t a = 0; a < body.size() * 8; ++a) {
     for (std::size_t b = a + 1; b < body.size() * 8; ++b) {
       Collector collector;
       collector.feed(flipped(flipped(packet, kHeaderSize * 8 + a), kHeaderSize * 8 + b));
       const bool cancel = weight(a) == weight(b) && (is_set(a) != is_set(b) || weight(a) == 15);
       ASSERT_EQ(collector.seen().size(), cancel ? 1u : 0u) << a << ' ' << b;
-      slipped += cancel ? 1 : 0;
+      accepted += cancel ? 1 : 0;
     }
   }
-  EXPECT_GT(slipped, 0);  // the weakness is real
+  EXPECT_GT(accepted, 0);  // such pairs of bits exist
 }
 
-TEST(ParserDamage, SwappedPairsSlipThrough) {
+TEST(ParserDamage, SwappedPairsAreAccepted) {
   Bytes body = from_hex("32 01 0203 0405");
   Bytes packet = framed(body);
   std::swap_ranges(packet.begin() + 5, packet.begin() + 7, packet.begin() + 7);
@@ -98,16 +98,16 @@ TEST(ParserDamage, SwappedPairsSlipThrough) {
   EXPECT_EQ(collector.bodies(), std::vector<Bytes>{from_hex("32 01 0405 0203")});
 }
 
-TEST(ParserDamage, AWrongCountOverZerosSlipsThrough) {
+TEST(ParserDamage, AWrongCountOverZerosIsAccepted) {
   Bytes packet = framed(from_hex("0000000000"));
   ASSERT_EQ(packet[2], 7);
   packet[2] = 3;
   Collector collector;
   collector.feed(packet);
-  EXPECT_EQ(collector.bodies(), std::vector<Bytes>{from_hex("00")});  // SYNC0 out of nothing
+  EXPECT_EQ(collector.bodies(), std::vector<Bytes>{from_hex("00")});  // a SYNC0 that was never sent
 }
 
-TEST(ParserDamage, EveryCutEndLosesOnlyItsOwnPacket) {
+TEST(ParserDamage, ATruncatedPacketLosesNoOther) {
   for (const Bytes& body : sample_bodies()) {
     const Bytes packet = framed(body);
     for (std::size_t kept = 0; kept < packet.size(); ++kept) {
@@ -121,7 +121,7 @@ TEST(ParserDamage, EveryCutEndLosesOnlyItsOwnPacket) {
   }
 }
 
-TEST(ParserDamage, EveryMissingByteLosesOnlyItsOwnPacket) {
+TEST(ParserDamage, AMissingByteLosesNoOtherPacket) {
   for (const Bytes& body : sample_bodies()) {
     const Bytes packet = framed(body);
     for (std::size_t missing = 0; missing < packet.size(); ++missing) {
@@ -146,7 +146,7 @@ TEST(ParserDamage, AGoodPacketInsideABadOneIsFound) {
 }
 
 TEST(ParserDamage, TheLongestBadPacketInAFullBuffer) {
-  // Ends of packets meet every position of the parser's buffer.
+  // Packets end at every position of the parser's buffer.
   Collector collector;
   std::size_t expected = 0;
   for (std::size_t size = 1; size < 60; ++size) {

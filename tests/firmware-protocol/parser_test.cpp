@@ -1,4 +1,5 @@
-// The parser on sound packets: cut anywhere, with garbage around, of every length, stamped at the first byte.
+// The parser with good packets: divided anywhere, with garbage around, of every length, stamped at the first
+// byte.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -69,7 +70,7 @@ struct Garbage {
   const char* hex;
   unsigned length_errors;
 };
-// Garbage that cannot be the beginning of a packet is passed over at once.
+// Garbage that cannot be the beginning of a packet is skipped at once.
 const Garbage kGarbage[] = {
     {"nothing", "", 0},
     {"a radio modem's greeting", "574d53320d", 0},
@@ -97,9 +98,9 @@ TEST(ParserGarbage, BeforeBetweenAndAfter) {
   }
 }
 
-TEST(ParserWaiting, GivingUpAFalseHeaderFreesWhatIsBehindIt) {
+TEST(ParserWaiting, GivingUpAFalseHeaderReleasesThePacketAfterIt) {
   Collector collector;
-  collector.feed(from_hex("fafbf9"), 100);  // 249 bytes promised, never to come
+  collector.feed(from_hex("fafbf9"), 100);  // 249 bytes are announced and do not come
   collector.feed(framed(kOddBody), 200);
   collector.feed(framed(kEvenBody), 300);
   EXPECT_TRUE(collector.seen().empty());
@@ -111,7 +112,7 @@ TEST(ParserWaiting, GivingUpAFalseHeaderFreesWhatIsBehindIt) {
   EXPECT_EQ(collector.counters().bytes_discarded, 3u);
 }
 
-TEST(ParserWaiting, ResetForgetsABegunPacketButNotTheCounters) {
+TEST(ParserWaiting, ResetDiscardsAPartialPacketAndKeepsTheCounters) {
   const Bytes packet = framed(kEvenBody);
   Collector collector;
   collector.feed(packet);
@@ -124,8 +125,8 @@ TEST(ParserWaiting, ResetForgetsABegunPacketButNotTheCounters) {
   EXPECT_EQ(collector.counters().packets, 2u);
 }
 
-// Packets, discarded and pending bytes together are the bytes fed.
-RC_GTEST_PROP(ParserProperties, EveryByteIsAccountedFor, ()) {
+// The bytes of packets, the discarded and the pending bytes add up to the bytes fed.
+RC_GTEST_PROP(ParserProperties, EveryByteIsCounted, ()) {
   // Bytes drawn so that headers and small counts are common.
   const auto byte =
       rc::gen::oneOf(rc::gen::arbitrary<std::uint8_t>(), rc::gen::element<std::uint8_t>(0xFA, 0xFB, 3, 4, 0));
@@ -138,8 +139,8 @@ RC_GTEST_PROP(ParserProperties, EveryByteIsAccountedFor, ()) {
             stream.size());
 }
 
-// Byte by byte the parser sees what it sees in one read.
-RC_GTEST_PROP(ParserProperties, CutsNeverMatter, (const Bytes& junk, const Bytes& tail)) {
+// Fed byte by byte the parser gives the same packets as in one read.
+RC_GTEST_PROP(ParserProperties, DivisionIntoReadsDoesNotMatter, (const Bytes& junk, const Bytes& tail)) {
   const Bytes stream = junk + framed(kOddBody) + tail + framed(kEvenBody) + junk;
   Collector whole, bytewise;
   whole.feed(stream);

@@ -1,7 +1,7 @@
-// Any bytes at all into the parser and every decoder. Beside the sanitizers' checks:
+// Any bytes into the parser and into every decoder. In addition to the sanitizers' checks:
 //   * every byte is in a packet, discarded or pending;
-//   * cutting the bytes differently changes nothing;
-//   * what decodes encodes to a packet that decodes to the same.
+//   * division of the bytes into other reads changes nothing;
+//   * a decoded packet, encoded and decoded again, is the same.
 #include <cstdint>
 #include <cstdlib>
 #include <span>
@@ -70,7 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(bodies == parse(bytes, size / 2));
   for (const Body& body : bodies) decode_everything(body);
 
-  // Few random bytes pass a checksum: the decoders also get them bare, and framed.
+  // Few random bytes have a right checksum: the decoders get them also as a body, and with a right frame.
   decode_everything(bytes);
   const arcos::Frame frame = arcos::frame_body(bytes);
   if (!frame.empty()) require(parse(frame.bytes(), 3) == std::vector<Body>{Body(bytes.begin(), bytes.end())});

@@ -1,6 +1,6 @@
-// Any packets and any bytes, at any time, into a session. Beside the sanitizers' checks: whatever the robot
-// says,
-//   * a motion that is not zero is only sent while running, motors on and no stop button pressed;
+// Any packets and any bytes, at any time, into a session. In addition to the sanitizers' checks, whatever the
+// robot sends:
+//   * a motion that is not zero is sent only in Running, with the motors on and no stop button pressed;
 //   * it is never faster than the limits;
 //   * RESET and MAINTENANCE are never sent.
 #include <algorithm>
@@ -43,7 +43,7 @@ void tick(ArcosSession& session, const VelocityCommand& command, TimeNs now_ns, 
   check_output(session, session.send(command, now_ns), config);
 }
 
-/// A whole handshake up to motors enabled: no fuzzer would find it by itself.
+/// A complete handshake until the motors are enabled: the fuzzer would not find it.
 void connect(ArcosSession& session, TimeNs& now_ns, const RobotConfig& config) {
   arcos::Sip sip;
   sip.flags = arcos::kFlagMotorsEnabled;
@@ -54,7 +54,7 @@ void connect(ArcosSession& session, TimeNs& now_ns, const RobotConfig& config) {
                                arcos::encode_config({}),
                                arcos::encode_sip(sip)};
   for (const arcos::Frame& frame : said) {
-    for (int i = 0; i < 16; ++i) {  // 0.32 s: longer than it listens, shorter than its patience
+    for (int i = 0; i < 16; ++i) {  // 0.32 s: longer than it listens, shorter than its time-out
       now_ns += 20 * kNsPerMs;
       tick(session, {}, now_ns, config);
     }
@@ -92,7 +92,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } else if (what == 11) {
       session.line_opened(now_ns);
     } else if (what == 12) {
-      session = ArcosSession(config);  // as a process that begins again
+      session = ArcosSession(config);  // heeld starts again
       session.line_opened(now_ns);
     } else if (what == 13) {
       check_output(session, session.close(now_ns), config);

@@ -1,4 +1,4 @@
-"""The installed tree: a program outside builds against it, by CMake and by pkg-config, and every header stands alone."""
+"""The installed tree: a program outside the project builds with it, by CMake and by pkg-config, and every header compiles alone."""
 import os
 import pathlib
 import re
@@ -16,7 +16,7 @@ ALLOWED_LIBRARIES = re.compile(r"(libhwy|libstdc\+\+|libm|libgcc_s|libc|ld-linux
 
 
 def run(*command, **options):
-    """The command's output; its whole output is in the failure's message."""
+    """Returns the command's output; the message of a failure holds all of it."""
     done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           timeout=300, check=False, **options)
     if done.returncode != 0:
@@ -80,7 +80,7 @@ class InstalledLibraries(unittest.TestCase):
             run(CMAKE, "-S", self.root, "-B", self.root / "unknown", f"-DCMAKE_PREFIX_PATH={self.prefix}")
 
     def test_every_header_compiles_alone(self):
-        """Against the installed tree and Eigen only: a public header that includes an internal one fails here."""
+        """Compiles with the installed tree and Eigen only: a public header that includes an internal one fails."""
         flags = ["-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-x", "c++", "-"]
         headers = sorted(path.relative_to(self.prefix / "include") for path in self.prefix.glob("include/*/*.h"))
         self.assertTrue({"heel", "arcos"} <= {header.parts[0] for header in headers}, headers)

@@ -1,4 +1,5 @@
-// Logging: levels, the journal's fields, and that it is only used when standard error is the journal.
+// Logging: levels, the journal's fields, and that the journal is used only when standard error is the
+// journal.
 #include "logging/logging.h"
 
 #include <gmock/gmock.h>
@@ -45,7 +46,7 @@ TEST(Logging, JournalMessagesCarryTheSyslogPriority) {
   EXPECT_THAT(fields_of(spdlog::level::critical), Contains("PRIORITY=2"));
 }
 
-TEST(Logging, JournalMessagesSayWhatTheyAreAbout) {
+TEST(Logging, JournalMessagesCarryPartAndEvent) {
   EXPECT_THAT(fields_of(spdlog::level::info),
               testing::ElementsAre("MESSAGE=text", "PRIORITY=6", "SYSLOG_IDENTIFIER=heeld"));
 
@@ -70,13 +71,13 @@ TEST(Logging, TerminalLinesCarryTimeAndLevel) {
               testing::MatchesRegex("[0-9][0-9]:[0-9][0-9]:[0-9][0-9]\\.[0-9]+ warning text\n"));
 }
 
-TEST(Logging, TheJournalIsRecognisedByDeviceAndInodeOfStandardError) {
+TEST(Logging, TheJournalIsRecognisedByTheDeviceAndInodeOfStandardError) {
   struct stat file {};
   ASSERT_EQ(fstat(STDERR_FILENO, &file), 0);
   unsetenv("JOURNAL_STREAM");
   EXPECT_FALSE(stderr_is_journal());
   setenv("JOURNAL_STREAM", "1:2", 1);
-  EXPECT_FALSE(stderr_is_journal()) << "inherited from elsewhere";
+  EXPECT_FALSE(stderr_is_journal()) << "the variable is inherited, and names another stream";
   setenv("JOURNAL_STREAM", (std::to_string(file.st_dev) + ":" + std::to_string(file.st_ino)).c_str(), 1);
   EXPECT_TRUE(stderr_is_journal());
   unsetenv("JOURNAL_STREAM");
@@ -93,7 +94,7 @@ TEST(Logging, UnknownLevelsAreRefusedAndChangeNothing) {
   EXPECT_THROW(start_logging(""), Error);
 }
 
-TEST(Logging, WhatWasLoggedIsWrittenBeforeStopAndLateMessagesStillFindALogger) {
+TEST(Logging, StopWritesTheWaitingMessagesAndLaterMessagesAreStillLogged) {
   testing::internal::CaptureStderr();
   start_logging("info");
   for (int i = 0; i < 100; ++i) spdlog::info("message {}", i);

@@ -6,7 +6,7 @@
 namespace heel {
 namespace {
 
-TEST(Clock, SleepsToAnAbsoluteTimeAndNotAtAllWhenPast) {
+TEST(Clock, SleepsUntilAnAbsoluteTimeAndNotWhenItHasPassed) {
   const TimeNs start_ns = monotonic_now_ns();
   sleep_until_ns(start_ns + 5 * kNsPerMs);
   EXPECT_GE(monotonic_now_ns(), start_ns + 5 * kNsPerMs);
@@ -15,7 +15,7 @@ TEST(Clock, SleepsToAnAbsoluteTimeAndNotAtAllWhenPast) {
   EXPECT_LT(monotonic_now_ns() - now_ns, 500 * kNsPerS);
 }
 
-TEST(PeriodicDeadline, StaysOnTheGridHoweverLateItWakes) {
+TEST(PeriodicDeadline, StaysOnTheGridAfterLateWakeUps) {
   PeriodicDeadline deadline(20, 1000);
   EXPECT_EQ(deadline.next_ns(), 1020);
   EXPECT_EQ(deadline.advance(1020), 0);
@@ -24,9 +24,9 @@ TEST(PeriodicDeadline, StaysOnTheGridHoweverLateItWakes) {
   EXPECT_EQ(deadline.overruns(), 0u);
 }
 
-TEST(PeriodicDeadline, SkipsAndCountsWhatPassedAltogether) {
+TEST(PeriodicDeadline, SkipsAndCountsDeadlinesThatHavePassed) {
   PeriodicDeadline deadline(20, 0);
-  EXPECT_EQ(deadline.advance(20 + 45), 45);  // 40 and 60 have passed as well
+  EXPECT_EQ(deadline.advance(20 + 45), 45);  // the deadlines at 40 and 60 have also passed
   EXPECT_EQ(deadline.overruns(), 2u);
   EXPECT_EQ(deadline.next_ns(), 80);
   EXPECT_EQ(deadline.advance(100), 20);  // exactly one period late: the deadline at 100 is missed too

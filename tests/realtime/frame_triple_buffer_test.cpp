@@ -1,4 +1,4 @@
-// The frame ring: freshest wins, nothing torn, and every frame accounted for.
+// The frame triple buffer: the reader gets the newest frame, frames are whole, and every frame is counted.
 #include "realtime/frame_triple_buffer.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace heel {
 namespace {
 
-constexpr std::uint32_t kWidth = 61;  // odd on purpose: the stride is larger than the width
+constexpr std::uint32_t kWidth = 61;  // odd, so that the stride is larger than the width
 constexpr std::uint32_t kHeight = 7;
 
 // Every pixel of a frame is a function of its sequence and place, so that a mixture of two frames shows.
@@ -49,7 +49,7 @@ TEST(FrameTripleBuffer, EmptyAtFirst) {
   EXPECT_EQ(ring.captured(), 0u);
 }
 
-TEST(FrameTripleBuffer, ReaderGetsTheNewestAndTheOvertakenAreCounted) {
+TEST(FrameTripleBuffer, TheReaderGetsTheNewestFrameAndReplacedFramesAreCounted) {
   FrameTripleBuffer ring(kWidth, kHeight);
   for (std::uint64_t sequence = 1; sequence <= 5; ++sequence) {
     fill(ring.writable(), sequence);
@@ -65,7 +65,7 @@ TEST(FrameTripleBuffer, ReaderGetsTheNewestAndTheOvertakenAreCounted) {
   EXPECT_EQ(ring.dropped(), 4u);
 }
 
-TEST(FrameTripleBuffer, TheHeldFrameIsNeverTouchedHoweverManyPass) {
+TEST(FrameTripleBuffer, TheReadersFrameIsNotChangedByNewerFrames) {
   FrameTripleBuffer ring(kWidth, kHeight);
   fill(ring.writable(), 1);
   ring.publish();
@@ -123,8 +123,8 @@ TEST(FrameTripleBuffer, WaitEndsWithAFrameAWakeOrTheTimeout) {
   EXPECT_LT(monotonic_now_ns() - wake_ns, 30 * kNsPerS);
 }
 
-// Writer and reader at full speed; the reader now and then as slow as vision is.
-TEST(FrameTripleBuffer, StressNothingTornAndCountsAddUpExactly) {
+// Writer and reader at full speed; the reader is sometimes as slow as vision.
+TEST(FrameTripleBuffer, UnderStressFramesAreWholeAndCountsAddUp) {
   FrameTripleBuffer ring(kWidth, kHeight);
   constexpr std::uint64_t kFrames = 40'000;
   std::atomic<bool> done{false};
@@ -161,7 +161,7 @@ TEST(FrameTripleBuffer, StressNothingTornAndCountsAddUpExactly) {
   EXPECT_EQ(ring.consumed(), taken);
   EXPECT_EQ(ring.captured(), ring.consumed() + ring.dropped() + left);
   if (left == 1) last = ring.take()->header.sequence;
-  EXPECT_EQ(last, kFrames) << "the freshest frame must not be the one that is lost";
+  EXPECT_EQ(last, kFrames) << "the newest frame must not be lost";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The mailbox: the newest value, whole, once.
+// The mailbox gives the newest value, whole, once.
 #include "realtime/mailbox.h"
 
 #include <gtest/gtest.h>
@@ -29,14 +29,14 @@ bool whole(const Letter& value) {
   return true;
 }
 
-TEST(Mailbox, EmptyLeavesTheReadersValueAlone) {
+TEST(Mailbox, AnEmptyMailboxDoesNotChangeTheReadersValue) {
   Mailbox<Letter> box;
   Letter out = letter(7);
   EXPECT_FALSE(box.take(out));
   EXPECT_EQ(out.number, 7u);
 }
 
-TEST(Mailbox, LatestWinsAndIsGivenOnce) {
+TEST(Mailbox, GivesTheNewestValueOnce) {
   Mailbox<Letter> box;
   for (std::uint64_t n = 1; n <= 4; ++n) box.post(letter(n));
   Letter out;
@@ -48,7 +48,7 @@ TEST(Mailbox, LatestWinsAndIsGivenOnce) {
   EXPECT_EQ(out.number, 5u);
 }
 
-TEST(Mailbox, StressNothingTornNeverBackwardsLastArrives) {
+TEST(Mailbox, UnderStressValuesAreWholeNeverGoBackwardsAndTheLastArrives) {
   Mailbox<Letter> box;
   constexpr std::uint64_t kLetters = 200'000;
   std::atomic<bool> done{false};

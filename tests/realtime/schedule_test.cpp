@@ -1,4 +1,4 @@
-// The schedule table and what a thread makes of its row.
+// The schedule table, and how a thread applies its row.
 #include "realtime/schedule.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,8 @@ TEST(Schedule, RowsFollowTheConfiguration) {
   EXPECT_EQ(vision.priority, 33);
   EXPECT_EQ(vision.deadline_ns, 40 * kNsPerMs);
   EXPECT_EQ(plan_of(schedule, ThreadRole::Capture).priority, 52);
-  EXPECT_EQ(plan_of(schedule, ThreadRole::Telemetry).priority, 0) << "disks and text are never real time";
+  EXPECT_EQ(plan_of(schedule, ThreadRole::Telemetry).priority, 0)
+      << "telemetry writes to disk and formats text";
 }
 
 TEST(Schedule, NamesAreDistinctAndFitTheKernelsFifteenCharacters) {
@@ -46,7 +47,7 @@ TEST(Schedule, NamesAreDistinctAndFitTheKernelsFifteenCharacters) {
   }
 }
 
-/// What `enter_thread` said, and what the kernel says of the thread.
+/// What `enter_thread` returned, and the kernel's values for the thread.
 struct Entered {
   ThreadEntry entry;
   std::string name;
@@ -69,7 +70,7 @@ Entered observe_this_thread(const ThreadEntry& entry) {
   return entered;
 }
 
-/// In a thread of its own: calls `before`, then `enter_thread`.
+/// Calls `before` and then `enter_thread` in a new thread.
 template <typename Before>
 Entered enter(const ThreadPlan& plan, bool realtime, Before before) {
   Entered entered;
@@ -86,7 +87,7 @@ Entered enter(const ThreadPlan& plan, bool realtime) {
 
 constexpr ThreadPlan kPlan{.role = ThreadRole::Control, .name = "heel-control", .priority = 60};
 
-TEST(EnterThread, NamesTheThreadAndLeavesItOrdinaryWithoutRealTime) {
+TEST(EnterThread, NamesTheThreadAndKeepsOrdinarySchedulingWithoutRealTime) {
   const Entered entered = enter(kPlan, false);
   EXPECT_EQ(entered.name, "heel-control");
   EXPECT_FALSE(entered.entry.realtime);
@@ -95,9 +96,8 @@ TEST(EnterThread, NamesTheThreadAndLeavesItOrdinaryWithoutRealTime) {
   EXPECT_EQ(entered.timer_slack_ns, 1);
 }
 
-// Root gets the priority; a container without CAP_SYS_NICE does not. Either way the kernel's own answer
-// decides.
-TEST(EnterThread, ThePriorityIsTakenWhereTheKernelGrantsIt) {
+// Root gets the priority, a container without CAP_SYS_NICE does not. The kernel's own answer decides.
+TEST(EnterThread, HasThePriorityWhereTheKernelGrantsIt) {
   const int error = test::answer_to_fifo_request(kPlan.priority);
   const Entered entered = enter(kPlan, true);
   EXPECT_EQ(entered.name, "heel-control");
@@ -107,7 +107,7 @@ TEST(EnterThread, ThePriorityIsTakenWhereTheKernelGrantsIt) {
   EXPECT_EQ(entered.priority, error == 0 ? kPlan.priority : 0);
 }
 
-TEST(EnterThread, ARefusalIsReportedAndLeavesTheThreadOrdinary) {
+TEST(EnterThread, ARefusalIsReportedAndTheThreadKeepsOrdinaryScheduling) {
   const test::NoPriorityLimit no_limit;
   const Entered entered = enter(kPlan, true, test::drop_sys_nice);
   EXPECT_FALSE(entered.entry.realtime);

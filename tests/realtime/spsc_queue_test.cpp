@@ -1,4 +1,4 @@
-// The record queue: in order, nothing twice, and what did not fit is counted.
+// The record queue: records arrive in order and once, and dropped records are counted.
 #include "realtime/spsc_queue.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ struct Record {
   std::array<std::uint64_t, 12> copies{};
 };
 
-TEST(SpscQueue, StressOrderKeptWholeAndCountsAddUpExactly) {
+TEST(SpscQueue, UnderStressRecordsAreWholeInOrderAndCountsAddUp) {
   SpscQueue<Record> queue(32);
   constexpr std::uint64_t kRecords = 200'000;
   std::uint64_t pushed = 0;

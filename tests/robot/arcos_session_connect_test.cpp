@@ -1,4 +1,4 @@
-// The session from the first byte to motors enabled, on robots in every mood.
+// The session from the first byte until the motors are enabled, with robots in every state.
 #include <gtest/gtest.h>
 
 #include "robot/session_bench.h"
@@ -62,7 +62,7 @@ TEST(ArcosSessionConnect, PhasesInOrder) {
   EXPECT_TRUE(bench.run_until(LinkPhase::Running));
 }
 
-TEST(ArcosSessionConnect, SaysNothingBeforeItHasListened) {
+TEST(ArcosSessionConnect, SendsNothingBeforeItHasListened) {
   SessionBench bench;
   bench.run(0.28);
   EXPECT_EQ(bench.robot.bytes_received, 0u);
@@ -89,7 +89,7 @@ TEST(ArcosSessionConnect, LastEchoLost) {
   EXPECT_TRUE(bench.run_until(LinkPhase::Running));
 }
 
-TEST(ArcosSessionConnect, RobotLeftOpenIsStoppedAndClosedBeforeAnyPulse) {
+TEST(ArcosSessionConnect, ASessionLeftOpenIsStoppedAndClosedBeforeAnyPulse) {
   SessionBench bench;
   bench.robot.open = true;
   bench.robot.set_flag(arcos::kFlagMotorsEnabled, true);
@@ -97,11 +97,11 @@ TEST(ArcosSessionConnect, RobotLeftOpenIsStoppedAndClosedBeforeAnyPulse) {
   EXPECT_EQ(bench.count(Kind::FoundOpen), 1);
   ASSERT_GE(bench.robot.log.size(), 3u);
   EXPECT_TRUE(bench.robot.log[0].is(CommandId::Stop));   // zero first …
-  EXPECT_TRUE(bench.robot.log[1].is(CommandId::Close));  // … and SYNC0 is no PULSE any more
+  EXPECT_TRUE(bench.robot.log[1].is(CommandId::Close));  // … and a closed robot does not take SYNC0 as PULSE
   EXPECT_TRUE(bench.robot.log[2].is(CommandId::Sync0));
 }
 
-TEST(ArcosSessionConnect, MotorsAlreadyOnAreNotDrivenBeforeZeroHasGoneOut) {
+TEST(ArcosSessionConnect, MotorsAlreadyOnAreDrivenOnlyAfterZeroHasBeenSent) {
   SessionBench bench;
   bench.robot.set_flag(arcos::kFlagMotorsEnabled, true);
   bench.v_m_s = 0.5;
@@ -129,7 +129,7 @@ TEST(ArcosSessionBaud, FindsTheRateTheRobotWasLeftAt) {
   }
 }
 
-TEST(ArcosSessionBaud, OpenAtAnotherRateIsHeardAndClosed) {
+TEST(ArcosSessionBaud, ASessionLeftOpenAtAnotherRateIsFoundAndClosed) {
   SessionBench bench(bench_config("serial:/dev/ttyUSB0@115200"));
   bench.robot.baud = 9600;
   bench.robot.open = true;
@@ -137,7 +137,7 @@ TEST(ArcosSessionBaud, OpenAtAnotherRateIsHeardAndClosed) {
   EXPECT_TRUE(bench.robot.log[0].is(CommandId::Stop));
 }
 
-TEST(ArcosSessionBaud, AWholeSweepWithoutAnswerAsksForTheDeviceAnew) {
+TEST(ArcosSessionBaud, ASweepWithoutAnswerAsksToOpenTheDeviceAgain) {
   SessionBench bench(bench_config("serial:/dev/ttyUSB0@38400"));
   bench.robot.mute = true;
   bench.run(5 * 2.0);
@@ -156,7 +156,7 @@ TEST(ArcosSessionBaud, APtyIsSweptAsASerialLineIs) {
   EXPECT_EQ(bench.session.wanted_baud(), 9600);
 }
 
-TEST(ArcosSessionBaud, NothingToTuneOverTcp) {
+TEST(ArcosSessionBaud, IsNotChangedOverTcp) {
   SessionBench bench(bench_config("tcp:robot:8101"));
   bench.robot.mute = true;
   const int baud = bench.session.wanted_baud();
@@ -165,7 +165,7 @@ TEST(ArcosSessionBaud, NothingToTuneOverTcp) {
   EXPECT_TRUE(bench.session.line_exhausted());
 }
 
-TEST(ArcosSessionConfig, MissingOrDamagedIsDoneWithout) {
+TEST(ArcosSessionConfig, ConnectsAlsoWhenItIsMissingOrDamaged) {
   for (const bool damaged : {false, true}) {
     SessionBench bench;
     bench.robot.answers_config = damaged;
@@ -183,7 +183,7 @@ TEST(ArcosSessionConfig, ControllersOwnLimitsAreNotExceeded) {
   bench.robot.config.trans_vel_top = 500;
   bench.robot.config.trans_acc_top = 1000;
   bench.robot.config.rot_vel_top = 90;
-  bench.robot.config.rot_acc_top = 0;  // not told
+  bench.robot.config.rot_acc_top = 0;  // unknown
   ASSERT_TRUE(bench.run_until(LinkPhase::Running));
   const auto sent = [&](CommandId id, std::size_t i) { return bench.robot.received(id).at(i).value; };
   EXPECT_EQ(sent(CommandId::SetV, 0), 500);
@@ -193,7 +193,7 @@ TEST(ArcosSessionConfig, ControllersOwnLimitsAreNotExceeded) {
   EXPECT_EQ(sent(CommandId::SetRa, 0), bench_config().yaw_acceleration_deg_s2);
 }
 
-TEST(ArcosSessionConfig, NotAskedWhenNotWanted) {
+TEST(ArcosSessionConfig, IsNotRequestedWhenTheConfigurationSaysSo) {
   RobotConfig config = bench_config();
   config.request_config = false;
   SessionBench bench(config);
@@ -212,7 +212,7 @@ TEST(ArcosSessionConfig, SonarsAreOnOrOffAsConfigured) {
   }
 }
 
-TEST(ArcosSessionEnable, AskedAgainUntilTheFlagConfirms) {
+TEST(ArcosSessionEnable, IsRepeatedUntilTheFlagConfirms) {
   SessionBench bench;
   bench.robot.enables_to_ignore = 2;
   ASSERT_TRUE(bench.run_until(LinkPhase::Running));
@@ -221,7 +221,7 @@ TEST(ArcosSessionEnable, AskedAgainUntilTheFlagConfirms) {
   EXPECT_EQ(bench.count(Kind::EnableRepeated), 2);
 }
 
-TEST(ArcosSessionEnable, FailureIsNamedAndLeavesTheMotorsAlone) {
+TEST(ArcosSessionEnable, FailureIsReportedAndTheMotorsStayOff) {
   SessionBench bench;
   bench.robot.enables_to_ignore = 1000;
   bench.v_m_s = 0.5;
@@ -232,7 +232,7 @@ TEST(ArcosSessionEnable, FailureIsNamedAndLeavesTheMotorsAlone) {
   for (const Received& speed : bench.robot.received(CommandId::Vel)) ASSERT_EQ(speed.value, 0);
 }
 
-TEST(ArcosSessionEnable, ButtonHeldFromTheBeginning) {
+TEST(ArcosSessionEnable, ButtonPressedFromTheBeginning) {
   SessionBench bench;
   bench.robot.set_flag(arcos::kFlagStopButton, true);
   ASSERT_TRUE(bench.run_until(LinkPhase::Disabled));

@@ -1,5 +1,5 @@
-// Silence, a broken line, a controller that resets, damaged bytes: how the session comes back, and where it
-// thinks it is afterwards.
+// Silence, a broken line, a controller that resets, damaged bytes: how the session recovers, and which pose
+// it has afterwards.
 #include <gtest/gtest.h>
 
 #include "robot/session_bench.h"
@@ -18,7 +18,7 @@ struct DrivingBench : SessionBench {
   DrivingBench() {
     EXPECT_TRUE(run_until(LinkPhase::Running));
     v_m_s = 0.3;
-    for (int i = 0; i < 100; ++i) {  // 0.2 m/s in the robot's own opinion
+    for (int i = 0; i < 100; ++i) {  // 0.2 m/s by the robot's counters
       robot.sip.x_pos = static_cast<std::uint16_t>(robot.sip.x_pos + 20);
       robot.sip.y_pos = static_cast<std::uint16_t>(robot.sip.y_pos + 5);
       run(0.1);
@@ -41,15 +41,15 @@ struct DrivingBench : SessionBench {
   }
 };
 
-TEST(ArcosSessionSilence, LostThenConnectedAnewWithZeroFirst) {
+TEST(ArcosSessionSilence, ReconnectsAndSendsZeroFirst) {
   DrivingBench bench;
   bench.robot.mute = true;
   bench.run(1.8);
-  EXPECT_EQ(bench.session.state().phase, LinkPhase::Running);  // the supervisor stopped it long ago
+  EXPECT_EQ(bench.session.state().phase, LinkPhase::Running);  // the supervisor has already stopped it
   ASSERT_TRUE(bench.run_until(LinkPhase::Lost, 0.5));
   EXPECT_EQ(bench.count(Kind::SipSilence), 1);
   bench.robot.log.clear();
-  bench.tick();  // STOP and CLOSE go out with the tick that found it, or the next one
+  bench.tick();  // STOP and CLOSE are sent in the tick that found the silence, or in the next
   bench.run(1.5);
   bench.robot.mute = false;
   ASSERT_TRUE(bench.run_until(LinkPhase::Running));
@@ -58,7 +58,7 @@ TEST(ArcosSessionSilence, LostThenConnectedAnewWithZeroFirst) {
   bench.expect_position(2.0, 0.5);
 }
 
-TEST(ArcosSessionSilence, StopAndCloseAreSentIntoTheSilence) {
+TEST(ArcosSessionSilence, StopAndCloseAreSentToASilentRobot) {
   DrivingBench bench;
   bench.robot.mute = true;
   bench.run(3.0);
@@ -79,14 +79,15 @@ TEST(ArcosSessionLine, LostAndOpenedAgain) {
   bench.line_up = true;
   bench.robot.log.clear();
   bench.session.line_opened(bench.now_ns);
-  ASSERT_TRUE(bench.run_until(LinkPhase::Running));  // it was left open: closed and synchronised again
+  ASSERT_TRUE(bench.run_until(
+      LinkPhase::Running));  // the robot's session was left open: it is closed and synchronised again
   EXPECT_TRUE(bench.robot.log[0].is(CommandId::Stop));
   EXPECT_EQ(bench.session.state().reconnects, 1u);
   bench.expect_zero_first();
   bench.expect_position(2.0, 0.5);
 }
 
-TEST(ArcosSessionLine, OdometryGoesOnWhetherOrNotTheCountersWereZeroed) {
+TEST(ArcosSessionLine, OdometryContinuesWhetherOrNotTheCountersWereZeroed) {
   for (const bool zeroed : {false, true}) {
     DrivingBench bench;
     bench.session.line_lost(bench.now_ns);
@@ -103,7 +104,7 @@ TEST(ArcosSessionLine, OdometryGoesOnWhetherOrNotTheCountersWereZeroed) {
   }
 }
 
-TEST(ArcosSessionReset, NoticeMeansConnectAnewFromTheSamePlace) {
+TEST(ArcosSessionReset, AResetNoticeMakesItReconnectWithTheSamePose) {
   for (const std::uint8_t id : Bytes{0xFE, 0xFF}) {
     DrivingBench bench;
     bench.robot.say(arcos::frame_body(Bytes{id}));
@@ -131,7 +132,7 @@ TEST(ArcosSessionOpen, NoSipAfterOpenStartsAgain) {
   EXPECT_TRUE(bench.run_until(LinkPhase::Running));
 }
 
-TEST(ArcosSessionDamage, GarbledSipsAreCountedAndPassedOver) {
+TEST(ArcosSessionDamage, DamagedSipsAreCountedAndIgnored) {
   DrivingBench bench;
   const std::uint64_t sips = bench.session.state().sips;
   for (int i = 0; i < 10; ++i) {
@@ -147,7 +148,7 @@ TEST(ArcosSessionDamage, GarbledSipsAreCountedAndPassedOver) {
   EXPECT_EQ(bench.session.state().phase, LinkPhase::Running);
 }
 
-TEST(ArcosSessionDamage, AFalseHeaderHoldsUpSipsForLessThanTheSupervisorsPatience) {
+TEST(ArcosSessionDamage, AFalseHeaderDelaysSipsForLessThanTheSupervisorsTimeout) {
   DrivingBench bench;
   bench.session.receive(Bytes{0xFA, 0xFB, 249}, bench.now_ns);
   const TimeNs begin_ns = bench.now_ns;
@@ -158,7 +159,7 @@ TEST(ArcosSessionDamage, AFalseHeaderHoldsUpSipsForLessThanTheSupervisorsPatienc
   EXPECT_GE(bench.session.state().sips, sips + 12);  // none was lost
 }
 
-TEST(ArcosSessionDamage, SoundChecksumBrokenLayoutIsNamed) {
+TEST(ArcosSessionDamage, AGoodChecksumWithAWrongLayoutIsReported) {
   DrivingBench bench;
   const arcos::Frame frame = arcos::frame_body(Bytes{0x33, 1, 2, 3});
   bench.session.receive(frame.bytes(), bench.now_ns);

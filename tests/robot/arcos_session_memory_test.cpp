@@ -1,4 +1,5 @@
-// After construction a session does not allocate: not while connecting, not on damage, not on loss.
+// After construction a session does not allocate: not while it connects, nor with damaged bytes, nor when the
+// line is lost.
 #include <gtest/gtest.h>
 
 #include "robot/session_bench.h"
@@ -8,7 +9,7 @@ namespace heel {
 namespace {
 
 TEST(ArcosSessionMemory, NoAllocationAfterConstruction) {
-  if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer keeps the allocator";
+  if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   test::ScriptedRobot robot;
   ArcosSession session(test::bench_config());
   TimeNs now_ns = kNsPerS;
@@ -40,7 +41,7 @@ TEST(ArcosSessionMemory, NoAllocationAfterConstruction) {
   }
   counted([&] { session.close(now_ns); });
   EXPECT_EQ(allocations, 0u);
-  EXPECT_GE(session.state().reconnects, 1u);  // it has been through loss and return
+  EXPECT_GE(session.state().reconnects, 1u);  // the line was lost and came back
   EXPECT_GE(session.state().checksum_errors, 1u);
 }
 

@@ -1,5 +1,5 @@
-// What a running session sends: every tick, in whole units with the right mean, never expired, never too
-// much; and what it does when the motors go off.
+// What a running session sends: a command each tick, in whole units with the right mean, no expired commands,
+// no more than the line carries; and what it does when the motors go off.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ struct RunningBench : SessionBench {
     run(0.1);
     robot.log.clear();
   }
-  /// As a process that ends and begins again.
+  /// heeld ends and is started again.
   void restart() {
     robot.receive(session.close(now_ns), session.wanted_baud(), now_ns);
     session = ArcosSession(bench_config());
@@ -38,7 +38,7 @@ struct RunningBench : SessionBench {
   }
 };
 
-TEST(ArcosSessionMotion, VelAndRvelEveryTickAlsoZero) {
+TEST(ArcosSessionMotion, SendsVelAndRvelEachTickAlsoZero) {
   RunningBench bench;
   bench.run(2.0);
   EXPECT_EQ(bench.robot.received(CommandId::Vel).size(), 100u);
@@ -46,7 +46,7 @@ TEST(ArcosSessionMotion, VelAndRvelEveryTickAlsoZero) {
   EXPECT_EQ(bench.robot.log.size(), 200u);
 }
 
-TEST(ArcosSessionMotion, MeanIsWhatWasAsked) {
+TEST(ArcosSessionMotion, TheMeanIsTheCommandedVelocity) {
   RunningBench bench;
   bench.v_m_s = 0.2003;
   bench.yaw_rate_rad_s = -0.01;  // −0.573 deg/s: less than one unit
@@ -58,7 +58,7 @@ TEST(ArcosSessionMotion, MeanIsWhatWasAsked) {
   }
 }
 
-TEST(ArcosSessionMotion, FirstCommandAfterEnableIsZeroThenAsAsked) {
+TEST(ArcosSessionMotion, FirstCommandAfterEnableIsZeroThenTheCommandedVelocity) {
   SessionBench bench;
   bench.v_m_s = 0.3;
   bench.yaw_rate_rad_s = 0.5;
@@ -72,11 +72,11 @@ TEST(ArcosSessionMotion, FirstCommandAfterEnableIsZeroThenAsAsked) {
   EXPECT_EQ(bench.robot.received(CommandId::Vel).back().value, 300);
 }
 
-TEST(ArcosSessionMotion, ExpiredCountsAsZero) {
+TEST(ArcosSessionMotion, AnExpiredCommandCountsAsZero) {
   RunningBench bench;
   bench.v_m_s = 0.3;
   bench.yaw_rate_rad_s = 0.5;
-  bench.command_lifetime_ns = 0;  // valid to the nanosecond
+  bench.command_lifetime_ns = 0;  // valid at its own nanosecond only
   bench.run(0.2);
   EXPECT_EQ(bench.robot.received(CommandId::Vel).back().value, 300);
   bench.robot.log.clear();
@@ -99,12 +99,12 @@ TEST(ArcosSessionMotion, NotANumberCountsAsZeroAndLimitsHold) {
   EXPECT_EQ(bench.robot.received(CommandId::RVel).back().value, bench_config().yaw_rate_limit_deg_s);
 }
 
-TEST(ArcosSessionMotion, AfterAGapTheFirstIsZero) {
+TEST(ArcosSessionMotion, AfterAGapTheFirstCommandIsZero) {
   RunningBench bench;
   bench.v_m_s = 0.3;
   bench.run(0.5);
   bench.robot.log.clear();
-  bench.now_ns += 300 * kNsPerMs;  // the control thread was held up
+  bench.now_ns += 300 * kNsPerMs;  // the control thread was delayed
   bench.run(0.1);
   const auto speeds = bench.robot.received(CommandId::Vel);
   EXPECT_EQ(speeds.at(0).value, 0);
@@ -116,7 +116,7 @@ TEST(ArcosSessionMotion, AfterAGapTheFirstIsZero) {
   EXPECT_EQ(bench.robot.received(CommandId::Vel).at(0).value, 300);
 }
 
-TEST(ArcosSessionPacing, NeverMoreThanItsShareOfTheLineNorACommandEach4ms) {
+TEST(ArcosSessionPacing, KeepsToItsShareOfTheLineAndToOneCommandEach4ms) {
   for (const int baud : kRobotBauds) {
     for (const TimeNs tick_ns : {5 * kNsPerMs, 10 * kNsPerMs, 20 * kNsPerMs}) {
       SessionBench bench(bench_config(("serial:/dev/ttyS0@" + std::to_string(baud)).c_str()));
@@ -126,7 +126,7 @@ TEST(ArcosSessionPacing, NeverMoreThanItsShareOfTheLineNorACommandEach4ms) {
       bench.robot.log.clear();
       const std::size_t bytes_before = bench.robot.bytes_received;
       for (int i = 0; i < 10 * kNsPerS / tick_ns; ++i) {
-        bench.now_ns += tick_ns - kTick_ns;  // tick() adds its own
+        bench.now_ns += tick_ns - kTick_ns;  // tick() adds kTick_ns
         bench.tick();
       }
       const auto bytes = static_cast<double>(bench.robot.bytes_received - bytes_before);
@@ -134,14 +134,15 @@ TEST(ArcosSessionPacing, NeverMoreThanItsShareOfTheLineNorACommandEach4ms) {
       EXPECT_LE(bench.robot.log.size(), 10.0 / 0.004 + 4) << baud;
       const std::size_t vel = bench.robot.received(CommandId::Vel).size();
       const std::size_t rvel = bench.robot.received(CommandId::RVel).size();
-      EXPECT_LE(vel, rvel + 1) << "they take turns";
+      EXPECT_LE(vel, rvel + 1) << "VEL and RVEL alternate";
       EXPECT_LE(rvel, vel + 1);
-      EXPECT_GE(vel, baud == 9600 ? 250u : 500u) << baud << " carries one of them, or both, each 20 ms";
+      EXPECT_GE(vel, baud == 9600 ? 250u : 500u)
+          << baud << " baud carry one of them (9600) or both each 20 ms";
     }
   }
 }
 
-TEST(ArcosSessionPacing, BehindATcpServerTheRobotsOwnRateCounts) {
+TEST(ArcosSessionPacing, OverTcpTheRateOfTheRobotsSerialLineCounts) {
   for (const std::uint8_t code : {std::uint8_t{0}, std::uint8_t{2}}) {
     SessionBench bench(bench_config("tcp:robot:8101"));
     bench.robot.config.host_baud = code;
@@ -152,7 +153,7 @@ TEST(ArcosSessionPacing, BehindATcpServerTheRobotsOwnRateCounts) {
   }
 }
 
-TEST(ArcosSessionDisabled, StopButtonAndEStallHoldUntilANewSession) {
+TEST(ArcosSessionDisabled, StopButtonAndEStallKeepTheMotorsOffUntilANewSession) {
   for (const auto flag : {arcos::kFlagStopButton, arcos::kFlagEStall}) {
     RunningBench bench;
     bench.v_m_s = 0.3;
@@ -166,7 +167,8 @@ TEST(ArcosSessionDisabled, StopButtonAndEStallHoldUntilANewSession) {
     bench.robot.log.clear();
     bench.robot.set_flag(flag, false);
     bench.run(5.0);
-    EXPECT_EQ(bench.session.state().phase, LinkPhase::Disabled);  // released is not started again
+    EXPECT_EQ(bench.session.state().phase,
+              LinkPhase::Disabled);  // releasing the button does not start the motors
     EXPECT_TRUE(bench.robot.received(CommandId::Enable).empty());
     EXPECT_EQ(bench.robot.received(CommandId::Vel).size(), 250u);                 // the watchdog is fed …
     for (const Received& command : bench.robot.log) ASSERT_EQ(command.value, 0);  // … with zero
@@ -184,7 +186,7 @@ TEST(ArcosSessionDisabled, StopButtonAndEStallHoldUntilANewSession) {
   }
 }
 
-TEST(ArcosSessionDisabled, MotorsSwitchedOnAtTheRobotDoNotDriveUnasked) {
+TEST(ArcosSessionDisabled, MotorsSwitchedOnAtTheRobotAreNotDriven) {
   RunningBench bench;
   bench.robot.set_flag(arcos::kFlagMotorsEnabled, false);
   bench.run(0.3);
@@ -214,7 +216,7 @@ TEST(ArcosSessionDisabled, AReconnectionDoesNotEnableTheMotors) {
   EXPECT_TRUE(bench.run_until(LinkPhase::Running));
 }
 
-TEST(ArcosSessionClose, StopSonarOffCloseInThisOrderAndThenNothing) {
+TEST(ArcosSessionClose, SendsStopSonarOffAndCloseInThisOrderAndThenNothing) {
   RunningBench bench;
   const auto bytes = bench.session.close(bench.now_ns);
   EXPECT_EQ(std::vector<std::uint8_t>(bytes.begin(), bytes.end()),
@@ -259,14 +261,14 @@ TEST(ArcosSessionState, SipFieldsInSi) {
   EXPECT_DOUBLE_EQ(state.battery_v, 26.3);
 }
 
-TEST(ArcosSessionState, EachSonarKeepsWhatItHeardLastAndWhen) {
+TEST(ArcosSessionState, EachSonarKeepsItsLastEchoAndItsTime) {
   RunningBench bench;
   const RobotState& state = bench.session.state();
-  EXPECT_EQ(state.sonar[3].t_ns, 0) << "has not been heard";
+  EXPECT_EQ(state.sonar[3].t_ns, 0) << "no echo yet";
   bench.robot.sip.sonar_count = 3;
   bench.robot.sip.sonars[0] = {3, 1234};
   bench.robot.sip.sonars[1] = {15, 5000};
-  bench.robot.sip.sonars[2] = {16, 700};  // no robot has a seventeenth
+  bench.robot.sip.sonars[2] = {16, 700};  // there is no seventeenth sonar
   bench.run(0.2);
   EXPECT_DOUBLE_EQ(state.sonar[3].range_m, 1.234);
   EXPECT_DOUBLE_EQ(state.sonar[15].range_m, 5.0);

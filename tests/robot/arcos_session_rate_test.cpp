@@ -1,4 +1,4 @@
-// A slow line made faster before the motors run, and what becomes of it when that fails.
+// The session raises the rate of a slow line before the motors run, and recovers when that fails.
 #include <gtest/gtest.h>
 
 #include "robot/session_bench.h"
@@ -11,7 +11,7 @@ using test::bench_config;
 using test::SessionBench;
 using Kind = SessionEventKind;
 
-/// At 9600 baud, where 38400 is wanted.
+/// A robot at 9600 baud; the address asks for 38400.
 struct SlowBench : SessionBench {
   explicit SlowBench(const char* address = "serial:/dev/ttyS0@38400") : SessionBench(bench_config(address)) {
     robot.baud = 9600;
@@ -59,7 +59,7 @@ TEST(ArcosSessionRate, IsKeptOverAReconnectionAndRaisedAgainAfterARestart) {
   EXPECT_EQ(bench.robot.baud, 38400);
 }
 
-TEST(ArcosSessionRate, IsNotTouchedWhereTheRobotCannotOrNobodyWantsIt) {
+TEST(ArcosSessionRate, IsNotChangedWhereTheRobotCannotOrTheAddressDoesNotAskForIt) {
   for (const int autobaud : {-1, 0, 1}) {
     SlowBench bench;
     bench.robot.config.autobaud.reset();
@@ -80,7 +80,7 @@ TEST(ArcosSessionRate, IsNotTouchedWhereTheRobotCannotOrNobodyWantsIt) {
   EXPECT_TRUE(faster.robot.received(CommandId::HostBaud).empty());
 }
 
-TEST(ArcosSessionRate, ARobotThatDoesNotFollowIsMetAtTheOldRateAndNotAskedAgain) {
+TEST(ArcosSessionRate, ARobotThatKeepsItsRateIsFoundThereAndNotAskedAgain) {
   SlowBench bench;
   bench.robot.host_bauds_to_follow = 0;
   ASSERT_TRUE(bench.run_until_asked());
@@ -95,7 +95,7 @@ TEST(ArcosSessionRate, ARobotThatDoesNotFollowIsMetAtTheOldRateAndNotAskedAgain)
   EXPECT_EQ(bench.robot.received(CommandId::HostBaud).size(), 1u);
 }
 
-TEST(ArcosSessionRate, ARobotThatFollowsUnheardIsCalledBack) {
+TEST(ArcosSessionRate, ARobotThatCannotBeHeardAtTheNewRateIsSwitchedBack) {
   SlowBench bench;
   bench.robot.unheard_at = 38400;
   ASSERT_TRUE(bench.run_until_asked());
@@ -103,12 +103,12 @@ TEST(ArcosSessionRate, ARobotThatFollowsUnheardIsCalledBack) {
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 2.0));
   EXPECT_EQ(bench.robot.baud, 9600);
   EXPECT_EQ(bench.session.wanted_baud(), 9600);
-  EXPECT_EQ(bench.count(Kind::Synchronised), 1);  // it never was away
+  EXPECT_EQ(bench.count(Kind::Synchronised), 1);  // the connection was never lost
 }
 
-TEST(ArcosSessionRate, LostAllTheSameItIsFoundByTheSweep) {
+TEST(ArcosSessionRate, ARobotThatDoesNotSwitchBackIsFoundByTheSweep) {
   SlowBench bench;
-  bench.robot.host_bauds_to_follow = 1;  // it follows once, and not back
+  bench.robot.host_bauds_to_follow = 1;  // it changes its rate once, and not back
   bench.robot.unheard_at = 38400;
   ASSERT_TRUE(bench.run_until_asked());
   bench.run(2.0);

@@ -12,7 +12,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr TimeNs kCycle_ns = 100 * kNsPerMs;
 
-/// A robot's counters for a true pose, as firmware of different habits writes them.
+/// A robot's counters for a true pose, in the forms that different firmware uses.
 struct Counters {
   double mm_per_unit = 1.0;
   unsigned position_mask = 0xFFFF;  // natural wrap, or 0x7FFF
@@ -53,7 +53,7 @@ TEST(Odometry, FollowsACircleThroughManyWraps) {
   }
 }
 
-TEST(Odometry, BeginsAtTheOriginWhereverTheCountersStand) {
+TEST(Odometry, StartsAtTheOriginWhateverTheCountersShow) {
   OdometryTracker odometry(1.0);
   odometry.update(Counters{}.at(5.0, -3.0, kPi / 2), 0);
   EXPECT_EQ(odometry.pose().x_m, 0.0);
@@ -82,31 +82,32 @@ struct Standing {
   }
 };
 
-TEST(OdometryJumps, OneDamagedSipIsLeftAside) {
+TEST(OdometryJumps, OneDamagedSipIsIgnored) {
   Standing robot;
   EXPECT_EQ(robot.step(7.0, 0.0, kPi / 2), OdometryTracker::Step::Suspect);
   robot.expect_pose(3.0, 0.0, kPi / 2);
   EXPECT_EQ(robot.step(3.0, 0.05, kPi / 2), OdometryTracker::Step::Moved);
   robot.expect_pose(3.0, 0.05, kPi / 2);
-  EXPECT_EQ(robot.step(3.0, 0.05, -kPi / 2), OdometryTracker::Step::Suspect);  // the heading likewise
+  EXPECT_EQ(robot.step(3.0, 0.05, -kPi / 2),
+            OdometryTracker::Step::Suspect);  // the heading alone is suspect too
   EXPECT_EQ(robot.step(3.0, 0.05, kPi / 2), OdometryTracker::Step::Moved);
   robot.expect_pose(3.0, 0.05, kPi / 2);
 }
 
-TEST(OdometryJumps, ConfirmedJumpIsANewBeginning) {
+TEST(OdometryJumps, AConfirmedJumpRebasesTheOdometry) {
   Standing robot;
-  EXPECT_EQ(robot.step(0.0, 0.0, 0.0), OdometryTracker::Step::Suspect);  // SETO by someone, unannounced
+  EXPECT_EQ(robot.step(0.0, 0.0, 0.0), OdometryTracker::Step::Suspect);  // SETO from another client
   EXPECT_EQ(robot.step(0.05, 0.0, 0.0), OdometryTracker::Step::Rebased);
-  robot.expect_pose(3.0, 0.05, kPi / 2);  // its "ahead" is our "left"
+  robot.expect_pose(3.0, 0.05, kPi / 2);  // its x axis is y of our odometry frame
   EXPECT_EQ(robot.step(0.1, 0.0, 0.0), OdometryTracker::Step::Moved);
   robot.expect_pose(3.0, 0.1, kPi / 2);
 }
 
-TEST(OdometryInterruption, CountersThatWentOnAreFollowed) {
+TEST(OdometryInterruption, CountersThatContinuedAreUsed) {
   Standing robot;
   robot.odometry.interrupted();
   robot.t_ns += 5 * kNsPerS;
-  EXPECT_EQ(robot.step(3.0, 0.4, kPi / 2), OdometryTracker::Step::Moved);  // rolled out meanwhile
+  EXPECT_EQ(robot.step(3.0, 0.4, kPi / 2), OdometryTracker::Step::Moved);  // it rolled on meanwhile
   robot.expect_pose(3.0, 0.4, kPi / 2);
 }
 

@@ -1,4 +1,4 @@
-// Addresses, and what is said about wrong ones.
+// Addresses, and the messages for wrong ones.
 #include "robot/robot_address.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ struct Wrong {
   const char* said;  ///< must stand in the message
 };
 
-TEST(RobotAddress, WrongOnesAreNamedWithWhatWasExpected) {
+TEST(RobotAddress, WrongAddressesAreNamedWithWhatIsExpected) {
   const Wrong wrong[] = {
       {"", "expected serial:DEVICE@BAUD, pty:PATH@BAUD or tcp:HOST:PORT"},
       {"/dev/ttyUSB0", "expected serial:DEVICE@BAUD"},

@@ -1,5 +1,5 @@
-// A controller in a few lines, for one test each: it echoes the sync, sends SIPs and obeys ENABLE, as
-// scripted by its public fields. (The faithful P3-AT is tools/heel-sim; here every behaviour can be bent.)
+// A small controller: it echoes the sync, sends SIPs and obeys ENABLE. A test changes its behaviour by its
+// public fields. (src/sim/robot has the exact P3-AT.)
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ class ScriptedRobot {
   arcos::Sip sip;                  ///< what it says of itself
   arcos::ConfigPacket config;
 
-  // What came of it.
+  // What it received and sent.
   std::vector<Received> log;
   std::size_t bytes_received = 0;
 
@@ -67,7 +67,7 @@ class ScriptedRobot {
     });
   }
 
-  /// What it has to say, to be called often.
+  /// The bytes that it sends now. Call it often.
   Bytes speak(TimeNs now_ns) {
     if (open && now_ns - t_sip_ns_ >= 100 * kNsPerMs) {
       t_sip_ns_ = now_ns;
@@ -128,7 +128,7 @@ class ScriptedRobot {
       if (command.id == 1) open = true;
       if (command.id == 2) sync_ = 0;
     } else if (command.has_integer()) {
-      return;  // a CLOSE gone astray
+      return;  // a CLOSE without a session
     } else if (command.id == 0) {
       sync_ = 1;
       say(arcos::encode_plain(arcos::CommandId::Sync0));

@@ -1,4 +1,5 @@
-// The line on a real pty and on a real TCP connection: bytes through, partial writes, loss, refusals.
+// The line over a real pty and a real TCP connection: bytes in both directions, partial writes, loss,
+// refusals.
 #include "robot/serial_line.h"
 
 #include <arpa/inet.h>
@@ -70,7 +71,7 @@ std::vector<std::uint8_t> read_within(SerialLine& line, std::size_t size) {
   return all;
 }
 
-/// Every byte value, so that nothing a terminal does to bytes goes unnoticed.
+/// Every byte value, so that a terminal's changes to bytes show.
 std::vector<std::uint8_t> all_bytes() {
   std::vector<std::uint8_t> bytes(256);
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i);
@@ -93,14 +94,14 @@ void expect_bytes_both_ways(SerialLine& line, int peer) {
   EXPECT_EQ(read_within(line, bytes.size()), bytes);
 }
 
-TEST(SerialLinePty, BytesBothWaysUntouched) {
+TEST(SerialLinePty, BytesPassUnchangedInBothDirections) {
   Pty pty;
   SerialLine line;
   ASSERT_TRUE(open_line(line, "pty:" + pty.slave_path)) << line.error();
   expect_bytes_both_ways(line, pty.master);
 }
 
-TEST(SerialLinePty, NothingToReadIsNoLoss) {
+TEST(SerialLinePty, NothingToReadIsNotALoss) {
   Pty pty;
   SerialLine line;
   ASSERT_TRUE(open_line(line, "pty:" + pty.slave_path));
@@ -113,7 +114,7 @@ TEST(SerialLinePty, NothingToReadIsNoLoss) {
   EXPECT_GE(Clock::now() - begin, std::chrono::milliseconds(20));
 }
 
-TEST(SerialLinePty, HangUpIsLossOnReadAndOnWrite) {
+TEST(SerialLinePty, AHangUpIsALossForReadAndForWrite) {
   Pty pty;
   SerialLine line;
   ASSERT_TRUE(open_line(line, "pty:" + pty.slave_path));
@@ -135,7 +136,7 @@ TEST(SerialLinePty, AFullDriverTakesNothingAndDoesNotBlock) {
     taken += put.count;
   } while (put.count > 0);
   EXPECT_EQ(put.status, SerialLine::Status::Ok);
-  EXPECT_GT(taken, 0u);  // a write that blocks would not have come back
+  EXPECT_GT(taken, 0u);  // a write that blocks would not have returned
 }
 
 speed_t rate_seen_by(int master) {
@@ -144,7 +145,7 @@ speed_t rate_seen_by(int master) {
   return ::cfgetospeed(&settings);
 }
 
-TEST(SerialLinePty, ItsRateIsSeenAtTheOtherEnd) {
+TEST(SerialLinePty, TheOtherEndSeesItsRate) {
   Pty pty;
   SerialLine line;
   ASSERT_TRUE(line.open(parse_robot_address("pty:" + pty.slave_path), 19200));
@@ -161,7 +162,7 @@ TEST(SerialLinePty, ItsRateIsSeenAtTheOtherEnd) {
   EXPECT_FALSE(line.is_open());
 }
 
-TEST(SerialLinePty, AnotherRateDropsWhatIsOnTheWay) {
+TEST(SerialLinePty, AChangeOfRateDropsTheBytesInTransit) {
   Pty pty;
   SerialLine line;
   ASSERT_TRUE(open_line(line, "pty:" + pty.slave_path));
@@ -171,7 +172,7 @@ TEST(SerialLinePty, AnotherRateDropsWhatIsOnTheWay) {
   EXPECT_FALSE(line.wait_readable(20 * kNsPerMs));
 }
 
-TEST(SerialLineTcp, BytesBothWaysAndLossWhenThePeerCloses) {
+TEST(SerialLineTcp, BytesPassInBothDirectionsAndTheLineIsLostWhenThePeerCloses) {
   Listener listener;
   SerialLine line;
   ASSERT_TRUE(open_line(line, "tcp:127.0.0.1:" + std::to_string(listener.port))) << line.error();
@@ -183,7 +184,7 @@ TEST(SerialLineTcp, BytesBothWaysAndLossWhenThePeerCloses) {
   EXPECT_EQ(line.read(chunk).status, SerialLine::Status::Lost);
 }
 
-TEST(SerialLineTcp, UnsentBytesShowThatNobodyTakesThem) {
+TEST(SerialLineTcp, UnsentBytesShowThatThePeerDoesNotRead) {
   Listener listener;
   SerialLine line;
   ASSERT_TRUE(open_line(line, "tcp:127.0.0.1:" + std::to_string(listener.port)));
@@ -199,7 +200,7 @@ struct Refusal {
   const char* said;
 };
 
-TEST(SerialLineRefusal, OneLineNamingTheAddressAndTheReason) {
+TEST(SerialLineRefusal, IsOneLineThatNamesTheAddressAndTheReason) {
   const Refusal refusals[] = {
       {"pty:/nonexistent/pty", "No such file"},         {"pty:/dev/null", "is not a terminal"},
       {"serial:/nonexistent/tty@9600", "No such file"}, {"serial:/dev/null@9600", "is not a serial port"},
@@ -215,7 +216,7 @@ TEST(SerialLineRefusal, OneLineNamingTheAddressAndTheReason) {
   }
 }
 
-TEST(SerialLineClosed, EverythingSaysLost) {
+TEST(SerialLineClosed, EveryCallReturnsLost) {
   SerialLine line;
   std::array<std::uint8_t, 4> chunk{};
   EXPECT_EQ(line.read(chunk).status, SerialLine::Status::Lost);

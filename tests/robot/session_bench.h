@@ -29,9 +29,9 @@ class SessionBench {
   /// One tick; the robot receives what was written, and its answer is read at the next tick.
   void tick() {
     now_ns += kTick_ns;
-    const Bytes said = robot.speak(now_ns);
+    const Bytes sent = robot.speak(now_ns);
     const bool understood = robot.baud == 0 || robot.baud == session.wanted_baud();
-    if (understood && line_up) session.receive(said, now_ns);
+    if (understood && line_up) session.receive(sent, now_ns);
     VelocityCommand command;
     command.t_issued_ns = now_ns;
     command.t_expires_ns = now_ns + command_lifetime_ns;
@@ -39,9 +39,9 @@ class SessionBench {
     command.yaw_rate_rad_s = yaw_rate_rad_s;
     session.advance(now_ns);
     const int baud = session.wanted_baud();
-    const auto decided_on = state_bytes();
+    const auto before_send = state_bytes();
     const auto bytes = session.send(command, now_ns);
-    EXPECT_EQ(state_bytes(), decided_on) << "sending must leave the state as the tick decided on it";
+    EXPECT_EQ(state_bytes(), before_send) << "send() must not change the state that the tick used";
     if (line_up) robot.receive(bytes, baud, now_ns);
     SessionEvent event;
     while (session.next_event(event)) events.push_back(event);
@@ -50,7 +50,7 @@ class SessionBench {
   void run(double seconds) {
     for (TimeNs end_ns = now_ns + ns_from_seconds(seconds); now_ns < end_ns;) tick();
   }
-  /// False when `seconds` pass without it.
+  /// False when the phase does not come within `seconds`.
   bool run_until(LinkPhase phase, double seconds = 20.0) {
     for (TimeNs end_ns = now_ns + ns_from_seconds(seconds); now_ns < end_ns;) {
       tick();

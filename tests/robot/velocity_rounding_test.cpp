@@ -1,4 +1,4 @@
-// Whole units with the asked mean.
+// Whole units whose mean is the wanted velocity.
 #include "robot/velocity_rounding.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace heel {
 namespace {
 
-RC_GTEST_PROP(VelocityRounding, SumNeverStraysMoreThanHalfAUnit, ()) {
+RC_GTEST_PROP(VelocityRounding, TheSumIsNeverOffByMoreThanHalfAUnit, ()) {
   VelocityRounding rounding(1000);
   double asked = 0.0;
   long sent = 0;
@@ -23,18 +23,18 @@ RC_GTEST_PROP(VelocityRounding, SumNeverStraysMoreThanHalfAUnit, ()) {
   }
 }
 
-TEST(VelocityRounding, ZeroIsZeroAtOnceAndForgetsTheRest) {
+TEST(VelocityRounding, ZeroIsSentAtOnceAndClearsTheCarry) {
   VelocityRounding rounding(100);
   EXPECT_EQ(rounding.next(0.4), 0);
   EXPECT_EQ(rounding.next(0.0), 0);
-  EXPECT_EQ(rounding.next(0.4), 0);  // 0.8 in sum, had it been remembered
+  EXPECT_EQ(rounding.next(0.4), 0);  // 0.8 together, if the carry were kept
   EXPECT_EQ(rounding.next(0.4), 1);
 }
 
-TEST(VelocityRounding, LimitAndNonsense) {
+TEST(VelocityRounding, KeepsToTheLimitAndTakesNotANumberAsZero) {
   VelocityRounding rounding(100);
   for (int i = 0; i < 10; ++i) EXPECT_EQ(rounding.next(1e12), 100);
-  EXPECT_EQ(rounding.next(-50.0), -50);  // nothing saved up at the limit
+  EXPECT_EQ(rounding.next(-50.0), -50);  // the carry did not grow at the limit
   EXPECT_EQ(rounding.next(-1e300), -100);
   EXPECT_EQ(rounding.next(std::numeric_limits<double>::quiet_NaN()), 0);
   EXPECT_EQ(rounding.next(-std::numeric_limits<double>::infinity()), 0);

@@ -16,7 +16,7 @@ thread_local std::uint64_t allocations = 0;
 }
 
 #if !HEEL_SANITIZED_ALLOCATOR
-// The C library's own entry points, which its malloc and friends are other names for.
+// The C library's own functions, of which its malloc and the like are aliases.
 extern "C" {
 void* __libc_malloc(std::size_t bytes);
 void* __libc_calloc(std::size_t count, std::size_t bytes);

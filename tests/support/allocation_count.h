@@ -1,5 +1,5 @@
-// Counts heap allocations by thread, for the tests that hold hot code to none. A program that uses it
-// compiles allocation_count.cpp in, which puts itself before the C library's malloc.
+// Counts heap allocations by thread, for tests of code that must not allocate. A program that uses it
+// compiles allocation_count.cpp, which replaces the C library's malloc.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Collects what is logged while it lives.
+// Collects the log messages written while the object lives.
 #pragma once
 
 #include <spdlog/sinks/ostream_sink.h>

@@ -1,4 +1,4 @@
-// What a call that must be refused says about it.
+// The error message of a call that must be refused.
 #pragma once
 
 #include <string>

@@ -27,7 +27,7 @@ inline std::string decision_bytes(const TickRecord& record) {
   return bytes;
 }
 
-/// How much of what can happen has happened in a run.
+/// Counts the ticks of a run by what they did.
 struct DecisionCounts {
   void add(const TickRecord& record) {
     moving += record.command.v_m_s != 0.0;

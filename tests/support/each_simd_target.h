@@ -7,7 +7,8 @@
 
 namespace heel::test {
 
-/// Runs `body` once for each instruction set heel is compiled for and this processor has, alone.
+/// Runs `body` once for each instruction set that heel is compiled for and this processor has, with only that
+/// one enabled.
 template <typename Body>
 void for_each_simd_target(Body body) {
   ASSERT_FALSE(available_simd_targets().empty());

@@ -1,4 +1,4 @@
-// An environment variable for as long as this object lives; child processes see it.
+// An environment variable that is set while this object lives; child processes inherit it.
 #pragma once
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Whether a figure was drawn: it is there as PNG and SVG, of the expected size, and not blank.
+// Checks a drawn figure: it exists as PNG and SVG, has the expected size, and is not blank.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ inline int count_of(const cv::Mat& picture, unsigned rgb) {
   return cv::countNonZero(pixels_of(picture, rgb));
 }
 
-/// Returns the picture, for a closer look.
+/// Returns the picture, for further checks.
 inline cv::Mat expect_picture(const std::string& path, cv::Size size) {
   cv::Mat picture = cv::imread(path);
   EXPECT_EQ(picture.size(), size) << path;
@@ -37,11 +37,11 @@ inline cv::Mat expect_picture(const std::string& path, cv::Size size) {
   cv::Mat grey, mean, deviation;
   cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
   cv::meanStdDev(grey, mean, deviation);
-  EXPECT_GT(deviation.at<double>(0), 5.0) << path << " is of one colour";
+  EXPECT_GT(deviation.at<double>(0), 5.0) << path << " has one colour";
   return picture;
 }
 
-/// NAME.png of `size` pixels, and NAME.svg of the same size on paper with shapes in it.
+/// NAME.png has `size` pixels; NAME.svg has the same size on paper, and shapes.
 inline cv::Mat expect_figure(const std::string& name, cv::Size size) {
   const std::string svg = read_text(name + ".svg");
   EXPECT_EQ(svg.rfind("<?xml", 0), 0U) << name << ".svg";

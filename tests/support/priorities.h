@@ -1,4 +1,5 @@
-// What this process may ask of the kernel's scheduler, and how to take it away: for tests of both outcomes.
+// Whether the kernel grants this process real-time priorities, and how to prevent it: for tests of both
+// cases.
 #pragma once
 
 #include <linux/capability.h>
@@ -41,7 +42,8 @@ class NoPriorityLimit {
   rlimit before_{};
 };
 
-/// Takes CAP_SYS_NICE from the calling thread and from the threads that it starts later, and from no other.
+/// Takes CAP_SYS_NICE from the calling thread and from the threads that it starts later; other threads keep
+/// it.
 inline void drop_sys_nice() {
   __user_cap_header_struct header{.version = _LINUX_CAPABILITY_VERSION_3, .pid = 0};
   std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> sets{};

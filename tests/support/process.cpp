@@ -104,7 +104,7 @@ bool Process::says(const std::string& text, double timeout_s) {
   bool found = false;
   eventually(
       [&] {
-        const bool ended = !running();  // asked first: what it wrote before its end is then in the output
+        const bool ended = !running();  // before reading: the output of an ended process is then complete
         found = output().find(text) != std::string::npos;
         return found || ended;
       },

@@ -1,4 +1,5 @@
-// What a test does less of under the sanitizers, where pictures take ten times as long (thread: fifty times).
+// For tests that do less under the sanitizers, where pictures take ten times as long (thread sanitizer: fifty
+// times).
 #pragma once
 
 namespace heel::test {

@@ -1,4 +1,4 @@
-// A folder of its own for one test, removed with everything in it.
+// A new folder for one test, removed with its contents.
 #pragma once
 
 #include <cstdlib>

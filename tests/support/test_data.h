@@ -1,5 +1,5 @@
 // Paths of the source tree and of the test data. The test data are real images and a real video. They are not
-// part of heel: they stand in the folder HEEL_TEST_DATA, or in ../shared/data beside the source tree.
+// part of heel: they are in the folder HEEL_TEST_DATA, or in ../shared/data beside the source tree.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ bool has_data(const std::string& relative);
 /// True under HEEL_REQUIRE_DATA=1: then a test without its data fails; otherwise it is skipped.
 bool data_is_required();
 
-/// A line in the test's output, by which tools/test knows that the data are used.
+/// A line in the test's output, by which tools/test knows that a test has used the data.
 void print_data_use(const std::string& relative);
 
 /// Why a test that needs this file or folder of the test data cannot run.
@@ -26,8 +26,8 @@ std::string absent_data_message(const std::string& relative);
 
 }  // namespace heel::test
 
-/// In a test's body or in SetUp(): leaves the test where this file or folder of the test data is absent. The
-/// test is then skipped, or has failed under HEEL_REQUIRE_DATA=1.
+/// In a test's body or in SetUp(): ends the test where this file or folder of the test data is missing. The
+/// test is then skipped, or failed under HEEL_REQUIRE_DATA=1.
 #define HEEL_NEEDS_TEST_DATA(relative)                                        \
   do {                                                                        \
     if (::heel::test::has_data(relative)) {                                   \

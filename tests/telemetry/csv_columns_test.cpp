@@ -34,7 +34,7 @@ std::map<std::string, std::string> row_of(std::span<const CsvColumn<Record>> col
   return row;
 }
 
-TEST(CsvColumns, ATickLandsUnderItsNames) {
+TEST(CsvColumns, ATicksValuesAreUnderTheirColumnNames) {
   TickRecord tick;
   tick.tick = 17;
   tick.input.now_ns = 2'500'000'000;
@@ -99,7 +99,7 @@ TEST(CsvColumns, ATickLandsUnderItsNames) {
   for (const auto& [name, value] : expected) EXPECT_EQ(row.at(name), value) << name;
 }
 
-TEST(CsvColumns, WhatIsNotKnownIsNan) {
+TEST(CsvColumns, UnknownValuesAreNan) {
   const auto tick = row_of(tick_columns(), TickRecord{});
   for (const char* name :
        {"odom_x_m", "battery_v", "sonar_range_m_0", "target_x_m", "target_yaw_rad", "goal_x_m"}) {
@@ -116,7 +116,7 @@ TEST(CsvColumns, WhatIsNotKnownIsNan) {
   }
 }
 
-TEST(CsvColumns, APoseLandsUnderItsNames) {
+TEST(CsvColumns, APosesValuesAreUnderTheirColumnNames) {
   PoseEstimate estimate;
   estimate.reason = PoseReason::Found;
   estimate.frame_sequence = 99;
@@ -153,7 +153,7 @@ TEST(CsvColumns, APoseLandsUnderItsNames) {
   }
 }
 
-TEST(CsvColumns, CountsOfTheFramePathLandUnderTheirNames) {
+TEST(CsvColumns, CaptureCountersAreUnderTheirColumnNames) {
   const CaptureCounters counts{
       .t_ns = 1'250'000'000, .captured = 7, .dropped_by_driver = 5, .dropped_unread = 3, .reopened = 2};
   const auto row = row_of(capture_columns(), counts);
@@ -171,7 +171,7 @@ bool in_the_middle_of_an_array(const std::string& name, const std::set<std::stri
   return names.contains(name.substr(0, digits) + std::to_string(std::stoi(name.substr(digits)) + 1));
 }
 
-TEST(CsvColumns, EveryColumnIsInTheReadmeAndDistinct) {
+TEST(CsvColumns, ColumnNamesAreDistinctAndInTheReadme) {
   const std::string readme = test::read_text(test::source_path("src/telemetry/README.md"));
   ASSERT_FALSE(readme.empty());
   for (const std::string& header :

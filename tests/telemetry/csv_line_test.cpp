@@ -30,7 +30,7 @@ TEST(CsvLine, SecondsAreExactToTheNanosecond) {
   EXPECT_EQ(line.finish(), "0.000000000,0.000000001,123456789.012345678,-1.500000000\n");
 }
 
-TEST(CsvLine, TextCannotBreakTheLineAndTooMuchIsCut) {
+TEST(CsvLine, TextCannotBreakTheLineAndALongLineIsCut) {
   CsvLine line;
   line.text("a,b\n\"c\"");
   line.integer(std::int64_t{-7});

@@ -1,4 +1,5 @@
-// Recordings on disk: whole lines, earlier ones kept, full disks survived.
+// Recordings on disk: lines are whole, earlier recordings are kept, and a full disk does not end the
+// recording.
 #include "telemetry/recorder.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +24,7 @@ std::string line_of(char letter) {
   return std::string(99, letter) + '\n';
 }
 
-// A disk with room for only so many bytes in a file, while it lives.
+// While it lives, a file can have only so many bytes, as on a full disk.
 class SmallDisk {
  public:
   explicit SmallDisk(rlim_t bytes) {
@@ -40,12 +41,12 @@ class SmallDisk {
   rlimit before_{};
 };
 
-TEST(RecordFile, AFullDiskIsToldOnceAndNothingHalfIsLeftWhenThereIsRoomAgain) {
+TEST(RecordFile, AFullDiskIsLoggedOnceAndPartialLinesAreCompletedLater) {
   const test::TemporaryFolder folder;
   const test::CollectedLog log;
   RecordFile file(folder.file("record"));
   {
-    const SmallDisk disk(250);  // two lines and a half
+    const SmallDisk disk(250);  // two and a half lines
     for (const char letter : {'a', 'b', 'c', 'd'}) {
       file.append(line_of(letter));
       file.flush();
@@ -60,7 +61,7 @@ TEST(RecordFile, AFullDiskIsToldOnceAndNothingHalfIsLeftWhenThereIsRoomAgain) {
   EXPECT_THAT(log.text(), HasSubstr("can be written again; 0 lines were lost"));
 }
 
-TEST(RecordFile, WhatWaitsTooLongIsLostInWholeLinesAndCounted) {
+TEST(RecordFile, LinesThatDoNotFitIntoTheBufferAreLostWholeAndCounted) {
   const test::TemporaryFolder folder;
   const test::CollectedLog log;
   RecordFile file(folder.file("record"));
@@ -110,7 +111,7 @@ TEST(Recorder, WritesHeadersAndRowsOfEachKind) {
                                     "3\\.000000000 frame refused: 320x240 px .*\n"));
 }
 
-TEST(Recorder, AnEarlierRecordingIsKeptUnderOneNumber) {
+TEST(Recorder, AllFilesOfAnEarlierRecordingGetTheSameNumber) {
   const test::TemporaryFolder folder;
   const std::string directory = folder.path();
   test::write_text(directory + "/ticks.csv", "first");

@@ -1,4 +1,5 @@
-// The telemetry thread: everything arrives, changes are told once, floods are not, losses are.
+// The telemetry thread: all records arrive; changes are logged once, repeated events at most once a second,
+// and losses always.
 #include "telemetry/telemetry.h"
 
 #include <gmock/gmock.h>
@@ -33,7 +34,7 @@ class TelemetryTest : public testing::Test {
   test::CollectedLog log_;
 };
 
-TEST_F(TelemetryTest, ChangesOfStopReasonAndLinkAreToldOnce) {
+TEST_F(TelemetryTest, ChangesOfStopReasonAndLinkAreLoggedOnce) {
   Telemetry telemetry(queues_, {});
   TickRecord tick;
   for (const StopReason reason : {StopReason::NoTargetYet, StopReason::NoTargetYet, StopReason::None,
@@ -55,7 +56,7 @@ TEST_F(TelemetryTest, ChangesOfStopReasonAndLinkAreToldOnce) {
   EXPECT_EQ(telemetry.snapshot().tick.tick, 6u);
 }
 
-TEST_F(TelemetryTest, EventsOfEveryThreadAreToldFloodsAtMostOnceASecond) {
+TEST_F(TelemetryTest, EventsOfEveryThreadAreLoggedRepeatedOnesAtMostOnceASecond) {
   Telemetry telemetry(queues_, {});
   queues_.capture_events.push(event_of(EventKind::CameraLost, 1, "sim:yard: gone"));
   queues_.control_events.push(event_of(EventKind::Note, 2, "a note from control"));
@@ -71,7 +72,7 @@ TEST_F(TelemetryTest, EventsOfEveryThreadAreToldFloodsAtMostOnceASecond) {
   EXPECT_EQ(telemetry.snapshot().events, 53u);
 }
 
-TEST_F(TelemetryTest, LostRecordsAreCountedAndTold) {
+TEST_F(TelemetryTest, LostRecordsAreCountedAndLogged) {
   Telemetry telemetry(queues_, {});
   const std::size_t capacity = queues_.ticks.capacity();
   for (std::size_t i = 0; i < capacity + 9; ++i) queues_.ticks.push(TickRecord{});
@@ -82,8 +83,8 @@ TEST_F(TelemetryTest, LostRecordsAreCountedAndTold) {
   EXPECT_EQ(telemetry.snapshot().ticks, capacity);
 }
 
-// As in the daemon: hot threads push, the telemetry thread records; after stop nothing is missing.
-TEST_F(TelemetryTest, EverythingPushedIsInTheRecordingAfterStop) {
+// As in the daemon, other threads push and the telemetry thread records; after stop() no record is missing.
+TEST_F(TelemetryTest, EveryPushedRecordIsInTheRecordingAfterStop) {
   const test::TemporaryFolder folder;
   Telemetry telemetry(queues_, {.directory = folder.path()});
   constexpr int kRecords = 500;
@@ -105,8 +106,7 @@ TEST_F(TelemetryTest, EverythingPushedIsInTheRecordingAfterStop) {
       while (!queues_.captures.push(counts)) std::this_thread::yield();
     }
   });
-  EXPECT_TRUE(test::eventually([&] { return telemetry.snapshot().ticks > 0; }))
-      << "asked from a third thread";
+  EXPECT_TRUE(test::eventually([&] { return telemetry.snapshot().ticks > 0; })) << "read from a third thread";
   control.join();
   vision.join();
   capture.join();
@@ -122,7 +122,7 @@ TEST_F(TelemetryTest, EverythingPushedIsInTheRecordingAfterStop) {
   EXPECT_EQ(telemetry.snapshot().capture.captured, std::uint64_t{kRecords});
 }
 
-TEST(EventText, SaysWhatHappenedWithItsNumbers) {
+TEST(EventText, GivesTheEventWithItsNumbers) {
   EXPECT_EQ(event_text(event_of(EventKind::CameraOpened, 0, "sim:yard: 640x480")),
             "camera opened: sim:yard: 640x480");
   Event late = event_of(EventKind::Overrun, 0);

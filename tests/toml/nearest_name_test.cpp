@@ -24,7 +24,7 @@ TEST(NearestName, TakesTheNearest) {
             "control.gain_yaw_1_s");
 }
 
-TEST(NearestName, SuggestsNothingFarFetched) {
+TEST(NearestName, SuggestsNothingWhenAllNamesAreFar) {
   EXPECT_EQ(nearest_name("colour", {"control.rate_hz", "gate.v_max_m_s"}), "");
 }
 

@@ -1,4 +1,4 @@
-// One section of a TOML file: what is read, and the one-line message for each kind of mistake.
+// One section of a TOML file: what is read, and the one-line message for each kind of error.
 #include "toml/toml_section.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(TomlSection, GivesValuesAndFallbacks) {
       "'b']\n[[leg]]\n[[leg]]\n",
       "f.toml");
   TomlSection root(table, "", "f.toml");
-  EXPECT_EQ(root.number("speed", 0.0, {0, 5, "m/s"}), 2.0) << "a whole number is a number too";
+  EXPECT_EQ(root.number("speed", 0.0, {0, 5, "m/s"}), 2.0) << "a whole number is also a number";
   EXPECT_EQ(root.number("absent", 7.0, {0, 5, "m/s"}), 7.0);
   EXPECT_EQ(root.required_number("speed", {0, 5, "m/s"}), 2.0);
   EXPECT_EQ(root.integer("count", 0, 0, 10), 3);
@@ -47,7 +47,7 @@ TEST(TomlSection, GivesValuesAndFallbacks) {
   root.reject_unknown_keys();
 }
 
-TEST(TomlSection, NamesThePlaceTheValueAndWhatWasExpected) {
+TEST(TomlSection, ErrorsNameThePlaceTheValueAndWhatIsExpected) {
   const Read speed = [](TomlSection& root) { root.section("leg").number("speed", 0.0, {0, 5, "m/s"}); };
   EXPECT_EQ(message("[leg]\nspeed = 'fast'\n", speed),
             "f.toml:2:9: leg.speed: 'fast' (expected a number 0…5 m/s)");
@@ -72,7 +72,7 @@ TEST(TomlSection, NamesThePlaceTheValueAndWhatWasExpected) {
             "f.toml:1:7: leg: 1 (expected sections [[leg]])");
 }
 
-TEST(TomlSection, AKeyThatNobodyReadsIsAnErrorThatNamesTheNearest) {
+TEST(TomlSection, AKeyThatIsNotReadIsAnErrorThatNamesTheNearest) {
   const Read speed = [](TomlSection& root) {
     root.number("speed", 0.0, {0, 5, "m/s"});
     root.text("name", "");

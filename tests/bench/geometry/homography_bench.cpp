@@ -1,5 +1,5 @@
-// Homography and motion beside OpenCV's, in the same run: 200 pairs of which a share is wrong, noise 1 px.
-// The argument is the share in percent. Each iteration takes the next of 64 random problems.
+// Homography and motion compared with OpenCV's in the same run: 200 pairs of which a share is wrong, noise 1
+// px. The argument is the share in percent. Each iteration takes the next of 64 random problems.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/LU>
@@ -55,9 +55,9 @@ void heel_homography(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(estimator.estimate(all[next++ % all.size()].pairs, mask));
 }
 
-/// The worst frame for the iteration bound: pairs that keep their order, so that most samples give a
-/// homography to score, but scatter so widely that none is supported well enough to stop early. As many pairs
-/// as the largest template gives, vision's own settings. The argument is the scatter in pixels.
+/// The frame that takes the most iterations: the pairs keep their order, so that most samples give a
+/// homography to score, but scatter so widely that no homography has enough inliers to stop early. As many
+/// pairs as the largest template gives; vision's own settings. The argument is the scatter in pixels.
 void heel_homography_without_consensus(benchmark::State& state) {
   const heel::VisionConfig vision;
   const int pairs = heel::ShirtTemplate{}.max_features;

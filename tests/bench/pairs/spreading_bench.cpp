@@ -1,5 +1,5 @@
-// Features spread over the image or heaped where they are strongest: what it does to matches, to the part of
-// the image they cover, and to the homography's corner error on real pairs with known homographies.
+// Features spread over the image compared with the strongest features: matches, the part of the image that
+// they cover, and the homography's corner error, on real pairs with known homographies.
 //
 //   build/release/bin/heel_bench_pairs [FEATURES…]      (default 200 500 1000)
 #include <algorithm>
@@ -20,7 +20,7 @@ using test::OxfordPair;
 
 constexpr double kCorrect_px = 2.5;
 constexpr int kCellsAcross = 8, kCellsDown = 6;
-constexpr int kSeeds = 25;  // RANSAC's luck: the corner error is a distribution
+constexpr int kSeeds = 25;  // RANSAC is random: the corner error is a distribution
 
 struct Outcome {
   int matches = 0, correct = 0;

@@ -1,5 +1,5 @@
-// Features and matching, each beside its yardstick. Compare times of one run only. What was found stands in
-// the label: counters would have to be the same for all (the CSV reporter refuses anything else).
+// Features and matching, each with its reference algorithm. Compare times of one run only. The label holds
+// what was found: counters would have to be the same for all benchmarks, or the CSV reporter refuses them.
 #include <benchmark/benchmark.h>
 
 #include <opencv2/features2d.hpp>

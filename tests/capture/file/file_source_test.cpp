@@ -1,4 +1,4 @@
-// Files as cameras: order, pace, stamps, ends, and what is said of bad ones.
+// Files as cameras: order, pace, stamps, end, and the messages for bad ones.
 #include "capture/file/file_source.h"
 
 #include <gmock/gmock.h>
@@ -41,7 +41,7 @@ class FileSourceTest : public testing::Test {
   fs::path folder_ = temporary_.path();
 };
 
-TEST_F(FileSourceTest, FolderInNaturalOrderWithTheFilesOwnTimeWhenAsFastAsAsked) {
+TEST_F(FileSourceTest, AFolderIsReadInNaturalOrderWithTheFilesOwnTimesAtSpeed0) {
   for (const int number : {10, 1, 9, 2}) image("frame" + std::to_string(number) + ".png", number * 10);
   std::ofstream(folder_ / "notes.txt") << "not an image";
   FileSource source(folder_, 10.0, 0.0);
@@ -59,9 +59,9 @@ TEST_F(FileSourceTest, FolderInNaturalOrderWithTheFilesOwnTimeWhenAsFastAsAsked)
     ++index;
   }
   EXPECT_EQ(source.wait_frame(0, frame), FrameResult::EndOfStream);
-  EXPECT_EQ(source.wait_frame(0, frame), FrameResult::EndOfStream) << "and stays there";
+  EXPECT_EQ(source.wait_frame(0, frame), FrameResult::EndOfStream) << "it stays at the end";
   EXPECT_THAT(source.problem(), HasSubstr("ended after 4 images"));
-  ASSERT_EQ(source.open(), OpenResult::Opened) << "from the beginning again";
+  ASSERT_EQ(source.open(), OpenResult::Opened) << "opened again, it starts from the beginning";
   ASSERT_EQ(source.wait_frame(0, frame), FrameResult::Frame);
   EXPECT_EQ(frame.grey[0], 10);
 }
@@ -86,8 +86,8 @@ TEST_F(FileSourceTest, AVideosOwnRateTimesTheSpeed) {
   for (int i = 1; i < 6; ++i) {
     ASSERT_EQ(source.wait_frame(60 * kNsPerS, frame), FrameResult::Frame) << i;
     EXPECT_NEAR(frame.grey[0], 20 + 10 * i, 3) << "MJPEG is not exact";
-    EXPECT_GE(monotonic_now_ns(), frame.header.t_capture_ns) << "never given before it is due";
-    // 20 ms apart at twice 25 Hz; a machine that is held up may only make it later.
+    EXPECT_GE(monotonic_now_ns(), frame.header.t_capture_ns) << "no frame is given before it is due";
+    // 20 ms apart at twice 25 Hz; a busy machine can only make it later.
     EXPECT_GE(frame.header.t_capture_ns - last_ns, 20 * kNsPerMs - 1);
     last_ns = frame.header.t_capture_ns;
   }
@@ -97,7 +97,8 @@ TEST_F(FileSourceTest, AVideosOwnRateTimesTheSpeed) {
 TEST_F(FileSourceTest, TimesOutWhileAFrameIsNotDueYetAndGivesItLater) {
   image("a.png", 1);
   image("b.png", 2);
-  FileSource source(folder_, 1.0, 1.0);  // a second, so that a busy machine does not miss the time before it
+  FileSource source(folder_, 1.0,
+                    1.0);  // one second, so that also a busy machine asks before the frame is due
   ASSERT_EQ(source.open(), OpenResult::Opened);
   FrameView frame;
   ASSERT_EQ(source.wait_frame(0, frame), FrameResult::Frame);
@@ -116,13 +117,13 @@ TEST_F(FileSourceTest, ASlowReaderGetsEveryFrameWithFreshStampsAndNoBurst) {
   const TimeNs back_ns = monotonic_now_ns();
   ASSERT_EQ(source.wait_frame(60 * kNsPerS, frame), FrameResult::Frame);
   EXPECT_EQ(frame.header.sequence, 1u);
-  EXPECT_GE(frame.header.t_capture_ns, back_ns) << "as a camera's would be";
+  EXPECT_GE(frame.header.t_capture_ns, back_ns) << "a camera's stamps would be as new";
   const TimeNs second_ns = frame.header.t_capture_ns;
   ASSERT_EQ(source.wait_frame(60 * kNsPerS, frame), FrameResult::Frame);
   EXPECT_GE(frame.header.t_capture_ns - second_ns, 5 * kNsPerMs - 1);
 }
 
-TEST_F(FileSourceTest, AnImageThatCannotBeDecodedIsCountedAndPassedOver) {
+TEST_F(FileSourceTest, AnImageThatCannotBeDecodedIsCountedAndSkipped) {
   image("1.png", 1);
   std::ofstream(folder_ / "2.png") << "no image at all";
   image("3.png", 3);
@@ -138,7 +139,7 @@ TEST_F(FileSourceTest, AnImageThatCannotBeDecodedIsCountedAndPassedOver) {
   EXPECT_EQ(frame.header.sequence, 2u);
 }
 
-TEST_F(FileSourceTest, WhatIsNoVideoNoImageOrEmptyIsRefusedByName) {
+TEST_F(FileSourceTest, OtherFilesAndEmptyFoldersAreRefusedByName) {
   FileSource missing(folder_ / "missing.mp4", 30.0, 0.0);
   EXPECT_EQ(missing.open(), OpenResult::Refused);
   EXPECT_THAT(missing.problem(), HasSubstr("missing.mp4: no such file"));

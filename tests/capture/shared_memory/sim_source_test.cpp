@@ -1,4 +1,4 @@
-// The simulator's frame channel: writer and reader, their lives and deaths.
+// The simulator's frame channel: writer and reader; start, end and loss of the writer.
 #include "capture/shared_memory/sim_source.h"
 
 #include <fcntl.h>
@@ -30,7 +30,7 @@ using testing::HasSubstr;
 constexpr std::uint32_t kWidth = 70;
 constexpr std::uint32_t kHeight = 9;
 
-// A name nobody else on the machine uses.
+// A name that no other process uses.
 std::string own_name(const std::string& what) {
   return "test-" + std::to_string(getpid()) + "-" + what;
 }
@@ -40,13 +40,13 @@ void publish(SimChannelWriter& writer, std::uint64_t sequence) {
   writer.publish();
 }
 
-TEST(SimChannel, NamesThatAreNoNamesAreRefused) {
+TEST(SimChannel, BadNamesAreRefused) {
   EXPECT_EQ(sim_channel_path("yard.1_b-2"), "/heel-sim-yard.1_b-2");
   for (const char* name : {"", "a/b", "a b", "ä"}) EXPECT_THROW(sim_channel_path(name), Error) << name;
   EXPECT_THROW(sim_channel_path(std::string(65, 'a')), Error);
 }
 
-TEST(SimSource, AbsentWithoutASimulatorThenThere) {
+TEST(SimSource, IsAbsentUntilTheSimulatorStarts) {
   const std::string name = own_name("absent");
   SimSource source(name);
   EXPECT_EQ(source.open(), OpenResult::Absent);
@@ -58,10 +58,10 @@ TEST(SimSource, AbsentWithoutASimulatorThenThere) {
   EXPECT_EQ(source.wait_frame(0, frame), FrameResult::Timeout);
 }
 
-TEST(SimSource, GivesTheNewestFrameOnceAndCountsTheSkipped) {
+TEST(SimSource, GivesTheNewestFrameOnceAndCountsSkippedFrames) {
   const std::string name = own_name("newest");
   SimChannelWriter writer(name, kWidth, kHeight);
-  publish(writer, 3);  // before anyone has opened: old
+  publish(writer, 3);  // before the channel is opened: too old to be given
   SimSource source(name);
   ASSERT_EQ(source.open(), OpenResult::Opened);
   FrameView frame;
@@ -80,7 +80,7 @@ TEST(SimSource, GivesTheNewestFrameOnceAndCountsTheSkipped) {
   EXPECT_EQ(source.counters().dropped_by_driver, 19u);
 }
 
-TEST(SimSource, SmallerFramesThanTheChannelAreGivenLargerAreRefusedByTheWriter) {
+TEST(SimSource, TheWriterTakesSmallerFramesThanTheChannelAndRefusesLargerOnes) {
   const std::string name = own_name("sizes");
   SimChannelWriter writer(name, kWidth, kHeight);
   SimSource source(name);
@@ -111,7 +111,7 @@ TEST(SimSource, AWaitEndsWhenAFrameComes) {
   EXPECT_LT(monotonic_now_ns() - before_ns, 300 * kNsPerS);
 }
 
-TEST(SimSource, AbsentWhenTheWriterHasSaidFarewellAndStillHoldsTheName) {
+TEST(SimSource, IsAbsentWhenTheWriterHasClosedButStillHoldsTheName) {
   const std::string name = own_name("farewell");
   const SimChannelWriter writer(name, kWidth, kHeight);
   const int fd = shm_open(sim_channel_path(name).c_str(), O_RDWR | O_CLOEXEC, 0);
@@ -126,7 +126,7 @@ TEST(SimSource, AbsentWhenTheWriterHasSaidFarewellAndStillHoldsTheName) {
   ::close(fd);
 }
 
-TEST(SimSource, LostWhenTheSimulatorEndsAndFoundAgainWhenItReturns) {
+TEST(SimSource, IsLostWhenTheSimulatorEndsAndFoundWhenItStartsAgain) {
   const std::string name = own_name("restart");
   SimSource source(name);
   FrameView frame;
@@ -145,16 +145,16 @@ TEST(SimSource, LostWhenTheSimulatorEndsAndFoundAgainWhenItReturns) {
   }
 }
 
-TEST(SimChannel, TwoLivingSimulatorsOfOneNameAreRefused) {
+TEST(SimChannel, ASecondSimulatorOfTheSameNameIsRefused) {
   const std::string name = own_name("two");
   const SimChannelWriter writer(name, kWidth, kHeight);
   EXPECT_THAT(test::complaint_of([&] { const SimChannelWriter second(name, kWidth, kHeight); }),
               HasSubstr("another simulator"));
   SimSource source(name);
-  EXPECT_EQ(source.open(), OpenResult::Opened) << "the first one is unharmed";
+  EXPECT_EQ(source.open(), OpenResult::Opened) << "the first one still serves the channel";
 }
 
-TEST(SimSource, AKilledSimulatorIsNoticedAndReplaced) {
+TEST(SimSource, AKilledSimulatorIsDetectedAndReplaced) {
   const std::string name = own_name("killed");
   test::Process simulator([&] {
     SimChannelWriter writer(name, kWidth, kHeight);
@@ -167,11 +167,12 @@ TEST(SimSource, AKilledSimulatorIsNoticedAndReplaced) {
   SimSource source(name);
   ASSERT_EQ(source.open(), OpenResult::Opened);
   FrameView frame;
-  EXPECT_EQ(source.wait_frame(kNsPerMs, frame), FrameResult::Timeout) << "silent, but alive";
+  EXPECT_EQ(source.wait_frame(kNsPerMs, frame), FrameResult::Timeout)
+      << "the simulator is alive and sends nothing";
   simulator.signal(SIGKILL);
   ASSERT_EQ(simulator.wait(), -SIGKILL);
   EXPECT_EQ(source.wait_frame(kNsPerMs, frame), FrameResult::Lost);
-  EXPECT_EQ(source.open(), OpenResult::Absent) << "what it left behind is not a simulator";
+  EXPECT_EQ(source.open(), OpenResult::Absent) << "its segment remains, its process does not";
 
   SimChannelWriter next(name, kWidth, kHeight);
   ASSERT_EQ(source.open(), OpenResult::Opened) << source.problem();
@@ -180,7 +181,7 @@ TEST(SimSource, AKilledSimulatorIsNoticedAndReplaced) {
   EXPECT_EQ(frame.header.sequence, 2u);
 }
 
-// Something else's shared memory, or a newer simulator's: each refused by name, none crashes.
+// Shared memory of other programs or of a newer simulator is refused by name and does not crash the reader.
 TEST(SimSource, ForeignAndNewerSegmentsAreRefused) {
   const std::string name = own_name("foreign");
   auto writer = std::make_unique<SimChannelWriter>(name, kWidth, kHeight);
@@ -205,7 +206,7 @@ TEST(SimSource, ForeignAndNewerSegmentsAreRefused) {
   header->magic.store(kSimChannelMagic);
 
   const std::uint64_t slot_bytes = header->slot_bytes;
-  header->slot_bytes = std::uint64_t{1} << 62;  // times the slots: wraps round to nothing
+  header->slot_bytes = std::uint64_t{1} << 62;  // multiplied by the number of slots it overflows to zero
   EXPECT_EQ(source.open(), OpenResult::Refused);
   header->slot_bytes = slot_bytes;
   header->max_height_px *= 100;
@@ -214,7 +215,8 @@ TEST(SimSource, ForeignAndNewerSegmentsAreRefused) {
   munmap(header, sizeof(SimChannelHeader));
 }
 
-// A slot that is being written: its lock is odd. It is not given, and does not hold the reader for ever.
+// The lock of a slot that is being written is odd. The slot is not given, and the reader does not wait
+// endlessly.
 TEST(SimSource, ASlotThatIsBeingWrittenIsNotGiven) {
   const std::string name = own_name("locked");
   SimChannelWriter writer(name, kWidth, kHeight);
@@ -240,7 +242,7 @@ TEST(SimSource, ASlotThatIsBeingWrittenIsNotGiven) {
   munmap(channel, bytes);
 }
 
-TEST(SimSource, StressNothingTornNeverBackwards) {
+TEST(SimSource, UnderStressFramesAreWholeAndNeverGoBackwards) {
   const std::string name = own_name("stress");
   SimChannelWriter writer(name, kWidth, kHeight);
   SimSource source(name);

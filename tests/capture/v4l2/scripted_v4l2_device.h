@@ -1,6 +1,6 @@
-// A V4L2 device made of tables: what it offers, what it gives, and which call fails how. It keeps the
-// kernel's rules (buffers are filled only when queued, dequeued once, and so on) and complains when they are
-// broken.
+// A V4L2 device made of tables: what it offers, which frames it gives, and which call fails with which error.
+// It keeps the kernel's rules (it fills only queued buffers, a buffer is dequeued once, and so on) and fails
+// the test when the source breaks them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ struct ScriptedFrame {
   int error = 0;    ///< of DQBUF, instead of a frame
 };
 
-/// What the camera is; lives longer than the device the source owns, so that tests can look and change it.
+/// The camera's state. It outlives the device, which the source owns, so that tests can read and change it.
 struct ScriptedCamera {
   std::string card = "Scripted camera";
   std::uint32_t capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
@@ -55,7 +55,7 @@ struct ScriptedCamera {
   std::map<unsigned long, int> errors;  ///< by request: errno, for as long as it stands here
   std::deque<ScriptedFrame> frames;
 
-  // What was done to it.
+  // The calls that it received.
   std::string opened_path;
   int opened = 0, closed = 0, mapped = 0, unmapped = 0;
   std::uint32_t format = 0;
@@ -127,7 +127,7 @@ class ScriptedV4l2Device final : public V4l2Device {
         camera_.streaming = false;
         return 0;
       default:
-        ADD_FAILURE() << "a request no test expects: " << request;
+        ADD_FAILURE() << "an unexpected request: " << request;
         return ENOTTY;
     }
   }
@@ -135,7 +135,7 @@ class ScriptedV4l2Device final : public V4l2Device {
  private:
   int query(v4l2_capability& capability) const {
     std::strncpy(reinterpret_cast<char*>(capability.card), camera_.card.c_str(), sizeof(capability.card) - 1);
-    // The driver as a whole can do everything; what counts is this node.
+    // The driver as a whole has every capability; this node's capabilities count.
     capability.capabilities = camera_.capabilities | V4L2_CAP_DEVICE_CAPS | V4L2_CAP_VIDEO_CAPTURE |
                               V4L2_CAP_STREAMING | V4L2_CAP_VIDEO_OUTPUT;
     capability.device_caps = camera_.capabilities;
@@ -149,7 +149,7 @@ class ScriptedV4l2Device final : public V4l2Device {
   int set_format(v4l2_format& format) {
     v4l2_pix_format& pix = format.fmt.pix;
     const auto& offered = camera_.formats;
-    // As drivers do: what it has not is replaced by what it has.
+    // As drivers do, it replaces a format or size that it does not have.
     if (std::find(offered.begin(), offered.end(), pix.pixelformat) == offered.end()) {
       pix.pixelformat = offered.front();
     }
@@ -211,14 +211,14 @@ class ScriptedV4l2Device final : public V4l2Device {
   int queue(const v4l2_buffer& buffer) {
     EXPECT_LT(buffer.index, memory_.size());
     EXPECT_TRUE(camera_.queued.insert(buffer.index).second) << "queued twice";
-    // Code that still reads a buffer after giving it back sees this.
+    // Code that reads a buffer after it was queued again sees this.
     std::fill(memory_[buffer.index].begin(), memory_[buffer.index].end(), std::uint8_t{0xdb});
     return 0;
   }
   int dequeue(v4l2_buffer& buffer) {
     if (camera_.frames.empty()) return EAGAIN;
     if (camera_.queued.empty()) {
-      ADD_FAILURE() << "all buffers are with the reader: the camera would stall";
+      ADD_FAILURE() << "no buffer is queued: the camera would stall";
       return EAGAIN;
     }
     const ScriptedFrame frame = std::move(camera_.frames.front());

@@ -1,4 +1,4 @@
-// Setting up a device: what is chosen, what is set, and the line of each refusal.
+// Setting up a device: what is chosen, what is set, and the message of each refusal.
 #include "capture/v4l2/v4l2_setup.h"
 
 #include <gmock/gmock.h>
@@ -49,7 +49,7 @@ TEST_F(V4l2SetupTest, FormatSizeStrideAndRateAreWhatTheDeviceSays) {
   EXPECT_NEAR(camera_.rate_hz, 30.0, 1e-9);
 }
 
-TEST_F(V4l2SetupTest, AutoTakesTheLeastWorkThatReachesTheRate) {
+TEST_F(V4l2SetupTest, AutoTakesTheCheapestFormatThatReachesTheRate) {
   camera_.formats = {V4L2_PIX_FMT_MJPEG, V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_NV12};
   EXPECT_EQ(set_up().format, PixelFormat::Grey);
   camera_.fastest_hz = {{V4L2_PIX_FMT_GREY, 10.0}, {V4L2_PIX_FMT_NV12, 25.0}, {V4L2_PIX_FMT_YUYV, 20.0}};
@@ -57,10 +57,10 @@ TEST_F(V4l2SetupTest, AutoTakesTheLeastWorkThatReachesTheRate) {
   camera_.fastest_hz[V4L2_PIX_FMT_MJPEG] = 15.0;
   const V4l2Setup slow = set_up();
   ASSERT_TRUE(slow.complete);
-  EXPECT_EQ(slow.format, PixelFormat::Nv12) << "none reaches 30 Hz: the fastest";
+  EXPECT_EQ(slow.format, PixelFormat::Nv12) << "none reaches 30 Hz: the fastest is taken";
   EXPECT_NEAR(slow.rate_hz, 25.0, 1e-9);
   EXPECT_EQ(camera_.format, std::uint32_t{V4L2_PIX_FMT_NV12});
-  EXPECT_NEAR(camera_.rate_hz, 25.0, 1e-9) << "set on the device after the last choice, too";
+  EXPECT_NEAR(camera_.rate_hz, 25.0, 1e-9) << "the device has the rate of the final choice";
 }
 
 TEST_F(V4l2SetupTest, ANamedFormatIsTakenOrRefused) {
@@ -71,7 +71,7 @@ TEST_F(V4l2SetupTest, ANamedFormatIsTakenOrRefused) {
   expect_refused("requested 8x4 MJPG", "gives 8x4 GREY");
 }
 
-TEST_F(V4l2SetupTest, AnotherSizeThanAskedIsRefused) {
+TEST_F(V4l2SetupTest, AnotherSizeThanRequestedIsRefused) {
   config_.width_px = 640;
   config_.height_px = 480;
   expect_refused("requested 640x480 YUYV, the device gives 8x4 YUYV");
@@ -86,7 +86,7 @@ TEST_F(V4l2SetupTest, MissingCapabilitiesAreRefusedByName) {
   expect_refused("is not a V4L2 device");
 }
 
-TEST_F(V4l2SetupTest, FormatsNobodyHereReadsAreListed) {
+TEST_F(V4l2SetupTest, FormatsThatHeelCannotReadAreListed) {
   camera_.formats = {V4L2_PIX_FMT_H264, V4L2_PIX_FMT_SBGGR8};
   expect_refused("offers H264, BA81", "expected one of GREY, NV12, YUYV, RGB3, BGR3, MJPG");
   camera_.formats = {V4L2_PIX_FMT_YUYV};
@@ -94,7 +94,7 @@ TEST_F(V4l2SetupTest, FormatsNobodyHereReadsAreListed) {
   expect_refused("interlaced");
 }
 
-TEST_F(V4l2SetupTest, ADeviceWithoutASettableRateKeepsItsOwn) {
+TEST_F(V4l2SetupTest, ADeviceWhoseRateCannotBeSetKeepsItsOwn) {
   camera_.rate_settable = false;
   const V4l2Setup setup = set_up();
   EXPECT_TRUE(setup.complete);
@@ -125,7 +125,7 @@ TEST_F(V4l2SetupTest, ControlsAreFixedAndReadBack) {
   EXPECT_EQ(setup.controls, "exposure (ms) 5, gain 20, focus 30");
 }
 
-TEST_F(V4l2SetupTest, WhatIsLeftAutomaticIsSetAutomatic) {
+TEST_F(V4l2SetupTest, ControlsThatAreNotConfiguredAreSetToAutomatic) {
   camera_.controls = {{V4L2_CID_EXPOSURE_AUTO, {0, 3, 1, V4L2_EXPOSURE_MANUAL}},
                       {V4L2_CID_AUTOGAIN, {0, 1, 1, 0}},
                       {V4L2_CID_FOCUS_AUTO, {0, 1, 1, 0}}};
@@ -133,7 +133,7 @@ TEST_F(V4l2SetupTest, WhatIsLeftAutomaticIsSetAutomatic) {
   EXPECT_TRUE(setup.complete);
   EXPECT_EQ(camera_.controls[V4L2_CID_EXPOSURE_AUTO].value, V4L2_EXPOSURE_APERTURE_PRIORITY);
   EXPECT_EQ(camera_.controls[V4L2_CID_AUTOGAIN].value, 1);
-  EXPECT_EQ(camera_.controls[V4L2_CID_FOCUS_AUTO].value, 0) << "-1 leaves the focus alone";
+  EXPECT_EQ(camera_.controls[V4L2_CID_FOCUS_AUTO].value, 0) << "-1 does not change the focus";
   EXPECT_EQ(setup.exposure_s, 0.0);
 }
 

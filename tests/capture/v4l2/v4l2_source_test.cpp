@@ -1,4 +1,4 @@
-// Streaming from a scripted device: pixels, stamps, gaps, damaged frames, and every way of being lost.
+// Streaming from a scripted device: pixels, stamps, gaps, damaged frames, and every way to lose the device.
 #include "capture/v4l2/v4l2_source.h"
 
 #include <gmock/gmock.h>
@@ -47,7 +47,7 @@ class V4l2SourceTest : public testing::Test {
     }
   }
 
-  // A grey frame in the camera's format (two bytes a pixel: YUYV, three: RGB), rows padded as it pads them.
+  // A grey frame in the camera's format (two bytes a pixel: YUYV, three: RGB), with the camera's row padding.
   ScriptedFrame made(std::uint32_t sequence, std::uint32_t pixel_bytes) const {
     const std::uint32_t stride = kWidth * pixel_bytes + camera_.padding;
     ScriptedFrame frame{.bytes = std::vector<std::uint8_t>(stride * kHeight, 0xee), .sequence = sequence};
@@ -90,7 +90,7 @@ TEST_F(V4l2SourceTest, FramesOfEachUncompressedFormatAndStride) {
   }
 }
 
-TEST_F(V4l2SourceTest, MotionJpegIsDecodedDamagedImagesAreCountedAndPassedOver) {
+TEST_F(V4l2SourceTest, MotionJpegIsDecodedAndDamagedImagesAreCountedAndSkipped) {
   camera_.formats = {V4L2_PIX_FMT_MJPEG};
   cv::Mat image(kHeight, kWidth, CV_8UC1, cv::Scalar(77));
   ScriptedFrame good;
@@ -107,7 +107,7 @@ TEST_F(V4l2SourceTest, MotionJpegIsDecodedDamagedImagesAreCountedAndPassedOver) 
   EXPECT_NEAR(frame_.grey[0], 77, 1);
   EXPECT_EQ(source.wait_frame(0, frame_), FrameResult::Error);
   EXPECT_EQ(source.counters().corrupt, 1u);
-  ASSERT_EQ(source.wait_frame(0, frame_), FrameResult::Frame) << "corruption is not death";
+  ASSERT_EQ(source.wait_frame(0, frame_), FrameResult::Frame) << "a damaged image must not end the stream";
   EXPECT_EQ(frame_.header.sequence, 3u);
 }
 
@@ -120,7 +120,7 @@ TEST_F(V4l2SourceTest, GapsAndDamagedBuffersAreCounted) {
   expect_frame(source, 0xffffffffu);
   EXPECT_EQ(frame_.header.sequence, first + 1);
   expect_frame(source, 2u);
-  EXPECT_EQ(frame_.header.sequence, first + 4) << "across the driver's wrap";
+  EXPECT_EQ(frame_.header.sequence, first + 4) << "the count continues when the driver's counter wraps";
   EXPECT_EQ(source.counters().dropped_by_driver, 2u);
 
   give(3);
@@ -142,10 +142,10 @@ TEST_F(V4l2SourceTest, DriversThatDoNotCountMakeNoGaps) {
   expect_frame(source, 9u);
   EXPECT_EQ(source.counters().dropped_by_driver, 8u);
   expect_frame(source, 3u);
-  EXPECT_EQ(source.counters().dropped_by_driver, 8u) << "backwards is no gap";
+  EXPECT_EQ(source.counters().dropped_by_driver, 8u) << "a counter that goes backwards is not a gap";
 }
 
-TEST_F(V4l2SourceTest, ShortAndOverlongBuffersAreRefusedNotRead) {
+TEST_F(V4l2SourceTest, ShortAndOverlongBuffersAreRefusedAndNotRead) {
   V4l2Source source = make();
   ASSERT_EQ(source.open(), OpenResult::Opened);
   give(0);
@@ -166,7 +166,7 @@ v4l2_buffer stamped(std::uint32_t flags, TimeNs t_ns) {
   return buffer;
 }
 
-TEST(V4l2CaptureTime, FollowsTheFlagsAndDistrustsNonsense) {
+TEST(V4l2CaptureTime, FollowsTheFlagsAndRefusesImplausibleStamps) {
   constexpr TimeNs kArrived = 100 * kNsPerS;
   constexpr TimeNs kStamp = kArrived - 30 * kNsPerMs;
   constexpr TimeNs kExposure = 8 * kNsPerMs;
@@ -182,9 +182,10 @@ TEST(V4l2CaptureTime, FollowsTheFlagsAndDistrustsNonsense) {
   EXPECT_EQ(capture_time_ns(stamped(kMonotonic, kArrived - 2 * kNsPerS), 0, kArrived), kArrived) << "stale";
 }
 
-TEST(V4l2CaptureTime, DistrustsStampsRoundTheWrapOf64BitNanoseconds) {
+TEST(V4l2CaptureTime, RefusesStampsNearTheOverflowOf64BitNanoseconds) {
   constexpr TimeNs kArrived = 100 * kNsPerS;
-  // The last full second of 64 bits, the first of the negative ones beyond, and what no nanoseconds hold.
+  // The last full second of 64-bit nanoseconds, the first negative ones after it, and seconds that do not
+  // fit.
   for (const std::int64_t t_s :
        {std::int64_t{9223372036}, std::int64_t{-9223372037}, std::numeric_limits<std::int64_t>::min(),
         std::numeric_limits<std::int64_t>::max()}) {
@@ -197,7 +198,7 @@ TEST(V4l2CaptureTime, DistrustsStampsRoundTheWrapOf64BitNanoseconds) {
   }
 }
 
-TEST_F(V4l2SourceTest, EveryErrorOfTheDeviceMeansLostAndOpeningAgainWorks) {
+TEST_F(V4l2SourceTest, EveryErrorOfTheDeviceMeansLostAndItCanBeOpenedAgain) {
   V4l2Source source = make();
   int lives = 0;
   for (const int error : {EIO, ENODEV, EINVAL, EPIPE}) {
@@ -223,7 +224,7 @@ TEST_F(V4l2SourceTest, EveryErrorOfTheDeviceMeansLostAndOpeningAgainWorks) {
   EXPECT_EQ(source.wait_frame(0, frame_), FrameResult::Lost);
 }
 
-TEST_F(V4l2SourceTest, SilenceIsATimeoutAndAStallIsLost) {
+TEST_F(V4l2SourceTest, AShortSilenceIsATimeoutAndALongOneMeansLost) {
   V4l2Source source = make();
   ASSERT_EQ(source.open(), OpenResult::Opened);
   const TimeNs opened_ns = monotonic_now_ns();
@@ -235,7 +236,7 @@ TEST_F(V4l2SourceTest, SilenceIsATimeoutAndAStallIsLost) {
   EXPECT_GE(monotonic_now_ns() - opened_ns, V4l2Source::kStall_ns);
 }
 
-TEST_F(V4l2SourceTest, OpeningSaysAbsentOrRefusedAndWhy) {
+TEST_F(V4l2SourceTest, OpeningGivesAbsentOrRefusedWithTheReason) {
   V4l2Source source = make();
   camera_.open_error = ENOENT;
   EXPECT_EQ(source.open(), OpenResult::Absent);
@@ -263,7 +264,7 @@ TEST_F(V4l2SourceTest, OpeningSaysAbsentOrRefusedAndWhy) {
   EXPECT_EQ(camera_.unmapped, camera_.mapped - 3);
 }
 
-TEST_F(V4l2SourceTest, AFileThatIsNoDeviceIsRefusedByTheKernelsSide) {
+TEST_F(V4l2SourceTest, AFileThatIsNotADeviceIsRefused) {
   V4l2Source file("/etc/hostname", config_);
   EXPECT_EQ(file.open(), OpenResult::Refused);
   EXPECT_THAT(file.problem(), HasSubstr("is not a device"));
@@ -274,9 +275,10 @@ TEST_F(V4l2SourceTest, AFileThatIsNoDeviceIsRefusedByTheKernelsSide) {
   EXPECT_EQ(missing.open(), OpenResult::Absent);
 }
 
-TEST_F(V4l2SourceTest, UncompressedFramesAreGivenWithoutAllocating) {
-  if (!test::counts_allocations()) GTEST_SKIP() << "the sanitizer's allocator is in the way";
-  // The scripted device itself allocates for each frame; a device that gives the same one for ever does not.
+TEST_F(V4l2SourceTest, GivingUncompressedFramesDoesNotAllocate) {
+  if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  // The scripted device itself allocates for each frame; a device that gives the same frame each time does
+  // not.
   class Tireless final : public V4l2Device {
    public:
     explicit Tireless(ScriptedCamera& camera) : scripted_(camera) {}

@@ -1,4 +1,4 @@
-// Numbers and tables of experiments, from rows whose figures are worked out by hand.
+// Numbers and tables of experiments, from rows whose figures were calculated by hand.
 #include "evaluation/reports/experiment_report.h"
 
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ std::vector<StillSample> written_and_read(const std::vector<StillImageRow>& rows
   return evaluation::read_stills(folder.file("rows.csv"));
 }
 
-TEST(StillSamples, AreReadAsTheyWereWritten) {
+TEST(StillSamples, AreReadBackEqual) {
   StillImageRow lost = row_at(0.1, 2.0, 0.5, 0.0);
   lost.pose.reason = PoseReason::TooFewInliers;
   lost.world = {3, "mosaic", 0.25};
@@ -60,22 +60,22 @@ TEST(StillSamples, AreReadAsTheyWereWritten) {
   EXPECT_NEAR(samples[0].x_est_m - samples[0].true_x_m, 0.01, 1e-6);
   EXPECT_TRUE(samples[0].undisturbed());
   EXPECT_FALSE(samples[1].found);
-  EXPECT_EQ(samples[1].certainty, 0.0) << "not found counts as no certainty";
+  EXPECT_EQ(samples[1].certainty, 0.0) << "a target that is not found has certainty 0";
   EXPECT_EQ(samples[1].shirt, "mosaic");
   EXPECT_FALSE(samples[1].undisturbed());
 }
 
 TEST(StillSamples, FlippedAndWrong) {
   const double bearing_rad = std::atan2(0.4, 2.0);
-  // 20° to one side of the line of sight, seen 20° to the other.
+  // The true yaw is 20° to one side of the line of sight, the estimate 20° to the other.
   const auto samples = written_and_read(
       {row_at(0.4, 2.0, bearing_rad + 0.35, -0.70), row_at(0.4, 2.0, bearing_rad + 0.35, -0.30),
        row_at(0.4, 2.0, bearing_rad + 0.05, -0.10), row_at(0.4, 2.0, bearing_rad + 0.35, 0.10)});
   EXPECT_TRUE(samples[0].flipped());
   EXPECT_TRUE(samples[0].wrong());
-  EXPECT_FALSE(samples[1].flipped()) << "still on its own side";
+  EXPECT_FALSE(samples[1].flipped()) << "the estimate is on the true side";
   EXPECT_TRUE(samples[1].wrong()) << "17 degrees";
-  EXPECT_FALSE(samples[2].flipped()) << "nearly frontal: no sign to lose";
+  EXPECT_FALSE(samples[2].flipped()) << "nearly frontal: the sign means nothing";
   EXPECT_FALSE(samples[3].wrong());
 }
 
@@ -96,7 +96,7 @@ TEST(PaperComparison, MeanDeviationAndCertaintyOfEachCommandedValue) {
   EXPECT_NEAR(steps[1].certainty_mean, 0.2, 1e-6);
 }
 
-TEST(ErrorStatistics, BinsCountWhatBelongs) {
+TEST(ErrorStatistics, BinsCountTheirOwnSamples) {
   const auto samples = written_and_read(
       {row_at(0, 2, 0.5, 0.1), row_at(0, 2, 0.5, -0.1), row_at(0, 2, 0.5, -1.0), row_at(0, 4, 0.5, 0.0)});
   const evaluation::ErrorBin bin =
@@ -108,7 +108,7 @@ TEST(ErrorStatistics, BinsCountWhatBelongs) {
   EXPECT_NEAR(bin.yaw_nees, (4.0 + 4.0 + 400.0) / 3.0, 1e-3);
 }
 
-TEST(ErrorStatistics, TheBandOfHonestDeviationsNarrowsWithTheNumber) {
+TEST(ErrorStatistics, TheBandOfExpectedDeviationsNarrowsWithTheNumber) {
   // chi-squared with 100 degrees of freedom: 2.5 % at 74.22, 97.5 % at 129.56.
   EXPECT_NEAR(evaluation::nees_band(100).low, 0.7422, 0.001);
   EXPECT_NEAR(evaluation::nees_band(100).high, 1.2956, 0.001);
@@ -131,7 +131,7 @@ TEST(PaperComparison, RSquaredAndMonotony) {
               HasSubstr("found in fewer than half of the pictures at 2 m"));
 }
 
-TEST(ExperimentReport, WritesTheNumbersOfWhatThereIsAndSaysHowGoodItIs) {
+TEST(ExperimentReport, WritesTheNumbersOfTheGivenRowsAndTheirQuality) {
   const TemporaryFolder folder;
   const std::string directory = folder.path().string();
   EXPECT_FALSE(evaluation::holds_experiments(directory));
@@ -148,7 +148,7 @@ TEST(ExperimentReport, WritesTheNumbersOfWhatThereIsAndSaysHowGoodItIs) {
     EXPECT_TRUE(std::filesystem::exists(folder.file(std::string(name) + ".csv"))) << name;
     EXPECT_THAT(summary, HasSubstr("](" + std::string(name) + ".png)"));
   }
-  EXPECT_FALSE(std::filesystem::exists(folder.file("fig3_t_z.csv"))) << "no such rows";
+  EXPECT_FALSE(std::filesystem::exists(folder.file("fig3_t_z.csv"))) << "there are no rows of this kind";
   const evaluation::CsvTable steps(folder.file("fig5_yaw_over_x.csv"));
   ASSERT_EQ(steps.rows(), 9U);
   EXPECT_NEAR(steps.number(8, "commanded"), 0.8, 1e-9);
@@ -156,7 +156,7 @@ TEST(ExperimentReport, WritesTheNumbersOfWhatThereIsAndSaysHowGoodItIs) {
   EXPECT_NEAR(steps.number(8, "mean_deg"), kDegPerRad * 0.01, 1e-3);
 }
 
-TEST(FitRows, TellConditionsAndErrorsOfWhatWasSeen) {
+TEST(FitRows, HoldConditionsAndErrorsOfTheFramesInView) {
   const double bearing_rad = std::atan2(0.4, 2.0);
   StillImageRow lost = row_at(0.4, 2.0, 0.0, 0.0);
   lost.pose.reason = PoseReason::TooFewMatches;
@@ -169,7 +169,7 @@ TEST(FitRows, TellConditionsAndErrorsOfWhatWasSeen) {
   const auto rows = evaluation::still_fit_rows(written_and_read({lost, after_lost, seen, tracked}), camera);
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_FALSE(rows[0].found);
-  EXPECT_TRUE(rows[1].conditions.whole_frame_search) << "the picture before did not show it";
+  EXPECT_TRUE(rows[1].conditions.whole_frame_search) << "the target was not in the picture before";
   EXPECT_TRUE(rows[1].flipped);
   EXPECT_TRUE(rows[1].conditions.other_print);
   EXPECT_FALSE(rows[3].conditions.whole_frame_search);
@@ -181,7 +181,7 @@ TEST(FitRows, TellConditionsAndErrorsOfWhatWasSeen) {
   EXPECT_NEAR(rows[3].range_error_share, std::hypot(0.41, 1.98) / std::hypot(0.4, 2.0) - 1.0, 1e-6);
 }
 
-TEST(RunTable, CountsLossesAndHowLongTheyLasted) {
+TEST(RunTable, CountsLossesAndTheirDuration) {
   evaluation::MetricsCollector run;
   for (int i = 0; i <= 100; ++i) {
     evaluation::MotionSample sample;
@@ -214,7 +214,7 @@ TEST(RunTable, CountsLossesAndHowLongTheyLasted) {
               HasSubstr("| made up | 0.000, 0.000 m | 2.00, 2.00 m |"));
 }
 
-TEST(ErrorStatistics, ABinKnowsItsUnitAndMiddleAndACellItsBounds) {
+TEST(ErrorStatistics, BinsHaveUnitAndMiddleAndCellsHaveBounds) {
   const TemporaryFolder folder;
   // Straight ahead, 10.3° to the line of sight.
   const auto samples = written_and_read({row_at(0, 1.6, 0.18, 0.02), row_at(0, 1.7, 0.18, 0.04),
@@ -243,7 +243,7 @@ TEST(ErrorStatistics, ABinKnowsItsUnitAndMiddleAndACellItsBounds) {
   EXPECT_EQ(pictures, 4.0);
 }
 
-/// A person who walks along x at 0.5 m/s, and a robot that drives beside the line at a constant heading.
+/// A person walks along x at 0.5 m/s; a robot drives beside this line with a constant heading.
 evaluation::MetricsCollector straight_run(double beside_m, double heading_rad) {
   evaluation::MetricsCollector run;
   for (int i = 0; i <= 40; ++i) {
@@ -258,7 +258,7 @@ evaluation::MetricsCollector straight_run(double beside_m, double heading_rad) {
   return run;
 }
 
-TEST(PaperNumbers, TheResponseIsMeasuredAgainstThePersonsLine) {
+TEST(PaperNumbers, TheResponseIsMeasuredFromThePersonsPath) {
   const TemporaryFolder folder;
   evaluation::write_response(folder.path().string(), straight_run(0.6, -0.5));
   const evaluation::CsvTable rows(folder.file("fig7_response.csv"));
@@ -270,7 +270,7 @@ TEST(PaperNumbers, TheResponseIsMeasuredAgainstThePersonsLine) {
   EXPECT_NEAR(rows.number(40, "person_x_m"), 2.0, 1e-9);
 }
 
-TEST(PaperNumbers, TheWalkStandsBesideTheRunThatFollowsThePositionOnly) {
+TEST(PaperNumbers, TheRunIsComparedWithOneThatFollowsThePositionOnly) {
   const TemporaryFolder folder;
   const auto run = straight_run(0.1, 0.0), position_only = straight_run(0.3, 0.0);
   const auto json = [&] { return nlohmann::json::parse(test::read_text(folder.file("fig8_walk.json"))); };

@@ -22,7 +22,7 @@ sim::Scenario small_base() {
   return base;
 }
 
-TEST(StillImageScene, TheRobotStandsSoThatTheBackIsWhereItWasCommanded) {
+TEST(StillImageScene, TheRobotIsPlacedSoThatTheBackIsInTheCommandedPose) {
   sim::Scenario base = small_base();
   base.camera.mount_y_m = 0.07;
   sim::World world(still_image_scenario(base, {}));
@@ -49,18 +49,18 @@ TEST(StillImageScene, TheShirtIsFoundAndTrackedNearTheTruth) {
   const ShirtTemplate shirt = sim::teach_from_world(still_image_scenario(base, {}), 1.5);
   StillImageScene scene(base, {}, shirt, VisionConfig{});
   const auto rows = scene.estimate_pair("near", {.x_m = 0.2, .z_m = 1.8, .yaw_rad = 0.2});
-  EXPECT_FALSE(rows[0].pose.tracked) << "nothing was seen before";
+  EXPECT_FALSE(rows[0].pose.tracked) << "there was no earlier frame";
   EXPECT_TRUE(rows[1].pose.tracked);
   for (const StillImageRow& row : rows) {
     ASSERT_TRUE(row.pose.found()) << to_string(row.pose.reason);
     EXPECT_NEAR(row.pose.yaw_rad, row.true_yaw_rad, 0.1);
     EXPECT_NEAR(row.pose.position_m[0], row.true_x_m, 0.02);
     EXPECT_NEAR(row.pose.position_m[2], row.true_z_m, 0.05);
-    // t follows from R: what the yaw is off by, times the template's distance, it is off sideways.
+    // t follows from R: the yaw's error, times the template's distance, is the sideways error.
     EXPECT_NEAR(row.t_m[0] - row.true_t_m.x(), -1.5 * (row.pose.yaw_rad - row.true_yaw_rad), 0.03);
     EXPECT_NEAR(row.t_m[2], row.true_t_m.z(), 0.06);
   }
-  // Another pose, far from the first: the whole frame is searched, not only the last place.
+  // The second pose is far from the first: the whole frame is searched, not only the last place.
   EXPECT_FALSE(scene.estimate_pair("elsewhere", {.x_m = -0.4, .z_m = 2.0})[0].pose.tracked);
 }
 
@@ -84,7 +84,7 @@ TEST(OccludingBoard, HidesTheCommandedShareOfTheBack) {
   EXPECT_NEAR(covered(1.0), 1.0, 0.02);
 }
 
-TEST(StillImageCases, CoverWhatTheirNamesSay) {
+TEST(StillImageCases, CoverTheConditionsTheyAreNamedAfter) {
   ASSERT_GE(still_image_experiments().size(), 4U);
   for (const StillImageExperiment& experiment : still_image_experiments()) {
     const auto cases = experiment.cases(experiment.repeats);
@@ -92,7 +92,7 @@ TEST(StillImageCases, CoverWhatTheirNamesSay) {
     std::set<std::uint64_t> seeds;
     for (const StillImageCase& one : cases) {
       seeds.insert(one.world.seed);
-      EXPECT_EQ(one.name.find(','), std::string::npos) << "names stand in CSV";
+      EXPECT_EQ(one.name.find(','), std::string::npos) << "names are cells of a CSV file";
       EXPECT_NO_THROW(sim::shirt_design(one.world.shirt));
       EXPECT_LT(std::hypot(one.view.x_m, one.view.z_m), 6.1);
     }

@@ -1,4 +1,4 @@
-// The figures of a run, from made-up runs whose figures are known.
+// The figures of synthetic runs, whose figures are known.
 #include "evaluation/metrics/metrics.h"
 
 #include <gtest/gtest.h>
@@ -26,12 +26,12 @@ PoseSample pose(double t_s, bool found, double yaw_error) {
   sample.certainty = 0.3;
   sample.has_truth = true;
   sample.true_yaw_rad = 3.1;
-  sample.yaw_rad = 3.1 + yaw_error - 2 * 3.14159265358979;  // a full turn apart is no error
+  sample.yaw_rad = 3.1 + yaw_error - 2 * 3.14159265358979;  // a difference of a full turn is not an error
   sample.yaw_sigma_rad = 0.1;
   return sample;
 }
 
-TEST(Metrics, LateralDistanceIsSignedAndReachesBehindTheStart) {
+TEST(Metrics, LateralDistanceIsSignedAlsoBehindTheStart) {
   const std::vector<Pose2> path{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}};
   std::size_t near = 0;
   EXPECT_NEAR(lateral_distance_m(path, {-2, 0.3, 0}, near), 0.3, 1e-12);
@@ -46,7 +46,7 @@ TEST(Metrics, PathsAndView) {
     sample.back_in_view = i < 50 || i > 57;
     run.add(sample);
   }
-  // Found but for t = 5.0 … 5.6 s; before the walk nothing counts.
+  // Found except from t = 5.0 to 5.6 s; frames before the walk do not count.
   for (int i = 0; i <= 100; ++i)
     run.add(pose(0.1 * i, i > 15 && (i < 50 || i > 56), i % 2 == 0 ? 0.1 : -0.1));
   const FollowMetrics m = run.evaluate();
@@ -84,7 +84,7 @@ TEST(Metrics, ATargetFoundElsewhereIsWrong) {
     run.add(sample);
     PoseSample seen = pose(0.1 * i, true, 0.0);
     seen.true_z_m = 2.0;
-    seen.z_m = i < 4 ? 2.45 : 2.6;  // half a metre is the limit
+    seen.z_m = i < 4 ? 2.45 : 2.6;  // the limit is half a metre
     run.add(seen);
   }
   const FollowMetrics m = run.evaluate();
@@ -103,7 +103,7 @@ TEST(Metrics, CriteriaNameWhatFailed) {
   EXPECT_TRUE(failed_criteria(m, {}).empty());
   EXPECT_TRUE(failed_criteria(m, {0.7, 0.3, 4.0}).empty());
   EXPECT_EQ(failed_criteria(m, {0.5, 0.1, 6.0}).size(), 3U);
-  // A run in which nothing was measured meets nothing.
+  // A run without measurements meets no criterion.
   EXPECT_FALSE(failed_criteria(FollowMetrics{}, {0.5, 0.1, -1.0}).empty());
 }
 

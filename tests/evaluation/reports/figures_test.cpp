@@ -1,5 +1,4 @@
-// The figures `heel report` draws of a run: PNG and SVG, their sizes, and that they show what they are to
-// show.
+// The figures that `heel report` draws of a run: PNG and SVG, their sizes, and that the lines are in them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +27,7 @@ class Figures : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Figures, OfARunShowWhatTheyAreToShow) {
+TEST_F(Figures, OfARunShowItsLinesAndPictures) {
   test::keep_frames(folder_, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 50});
   const Outcome outcome = report();
   ASSERT_EQ(outcome.status, 0) << outcome.err;

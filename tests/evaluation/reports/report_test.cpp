@@ -1,4 +1,4 @@
-// heel report: the figures of a made-up run as worked out by hand, criteria, and runs it cannot read.
+// heel report: the figures of a synthetic run, calculated by hand; criteria; and runs that cannot be read.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ Outcome report(const TemporaryFolder& folder, const std::vector<std::string>& op
   return run_heel(arguments);
 }
 
-TEST(Report, MeasuresWhatWasWorkedOutByHand) {
+TEST(Report, GivesTheFiguresCalculatedByHand) {
   const TemporaryFolder folder;
   test::write_run(folder);
   const evaluation::FollowMetrics m = evaluation::read_run(folder.path().string()).evaluate();
@@ -117,7 +117,7 @@ TEST(Report, ARunWithoutFramesHasFailed) {
   EXPECT_THAT(outcome.err, HasSubstr("no frame was seen while the person walked"));
 }
 
-TEST(Report, ReadsARunThatWasCutShortInTheMiddleOfALine) {
+TEST(Report, ReadsARunThatEndsInTheMiddleOfALine) {
   const TemporaryFolder folder;
   test::write_run(folder);
   write_text(folder.file("ticks.csv"), test::ticks_csv() + "1010.1,101,foll");
@@ -132,7 +132,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-TEST(Report, RefusesWhatIsNoRecordingInOneLineThatNamesThePlace) {
+TEST(Report, RefusesBadRecordingsInOneLineThatNamesThePlace) {
   const std::string truth = test::truth_csv(), ticks = test::ticks_csv(), poses = test::poses_csv();
   struct Row {
     std::string file;

@@ -1,4 +1,4 @@
-// The numbers of a run's figures, of a run worked out by hand.
+// The numbers of a run's figures, from a run calculated by hand.
 #include "evaluation/reports/run_numbers.h"
 
 #include <gtest/gtest.h>
@@ -30,10 +30,10 @@ class RunNumbers : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(RunNumbers, PathHoldsBothPlacesAndWhetherThePersonWalked) {
+TEST_F(RunNumbers, ThePathHoldsRobotAndPersonAndWhetherThePersonWalks) {
   const CsvTable path = table("path.csv");
   ASSERT_EQ(path.rows(), 101U);
-  EXPECT_EQ(path.number(0, "t_s"), 0.0) << "from the run's beginning, not the clock's";
+  EXPECT_EQ(path.number(0, "t_s"), 0.0) << "time counts from the start of the run";
   EXPECT_NEAR(path.number(100, "t_s"), 10.0, 1e-9);
   EXPECT_EQ(path.number(19, "walking"), 0.0);
   EXPECT_EQ(path.number(20, "walking"), 1.0);
@@ -43,7 +43,7 @@ TEST_F(RunNumbers, PathHoldsBothPlacesAndWhetherThePersonWalked) {
   EXPECT_EQ(path.number(80, "person_y_m"), 0.0);
 }
 
-TEST_F(RunNumbers, APoseStandsBesideTheTruthAndWhereTheRobotWas) {
+TEST_F(RunNumbers, ARowHoldsThePoseTheTruthAndTheRobotsPlace) {
   const CsvTable poses = table("pose_errors.csv");
   ASSERT_EQ(poses.rows(), 100U);
   EXPECT_NEAR(poses.number(30, "t_s"), 3.05, 1e-9);
@@ -58,7 +58,7 @@ TEST_F(RunNumbers, APoseStandsBesideTheTruthAndWhereTheRobotWas) {
   EXPECT_NEAR(poses.number(30, "robot_y_m"), 0.3, 1e-9);
 }
 
-TEST_F(RunNumbers, WhereTheTargetWasNotFoundThereIsNoEstimate) {
+TEST_F(RunNumbers, ATargetThatIsNotFoundHasNoEstimate) {
   const CsvTable poses = table("pose_errors.csv");
   int lost = 0;
   for (std::size_t i = 0; i < poses.rows(); ++i) {
@@ -87,7 +87,7 @@ class KeptFrames : public RunNumbers {
   void write() { evaluation::write_kept_frames(folder_.path().string(), test::kClock_s); }
 };
 
-TEST_F(KeptFrames, TwelveAreSpreadEvenlyEachWithTheRegion) {
+TEST_F(KeptFrames, TwelveAreChosenEvenlyEachWithTheRegion) {
   EXPECT_FALSE(std::filesystem::exists(folder_.file("frames.csv"))) << "no frame was kept";
   std::vector<int> numbers;
   for (int i = 0; i < 17; ++i) numbers.push_back(5 * i);
@@ -100,18 +100,18 @@ TEST_F(KeptFrames, TwelveAreSpreadEvenlyEachWithTheRegion) {
   EXPECT_NEAR(frames.number(11, "t_s"), 8.05, 1e-9);
   EXPECT_NEAR(frames.number(11, "yaw_deg"), kDegPerRad * (0.02 * 80.5 + test::kEvenYawError_rad), 0.01);
   EXPECT_NEAR(frames.number(11, "certainty"), 0.3, 1e-9);
-  // The homography is the identity: the region stands where it stands in the template.
+  // The homography is the identity: the region is where it is in the template.
   const double corners[4][2] = {{100, 60}, {220, 60}, {220, 150}, {100, 150}};
   for (int i = 0; i < 4; ++i) {
     EXPECT_NEAR(frames.number(0, test::printed("corner_%d_x_px", i)), corners[i][0], 0.01) << "corner " << i;
     EXPECT_NEAR(frames.number(0, test::printed("corner_%d_y_px", i)), corners[i][1], 0.01) << "corner " << i;
   }
-  EXPECT_EQ(frames.text(7, "file"), "frames/000050.png") << "in which the target was not found";
+  EXPECT_EQ(frames.text(7, "file"), "frames/000050.png") << "the target was not found in it";
   EXPECT_EQ(frames.number(7, "found"), 0.0);
   EXPECT_TRUE(std::isnan(frames.number(7, "corner_0_x_px")));
 }
 
-TEST_F(KeptFrames, FewAreAllShownAndBrokenOnesAreLeftOut) {
+TEST_F(KeptFrames, AFewFramesAreAllShownAndUnreadableOnesAreLeftOut) {
   test::keep_frames(folder_, {0, 5, 10});
   test::write_text(folder_.file("frames/000015.png"), "half a pict");
   write();

@@ -1,7 +1,8 @@
-// A run whose figures are worked out by hand. Truth and ticks every 0.1 s for 10 s, frames halfway between:
+// A run whose figures were calculated by hand. Truth and ticks every 0.1 s for 10 s, frames halfway between:
 //   person  stands at x = 0 until 2 s, then walks along x at 0.5 m/s                    → 4 m in 8 s
 //   robot   2 m behind, 0.3 m to the left until 6 s and 0.1 m to the right from then on
-//   back    turns by 0.2 rad/s in the camera; yaw is seen 0.1 rad too large in even frames and 0.06 rad too
+//   back    turns by 0.2 rad/s in the camera; yaw is measured 0.1 rad too large in even frames and 0.06 rad
+//   too
 //           small in odd ones, the distance 0.05 m too large
 //   frames  50 … 54 do not show the target: none from 4.95 s to 5.55 s
 //   ticks   30 … 34 are at rest because the target is lost; from tick 95 on the daemon shuts down

@@ -1,4 +1,4 @@
-// Every processor finds the same features: those of one made-up picture, kept as golden.
+// Every processor finds the same features of a drawn picture: those of the golden file.
 //
 // The golden file says where it comes from in its first lines. It is rewritten only when asked:
 //   HEEL_UPDATE_GOLDEN=1 build/release/bin/test_golden_features
@@ -40,7 +40,7 @@ constexpr const char* kProvenance =
     "# first\n";
 constexpr int kFeatures = 40;
 
-/// Whole numbers only, so that every processor draws the same.
+/// Whole numbers only, so that every processor draws the same picture.
 TestImage discs() {
   std::mt19937 random(2010);
   const auto below = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
@@ -74,7 +74,7 @@ FeatureSet features_of(const TestImage& image, bool oriented) {
   return features;
 }
 
-/// Nine digits give a float back to the bit.
+/// With nine digits a float is read back to the bit.
 std::string golden_text(const TestImage& image) {
   std::string text = kProvenance;
   char number[40];
@@ -118,7 +118,7 @@ FeatureSet golden_features(bool oriented) {
   return set;
 }
 
-/// The largest differences seen, said at the end: 0 means equal to the bit.
+/// The largest differences, printed at the end; 0: equal to the bit.
 struct Differences {
   double px = 0, angle_rad = 0, response = 0, descriptor = 0;
   void add(const Feature& a, const Descriptor& descriptor_a, const Feature& b,

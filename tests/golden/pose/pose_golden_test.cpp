@@ -1,4 +1,4 @@
-// heel teach and heel pose on a real video of real people: what must show, and the poses kept as golden.
+// heel teach and heel pose on a real video of real people: where the back is found, and the golden poses.
 //
 // The golden file says where it comes from in its first lines. It is rewritten only when asked:
 //   HEEL_UPDATE_GOLDEN=1 build/release/bin/test_golden_pose
@@ -40,7 +40,7 @@ constexpr const char* kProvenance =
     "# 0.05 m, because vector instructions sum in different orders on different processors.\n"
     "# frame certainty yaw_rad x_m y_m z_m, every tenth frame\n";
 
-constexpr int kFirst = 950;  // the back is seen, square on or nearly
+constexpr int kFirst = 950;  // the back is seen from straight behind, or nearly
 constexpr int kLast = 1170;
 constexpr int kEntering = 925;  // before this frame and after the next the person is not seen from behind
 constexpr int kTurned = 1185;
@@ -115,7 +115,7 @@ std::string golden_text(const std::vector<json>& lines) {
   return text;
 }
 
-TEST_F(RealVideo, PosesAreTheGoldenOnes) {
+TEST_F(RealVideo, PosesEqualTheGoldenFile) {
   if (std::getenv("HEEL_UPDATE_GOLDEN") != nullptr) {
     test::write_text(kGoldenFile, golden_text(lines()));
     GTEST_SKIP() << "wrote " << kGoldenFile;
@@ -123,7 +123,7 @@ TEST_F(RealVideo, PosesAreTheGoldenOnes) {
   std::ifstream golden(kGoldenFile);
   ASSERT_TRUE(golden) << kGoldenFile;
   int rows = 0;
-  // A row may differ by the golden file's tolerances, which are as large as what varies between rows; their
+  // A row may differ by the golden file's tolerances, which are as large as the differences between rows; the
   // mean may not.
   double certainty_off = 0, yaw_off = 0, position_off = 0;
   for (std::string text; std::getline(golden, text);) {

@@ -32,7 +32,7 @@ class VelocityCollector {
     arcos::Command command;
     if (arcos::decode_command(packet.body, command) != arcos::DecodeResult::Ok)
       throw std::runtime_error("a packet that is no command");
-    // Before the session is open, ids 0…2 are sent alone: they are neither.
+    // Before the session is open, ids 0…2 are sent alone: these are not velocities.
     if (command.is(arcos::CommandId::Vel)) vel_mm_s_ = command.value;
     if (command.is(arcos::CommandId::RVel))
       sent.push_back({t_s, {static_cast<double>(vel_mm_s_), static_cast<double>(command.value)}});

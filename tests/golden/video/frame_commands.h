@@ -1,4 +1,4 @@
-// Velocity commands on the wire, laid beside the video's frames.
+// Velocity commands on the wire, by the video's frames.
 //
 // A wire file has a line for each piece sent: "seconds hex". A recording's poses.csv says when each frame was
 // taken, by the same clock. Between two frames, time counts as a fraction of a frame.
@@ -15,7 +15,7 @@ struct Velocity {
   double rvel_deg_s = 0.0;
 };
 
-/// VEL and RVEL as they went out together.
+/// VEL and RVEL of one tick.
 struct SentVelocity {
   double t_s = 0.0;
   Velocity velocity;
@@ -24,7 +24,7 @@ struct SentVelocity {
 /// By the video's frame number.
 using FrameCommands = std::map<int, Velocity>;
 
-/// Decodes a wire file. Throws std::runtime_error on a line that is none, or bytes that are no packets.
+/// Decodes a wire file. Throws std::runtime_error for a malformed line, or bytes that are not packets.
 std::vector<SentVelocity> read_wire(const std::string& path);
 
 /// Capture time to the video's frame.
@@ -33,10 +33,11 @@ class FrameClock {
   /// `first_frame` is the video's frame that poses.csv counts as `first_count`.
   FrameClock(const std::string& poses_csv, int first_frame, int first_count);
 
-  /// 12.5 is halfway between frames 12 and 13; before the first and after the last frame: at their pace.
+  /// 12.5 is halfway between frames 12 and 13. Before the first and after the last frame it continues at the
+  /// frame rate.
   double frame_at(double t_s) const;
   std::size_t frames() const { return frames_.size(); }
-  /// How old the newest frame that vision had finished ever became.
+  /// The greatest age of the newest frame that vision had finished.
   double oldest_view_s() const;
 
  private:
@@ -48,8 +49,8 @@ class FrameClock {
   std::vector<Taken> frames_;
 };
 
-/// The mean of what was sent from each frame to the next: VEL and RVEL carry their rounding error forward, so
-/// that single commands waver by one.
+/// The mean of the commands from each frame to the next: VEL and RVEL carry their rounding error forward, so
+/// that single commands differ by one.
 FrameCommands mean_by_frame(const std::vector<SentVelocity>& sent, const FrameClock& clock);
 
 /// "frame VEL RVEL" in whole units, change points only; the last row is the last frame. `header` stays above.

@@ -1,5 +1,5 @@
-// heeld with a recorded video for its camera, in real time over a pty to heel-sim: what arrives at the robot
-// is the golden file of the lock step, within what a busy machine may shift it.
+// heeld with a recorded video as its camera, in real time over a pty to heel-sim: the robot receives the
+// commands of the lock step's golden file, within the delays of a busy machine.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ using test::read_golden;
 using test::read_wire;
 using test::VideoScene;
 
-constexpr int kFirst = 890;  // some seconds before the back is seen: the line is to stand by then
+constexpr int kFirst = 890;  // some seconds before the back is seen, to connect to the robot
 constexpr int kLast = 1195;
 constexpr int kCompareFirst = 925;
 constexpr int kCompareLast = 1190;
@@ -40,7 +40,7 @@ constexpr int kShiftFrames = 3;  // ±0.3 s at 10 Hz
 constexpr double kVelTolerance_mm_s = 40.0;
 constexpr double kRvelTolerance_deg_s = 4.0;
 
-/// Smallest and largest of what the neighbours in time command.
+/// The smallest and the largest command of the frames near in time.
 struct Envelope {
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -std::numeric_limits<double>::infinity();
@@ -53,7 +53,7 @@ struct Envelope {
   }
 };
 
-/// Those of `commands` within the compared frames that no neighbour in `others` accounts for.
+/// The compared frames of `commands` that differ from all near frames of `others`.
 std::vector<std::string> unmet(const FrameCommands& commands, const FrameCommands& others) {
   std::vector<std::string> found;
   for (const auto& [frame, velocity] : commands) {
@@ -102,8 +102,8 @@ void drive(const VideoScene& scene, double gain_yaw_1_s) {
   ASSERT_EQ(robot.wait(), 0) << robot.output();
 }
 
-TEST_F(VideoDrivesHeeld, AndTheRobotReceivesTheGoldenCommands) {
-  // heeld stops the robot when a busy machine holds it up for long. Such a run shows nothing of its commands.
+TEST_F(VideoDrivesHeeld, TheRobotReceivesTheGoldenCommands) {
+  // heeld stops the robot when a busy machine delays it too long. Such a run does not test the commands.
   constexpr double kHeldUp_s = 0.3;
   constexpr int kRuns = 3;
   for (int run = 1;; ++run) {
@@ -118,9 +118,10 @@ TEST_F(VideoDrivesHeeld, AndTheRobotReceivesTheGoldenCommands) {
     const FrameCommands received = mean_by_frame(read_wire(scene.file("wire.hex")), clock);
     const FrameCommands golden = read_golden(kGoldenFile);
     ASSERT_FALSE(received.empty());
-    EXPECT_LT(received.begin()->first, kCompareFirst) << "the line stood too late";
-    EXPECT_THAT(unmet(golden, received), testing::IsEmpty()) << "golden commands that did not arrive";
-    EXPECT_THAT(unmet(received, golden), testing::IsEmpty()) << "commands that are not golden";
+    EXPECT_LT(received.begin()->first, kCompareFirst) << "the robot was connected too late";
+    EXPECT_THAT(unmet(golden, received), testing::IsEmpty())
+        << "golden commands that the robot did not receive";
+    EXPECT_THAT(unmet(received, golden), testing::IsEmpty()) << "commands that are not in the golden file";
     return;
   }
 }

@@ -1,4 +1,5 @@
-// A real video of real people through the stages in lock step: the commands on the wire are the golden ones.
+// A real video of real people through the stages in lock step: the commands on the wire equal the golden
+// file.
 //
 // The golden file says where it comes from in its first lines. It is rewritten only when asked:
 //   HEEL_UPDATE_GOLDEN=1 build/release/bin/test_golden_video
@@ -35,7 +36,7 @@ using test::read_wire;
 using test::Velocity;
 using test::VideoScene;
 
-// Before and after these the person is not seen from behind, and the wheels have had time to stop.
+// Before and after these frames the person is not seen from behind, and the robot has had time to stop.
 constexpr int kBackSeenFirst = 925;
 constexpr int kBackSeenLast = 1192;
 constexpr double kVelTolerance_mm_s = 10.0;
@@ -69,7 +70,7 @@ std::vector<std::string> differences(const FrameCommands& golden, const FrameCom
       continue;
     }
     const Velocity& sent = one->second;
-    // The golden is in whole units.
+    // The golden file has whole units.
     if (std::abs(sent.vel_mm_s - expected.vel_mm_s) <= kVelTolerance_mm_s + 0.5 &&
         std::abs(sent.rvel_deg_s - expected.rvel_deg_s) <= kRvelTolerance_deg_s + 0.5)
       continue;
@@ -85,11 +86,11 @@ class VideoOnTheWire : public ::testing::Test {
  protected:
   void SetUp() override {
     HEEL_NEEDS_TEST_DATA(kVideo);
-    ASSERT_EQ(crc32_of_file(data_path(kVideo)), kVideoCrc32) << "not the video the golden was made from";
+    ASSERT_EQ(crc32_of_file(data_path(kVideo)), kVideoCrc32) << "the golden file was made from another video";
     scene_.emplace();
   }
 
-  /// Once for each gain, whichever tests ask.
+  /// Runs once for each gain; several tests use the result.
   const FrameCommands& simulate(double gain_yaw_1_s) const {
     static std::map<double, FrameCommands> known;
     const auto [entry, is_new] = known.try_emplace(gain_yaw_1_s);
@@ -112,18 +113,18 @@ class VideoOnTheWire : public ::testing::Test {
   std::optional<VideoScene> scene_;
 };
 
-TEST_F(VideoOnTheWire, CommandsAreTheGoldenOnes) {
+TEST_F(VideoOnTheWire, CommandsEqualTheGoldenFile) {
   const FrameCommands commands = simulate(kGainYaw_1_s);
   if (std::getenv("HEEL_UPDATE_GOLDEN") != nullptr) {
     test::write_text(kGoldenFile, golden_text(provenance(), commands));
     GTEST_SKIP() << "wrote " << kGoldenFile;
   }
   const FrameCommands golden = read_golden(kGoldenFile);
-  EXPECT_GT(golden.size(), 1380u) << "the golden reaches over the whole video";
+  EXPECT_GT(golden.size(), 1380u) << "the golden file covers the whole video";
   EXPECT_THAT(differences(golden, commands), testing::IsEmpty());
 }
 
-TEST_F(VideoOnTheWire, RestsWhereverTheBackIsNotSeen) {
+TEST_F(VideoOnTheWire, RestsWhileTheBackIsNotSeen) {
   int frames = 0;
   for (const auto& [frame, velocity] : simulate(kGainYaw_1_s)) {
     if (frame >= kBackSeenFirst && frame <= kBackSeenLast) continue;
@@ -134,7 +135,7 @@ TEST_F(VideoOnTheWire, RestsWhereverTheBackIsNotSeen) {
   EXPECT_GT(frames, 1000);
 }
 
-TEST_F(VideoOnTheWire, AGainTenPercentOffIsNoticed) {
+TEST_F(VideoOnTheWire, AGainThatIsTenPercentWrongChangesTheCommands) {
   const auto found = differences(read_golden(kGoldenFile), simulate(1.1 * kGainYaw_1_s));
   EXPECT_GT(found.size(), 25u);
 }

@@ -22,7 +22,7 @@ std::uint32_t crc32_of_file(const std::string& path) {
 }
 
 VideoScene::VideoScene() : video_(std::filesystem::absolute(data_path(kVideo)).string()) {
-  CameraModel guess;  // nobody has calibrated this camera
+  CameraModel guess;  // this camera was not calibrated
   guess.width_px = 768;
   guess.height_px = 432;
   guess.fx = guess.fy = 700.0;

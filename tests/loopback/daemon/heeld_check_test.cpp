@@ -1,4 +1,4 @@
-// heeld's command line without a robot: --check, --print-…, and what it says about bad input.
+// heeld's command line without a robot: --check, --print-…, and the messages for bad input.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ Outcome heeld(std::vector<std::string> arguments) {
   return run_program(arguments);
 }
 
-/// "FILE:LINE" of the line of `file` that begins with `begin`.
+/// "FILE:LINE" of the line of `file` that starts with `begin`.
 std::string place_of(const std::string& file, const std::string& begin) {
   const std::string text = read_text(file);
   const std::size_t at = text.find("\n" + begin);
@@ -47,7 +47,7 @@ TEST(HeeldCheck, AGoodConfigurationIsListedWithOriginsAndVerdict) {
                                  HasSubstr("# default\n"), HasSubstr("taken at 2.00 m")));
 }
 
-TEST(HeeldCheck, AllThatIsWrongWithAFileIsSaid) {
+TEST(HeeldCheck, AllErrorsOfAFileAreReported) {
   const Scene scene(1);
   const std::string config = scene.write_config({.sections = "[gate]\nv_max = 0.5\nseparation_m = -1\n"});
   const Outcome outcome = heeld({"--config", config, "--check"});
@@ -74,7 +74,7 @@ TEST(HeeldCheck, BearingLimitMustFitTheCamera) {
   EXPECT_THAT(outcome.err, HasSubstr("control.bearing_max_rad: 0.6 (expected less than"));
 }
 
-TEST(HeeldCheck, AFileReadAsFastAsPossibleIsNoCamera) {
+TEST(HeeldCheck, AFileCameraMustRunInRealTime) {
   const Scene scene(1);
   const Outcome outcome = heeld({"--config", scene.write_config({.camera = "file_speed = 0\n"}), "--check"});
   EXPECT_EQ(outcome.status, kExitConfiguration);

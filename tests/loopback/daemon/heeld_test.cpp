@@ -1,8 +1,9 @@
-// The real daemon drives the real simulated robot over a pty towards a person shown 1 m too far away: it gets
-// ready, starts gently, and on every way out (SIGTERM, SIGKILL, the end of the film) the wheels stand.
+// heeld drives the simulated robot over a pty towards a person who appears 1 m too far away: it gets ready,
+// starts within its acceleration, and whenever it ends (SIGTERM, SIGKILL, end of the camera file) the robot
+// stops.
 //
-// Times are judged by the simulator's own clock, in its truth and its wire file. Waiting only bounds a test
-// that fails, so a busy machine makes these tests longer, not red.
+// Times are checked by the simulator's own clock, in its truth and its wire file. Time-outs only end a test
+// that fails, so a busy machine makes these tests longer and does not make them fail.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +39,7 @@ using test::write_text;
 
 using ::testing::HasSubstr;
 
-/// Said to systemd in this order, with any STATUS between.
+/// systemd received these messages in this order, with any STATUS between.
 bool reloaded_and_ready(const std::vector<std::string>& messages) {
   const auto starts = [](const char* text) {
     return [text](const std::string& message) { return message.starts_with(text); };
@@ -48,15 +49,15 @@ bool reloaded_and_ready(const std::vector<std::string>& messages) {
   return std::find_if(reloading, messages.end(), starts("READY=1")) != messages.end();
 }
 
-/// The film lasts longer than any test waits.
-constexpr int kFramesOfALongFilm = 4000;
-constexpr int kFramesOfAShortFilm = 400;
+/// The camera file lasts longer than any test waits.
+constexpr int kFramesOfALongFile = 4000;
+constexpr int kFramesOfAShortFile = 400;
 constexpr double kWatchdog_s = 2.0;     // of the P3-AT's firmware
 constexpr double kStopTimeout_s = 5.0;  // TimeoutStopSec of heeld.service: systemd then kills heeld
 
 class Heeld : public ::testing::Test {
  protected:
-  explicit Heeld(int frames = kFramesOfALongFilm) : scene_(frames) {}
+  explicit Heeld(int frames = kFramesOfALongFile) : scene_(frames) {}
 
   void start_robot(const std::vector<std::string>& more = {}) {
     std::vector<std::string> argv = {HEEL_SIM_PROGRAM,
@@ -81,10 +82,10 @@ class Heeld : public ::testing::Test {
                                         std::map<std::string, std::string>{{"NOTIFY_SOCKET", notify_socket}});
   }
   double speed() const { return newest_truth(scene_.path("truth.csv")).v_m_s; }
-  bool drives() {
+  bool starts_to_drive() {
     return eventually([this] { return speed() > 0.2; });
   }
-  bool stands() {
+  bool comes_to_rest() {
     return eventually([this] { return speed() == 0.0; });
   }
   std::string logs() {
@@ -102,7 +103,7 @@ TEST_F(Heeld, GetsReadyFollowsAndStopsOnSigterm) {
   start_robot();
   start_heeld(scene_.write_config());
   ASSERT_TRUE(notify_.receives("READY=1")) << logs();
-  ASSERT_TRUE(drives()) << logs();
+  ASSERT_TRUE(starts_to_drive()) << logs();
   EXPECT_TRUE(notify_.receives("STATUS=following"));
 
   daemon_->signal(SIGTERM);
@@ -110,34 +111,34 @@ TEST_F(Heeld, GetsReadyFollowsAndStopsOnSigterm) {
   EXPECT_TRUE(notify_.receives("STOPPING=1"));
   EXPECT_THAT(daemon_->output(), HasSubstr("at rest: shutting down"));
   EXPECT_TRUE(robot_->says("closed")) << logs();
-  EXPECT_TRUE(stands()) << logs();
+  EXPECT_TRUE(comes_to_rest()) << logs();
   // By STOP, not by the watchdog.
   EXPECT_THAT(robot_->output(), Not(HasSubstr("watchdog")));
 }
 
-// systemd hangs, and its notification socket is full.
-TEST_F(Heeld, StopsTheRobotOnSigtermInTimeThoughSystemdReadsNothing) {
+// systemd does not read its notification socket, and the socket is full.
+TEST_F(Heeld, StopsTheRobotOnSigtermInTimeWhenSystemdDoesNotRead) {
   test::FullNotifySocket notify(scene_.path("full"));
   double took_s = 0.0;
   for (int attempt = 0; attempt < 3; ++attempt) {
     start_robot();
     start_heeld(scene_.write_config(), notify.name());
-    ASSERT_TRUE(drives()) << logs();
+    ASSERT_TRUE(starts_to_drive()) << logs();
     const double t_signal_s = monotonic_s();
     daemon_->signal(SIGTERM);
     ASSERT_EQ(daemon_->wait(), 0) << logs();
     took_s = monotonic_s() - t_signal_s;
     ASSERT_TRUE(robot_->says("closed")) << logs();
-    ASSERT_TRUE(stands()) << logs();
+    ASSERT_TRUE(comes_to_rest()) << logs();
     EXPECT_THAT(robot_->output(), Not(HasSubstr("watchdog")));
     if (took_s < kStopTimeout_s) break;
     robot_.reset();
   }
   EXPECT_LT(took_s, kStopTimeout_s) << logs();
-  EXPECT_THAT(notify.take(), testing::IsEmpty()) << "the socket was not full";
+  EXPECT_THAT(notify.take(), testing::IsEmpty()) << "the socket must have been full";
 }
 
-TEST_F(Heeld, IsNotReadyWithoutARobotAndSaysWhy) {
+TEST_F(Heeld, IsNotReadyWithoutARobotAndGivesTheReason) {
   start_heeld(scene_.write_config());
   EXPECT_TRUE(notify_.receives("STATUS=waiting for the robot")) << daemon_->output();
   EXPECT_FALSE(notify_.receives("READY=1", 1.0));
@@ -151,10 +152,10 @@ TEST_F(Heeld, IsNotReadyWithoutARobotAndSaysWhy) {
 TEST_F(Heeld, IsReadyBeforeTheRobotIsThereWhereTheConfigurationSaysSo) {
   start_heeld(scene_.write_config({.runtime = "ready_after = \"start\"\n"}));
   EXPECT_TRUE(notify_.receives("READY=1")) << daemon_->output();
-  EXPECT_TRUE(notify_.receives("STATUS=waiting for the robot")) << "ready, and still waiting";
+  EXPECT_TRUE(notify_.receives("STATUS=waiting for the robot")) << "heeld is ready and waits for the robot";
 }
 
-TEST_F(Heeld, SaysWhyTheLineDoesNotOpenOnceForEachReason) {
+TEST_F(Heeld, LogsWhyTheLineDoesNotOpenOnceForEachReason) {
   start_heeld(scene_.write_config());
   ASSERT_TRUE(daemon_->says("cannot open: No such file")) << daemon_->output();
   write_text(scene_.path("robot"), "no terminal");
@@ -162,25 +163,25 @@ TEST_F(Heeld, SaysWhyTheLineDoesNotOpenOnceForEachReason) {
   std::filesystem::remove(scene_.path("robot"));
   start_robot();
   ASSERT_TRUE(notify_.receives("READY=1")) << logs();
-  sleep_s(1.0);  // several rounds of the code that logs the reason
+  sleep_s(1.0);  // the line is tried several times
   EXPECT_LE(occurrences(daemon_->output(), "No such file"), 2)
-      << "before the other reason, and perhaps after it";
+      << "once before the other reason, and perhaps once after it";
   EXPECT_EQ(occurrences(daemon_->output(), "is not a terminal"), 1) << logs();
 }
 
-TEST_F(Heeld, KilledWhileTheWheelsTurnTheRobotStandsWithinItsWatchdogAndDoesNotJumpAfter) {
+TEST_F(Heeld, KilledWhileDrivingTheRobotStopsByItsWatchdogAndStartsSlowlyAgain) {
   start_robot();
   const std::string config = scene_.write_config();
   start_heeld(config);
-  ASSERT_TRUE(drives()) << logs();
+  ASSERT_TRUE(starts_to_drive()) << logs();
   daemon_->signal(SIGKILL);
   ASSERT_EQ(daemon_->wait(), -SIGKILL);
   ASSERT_TRUE(robot_->says("watchdog stop")) << logs();
-  ASSERT_TRUE(stands()) << logs();
+  ASSERT_TRUE(comes_to_rest()) << logs();
   const double t_restart_s = newest_truth(scene_.path("truth.csv")).t_s;
   const double t_last_byte_s = last_received_s(scene_.path("wire.hex")) - robot_started_s_;
   start_heeld(config);
-  ASSERT_TRUE(drives()) << logs();
+  ASSERT_TRUE(starts_to_drive()) << logs();
   daemon_->signal(SIGTERM);
   EXPECT_EQ(daemon_->wait(), 0);
   robot_->signal(SIGTERM);
@@ -208,7 +209,7 @@ TEST_F(Heeld, KilledWhileTheWheelsTurnTheRobotStandsWithinItsWatchdogAndDoesNotJ
     last_t = row.t_s;
     fastest = std::max(fastest, row.v_m_s);
   }
-  EXPECT_GT(fastest, 0.1) << "the restart is in the truth";
+  EXPECT_GT(fastest, 0.1) << "the truth must contain the restart";
   EXPECT_THAT(robot_->output(), Not(HasSubstr("old motion")));
 }
 
@@ -216,16 +217,16 @@ TEST_F(Heeld, ReloadIsAllOrNothing) {
   start_robot();
   start_heeld(scene_.write_config());
   ASSERT_TRUE(notify_.receives("READY=1")) << logs();
-  ASSERT_TRUE(drives()) << logs();
+  ASSERT_TRUE(starts_to_drive()) << logs();
 
-  // Good: taken over while driving.
+  // A good file is used at once, while driving.
   scene_.write_config({.sections = "[gate]\nv_max_m_s = 0.1\n"});
   daemon_->signal(SIGHUP);
   ASSERT_TRUE(daemon_->says("reloaded")) << logs();
   EXPECT_TRUE(eventually([this] { return reloaded_and_ready(notify_.messages()); })) << logs();
   EXPECT_TRUE(eventually([this] { return speed() > 0.05 && speed() < 0.12; })) << speed();
 
-  // An error, and beside it a good change: nothing of it is taken.
+  // A file with an error and a good change: no change is used.
   scene_.write_config({.sections = "[gate]\nv_max_m_s = 0.6\n[control]\ngain_yaw = 1\n"});
   daemon_->signal(SIGHUP);
   ASSERT_TRUE(daemon_->says("did you mean control.gain_yaw_1_s?"));
@@ -245,26 +246,26 @@ class HeeldWithOneFrame : public Heeld {
   HeeldWithOneFrame() : Heeld(1) {}
 };
 
-TEST_F(HeeldWithOneFrame, FollowsAFilmThatStartsAgain) {
+TEST_F(HeeldWithOneFrame, FollowsACameraFileThatStartsAgain) {
   start_robot();
   start_heeld(scene_.write_config({.camera = "at_end = \"loop\"\n"}));
-  EXPECT_TRUE(drives()) << logs();
+  EXPECT_TRUE(starts_to_drive()) << logs();
 }
 
-class HeeldWithAShortFilm : public Heeld {
+class HeeldWithAShortCameraFile : public Heeld {
  protected:
-  HeeldWithAShortFilm() : Heeld(kFramesOfAShortFilm) {}
+  HeeldWithAShortCameraFile() : Heeld(kFramesOfAShortFile) {}
 };
 
-TEST_F(HeeldWithAShortFilm, ComesToRestAtItsEndAndLeavesARecording) {
-  const std::string frames = std::to_string(kFramesOfAShortFilm);
+TEST_F(HeeldWithAShortCameraFile, ComesToRestAtTheEndAndKeepsTheRecording) {
+  const std::string frames = std::to_string(kFramesOfAShortFile);
   start_robot();
   start_heeld(scene_.write_config({.sections = "[telemetry]\ndirectory = \"run\"\n"}));
-  ASSERT_TRUE(drives()) << logs();
+  ASSERT_TRUE(starts_to_drive()) << logs();
   EXPECT_EQ(daemon_->wait(), 0) << logs();
   EXPECT_THAT(daemon_->output(), HasSubstr("at rest: camera silent"));
   EXPECT_TRUE(robot_->says("closed")) << logs();
-  EXPECT_TRUE(stands());
+  EXPECT_TRUE(comes_to_rest());
   EXPECT_THAT(robot_->output(), Not(HasSubstr("watchdog")));
   EXPECT_GT(read_text(scene_.path("run/ticks.csv")).size(), 10000u);
   EXPECT_GT(read_text(scene_.path("run/poses.csv")).size(), 10000u);
@@ -275,7 +276,8 @@ TEST_F(HeeldWithAShortFilm, ComesToRestAtItsEndAndLeavesARecording) {
 
 TEST_F(Heeld, StopButtonHoldsTheRobotUntilHeeldIsRestarted) {
   const std::string config = scene_.write_config();
-  // The button is pressed a fixed time after the simulator's start; a busy machine gets another, longer time.
+  // The button is pressed at a fixed time after the simulator's start. On a busy machine a later time is
+  // tried.
   for (const int pressed_at_s : {8, 30, 90}) {
     start_robot({"--fault", "stop_button@" + std::to_string(pressed_at_s) + "+1"});
     start_heeld(config);
@@ -288,14 +290,14 @@ TEST_F(Heeld, StopButtonHoldsTheRobotUntilHeeldIsRestarted) {
   ASSERT_TRUE(daemon_) << "the robot was not driving after 90 s";
   EXPECT_TRUE(daemon_->says("at rest: stop button pressed")) << logs();
   EXPECT_TRUE(daemon_->says("motors stay off until heeld is restarted")) << logs();
-  EXPECT_TRUE(stands());
+  EXPECT_TRUE(comes_to_rest());
   sleep_s(2.0);
-  EXPECT_EQ(speed(), 0.0) << "the button was released meanwhile";
+  EXPECT_EQ(speed(), 0.0) << "the button has been released";
 
   daemon_->signal(SIGTERM);
   EXPECT_EQ(daemon_->wait(), 0) << logs();
   start_heeld(config);
-  EXPECT_TRUE(drives()) << logs();
+  EXPECT_TRUE(starts_to_drive()) << logs();
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// A scene on disk for heeld: a textured back, its template taken at 2 m, a camera file, a folder of frames
-// that show it farther away (so that the robot wants to drive), and a configuration that ties them together.
+// A scene on disk for heeld: the template of a textured back, taken at 2 m; a calibration; a folder of frames
+// that show the back farther away, so that the robot wants to drive; and a configuration that uses them.
 #pragma once
 
 #include <string>

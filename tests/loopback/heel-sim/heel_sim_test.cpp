@@ -1,4 +1,4 @@
-// heel-sim over a pty and a TCP port, against a client that shares no code with it.
+// heel-sim over a pty and a TCP port, with a client that shares no code with it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -96,7 +96,7 @@ TEST_P(HeelSim, SyncsOpensMovesStopsByWatchdogResumesAndCloses) {
   }
 }
 
-TEST_P(HeelSim, AClientMayGoAndAnotherFindsTheRobotStillOpen) {
+TEST_P(HeelSim, AfterAClientLeavesTheNextOneFindsTheRobotOpen) {
   Sim sim(robot());
   {
     RawClient first = RawClient::at(sim.address);
@@ -112,7 +112,7 @@ TEST_P(HeelSim, AClientMayGoAndAnotherFindsTheRobotStillOpen) {
   EXPECT_TRUE(second.sync());
 }
 
-TEST_P(HeelSim, AClientDoesNotGetWhatWasSentBeforeItCame) {
+TEST_P(HeelSim, AClientDoesNotReceiveBytesSentBeforeItConnected) {
   Sim sim(robot());
   {
     RawClient first = RawClient::at(sim.address);
@@ -120,8 +120,8 @@ TEST_P(HeelSim, AClientDoesNotGetWhatWasSentBeforeItCame) {
     first.send(kOpen);
     ASSERT_FALSE(first.next_sip().empty());
   }
-  // The line carries 960 bytes a second. A busy machine may deliver some of them late, but not to each
-  // client.
+  // The line carries 960 bytes a second. A busy machine may deliver some of them late to one client, but not
+  // to every client.
   std::size_t fewest = 1000;
   for (int i = 0; i < 10 && fewest > 400; ++i) {
     sleep_s(1.5);
@@ -132,7 +132,7 @@ TEST_P(HeelSim, AClientDoesNotGetWhatWasSentBeforeItCame) {
   EXPECT_LE(fewest, 400u);
 }
 
-TEST_P(HeelSim, AHalfMadeHandshakeIsForgottenWhenItsClientGoes) {
+TEST_P(HeelSim, AnUnfinishedHandshakeIsDiscardedWhenItsClientLeaves) {
   Sim sim(robot());
   for (int i = 0; i < 3; ++i) {
     RawClient client = RawClient::at(sim.address);
@@ -142,11 +142,11 @@ TEST_P(HeelSim, AHalfMadeHandshakeIsForgottenWhenItsClientGoes) {
   }
 }
 
-TEST_P(HeelSim, PacketsTakeTheirLineTime) {
+TEST_P(HeelSim, PacketsTakeTheTransmissionTimeOfTheLine) {
   Sim sim(robot());
   RawClient client = RawClient::at(sim.address);
   ASSERT_TRUE(client.sync());
-  double longest_wait_s = 1.0;  // beyond the line time; a busy machine may spoil some attempts
+  double longest_wait_s = 1.0;  // beyond the transmission time; a busy machine may delay some attempts
   for (int i = 0; i < 10 && longest_wait_s > 0.1; ++i) {
     const double start_s = monotonic_s();
     client.send(kConfig, 1);
@@ -160,7 +160,7 @@ TEST_P(HeelSim, PacketsTakeTheirLineTime) {
   EXPECT_LE(longest_wait_s, 0.1);
 }
 
-TEST_P(HeelSim, FaultsComeFromTheCommandLine) {
+TEST_P(HeelSim, FaultsOfTheCommandLineHappen) {
   Sim sim(robot(), {"--fault", "left_open@0", "--fault", "bumper@0.2=4"});
   ASSERT_TRUE(sim.process.says("fault bumper"));
   RawClient client = RawClient::at(sim.address);
@@ -198,7 +198,7 @@ TEST_P(HeelSim, TruthHasARowEvery20Ms) {
   EXPECT_EQ(rows.back()[column["robot_x_m"]], rows.back()[column["odom_x_m"]]);
 }
 
-TEST(HeelSimOnPty, KeepsItsRateAndAWrongOneIsGarbageBothWays) {
+TEST(HeelSimOnPty, KeepsItsRateAndAtAnotherRateBytesAreDamagedInBothDirections) {
   TemporaryFolder folder;
   Sim sim("pty:" + folder.file("robot"));
   RawClient client = RawClient::at(sim.address);
@@ -219,17 +219,17 @@ TEST(HeelSimOnPty, KeepsItsRateAndAWrongOneIsGarbageBothWays) {
     const std::size_t before = client.raw.size();
     client.listen(0.5);
     return client.packets.empty() && client.raw.size() > before;
-  })) << "not bytes without a good packet";
+  })) << "expected bytes without a good packet";
 }
 
-TEST(HeelSimOnPty, HostBaudAsTheAriaClientDoesIt) {
+TEST(HeelSimOnPty, ChangesItsRateAsTheAriaClientAsks) {
   TemporaryFolder folder;
   Sim sim("pty:" + folder.file("robot"));
   RawClient client = RawClient::at(sim.address);
   client.set_rate(B9600);
   ASSERT_TRUE(client.sync());
   client.send(kOpen, 1);
-  // The robot goes back to the old rate when the client comes too late at the new one, as on a busy machine.
+  // The robot returns to the old rate when the client, on a busy machine, is too late at the new one.
   bool kept = false;
   for (int i = 0; i < 10 && !kept; ++i) {
     client.set_rate(B9600);
@@ -246,7 +246,7 @@ TEST(HeelSimOnPty, HostBaudAsTheAriaClientDoesIt) {
   for (int i = 0; i < 20; ++i) ASSERT_FALSE(client.next_sip().empty()) << "SIP " << i;
 }
 
-TEST(HeelSimOnPty, TheSymlinkGoesWithTheProcessAndAStaleOneIsReplaced) {
+TEST(HeelSimOnPty, TheSymlinkIsRemovedAtTheEndAndAnOldOneIsReplaced) {
   TemporaryFolder folder;
   const std::string path = folder.file("robot");
   for (const int number : {SIGTERM, SIGINT, SIGHUP}) {
@@ -267,7 +267,7 @@ TEST(HeelSimOnPty, TheSymlinkGoesWithTheProcessAndAStaleOneIsReplaced) {
   EXPECT_TRUE(client.sync());
 }
 
-TEST(HeelSimOnPty, AnotherProcessesLinkIsLeftAlone) {
+TEST(HeelSimOnPty, TheSymlinkOfAnotherProcessIsNotRemoved) {
   TemporaryFolder folder;
   const std::string path = folder.file("robot");
   Sim older("pty:" + path);

@@ -23,7 +23,7 @@ class RawClient {
  public:
   static RawClient on_pty(const std::string& path);
   static RawClient on_tcp(int port);
-  /// "pty:PATH" or "tcp:HOST:PORT", as heel-sim announces itself.
+  /// "pty:PATH" or "tcp:HOST:PORT", the address that heel-sim prints.
   static RawClient at(const std::string& address);
   RawClient(RawClient&& other) noexcept : fd_(other.fd_) { other.fd_ = -1; }
   RawClient(const RawClient&) = delete;
@@ -37,11 +37,11 @@ class RawClient {
   void send(int id) const { send(framed({static_cast<std::uint8_t>(id)})); }
   void send(int id, int argument) const { send(command(id, argument)); }
 
-  /// Reads for this long, and then what has come by the end; bodies of good packets go to `packets`.
+  /// Reads for this long, and then the bytes that are waiting; bodies of good packets go to `packets`.
   void listen(double seconds);
   /// Reads until a good packet comes whose body satisfies `wanted`; that body, or empty after the timeout.
   Bytes wait_for(const std::function<bool(const Bytes&)>& wanted, double timeout_s = kPatience_s);
-  /// The next SIP, of whatever id.
+  /// The next SIP, with any of its ids.
   Bytes next_sip(double timeout_s = kPatience_s);
   /// SYNC0…SYNC2, each sent again every 0.5 s; false when an echo is missing.
   bool sync();

@@ -1,5 +1,4 @@
-// The session against the simulated P3-AT in lock step and virtual time: everything the robot does that
-// hurts.
+// The session with the simulated P3-AT in lock step and virtual time: every fault of robot and line.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +22,7 @@ constexpr TimeNs kTick_ns = 20 * kNsPerMs;
 sim::P3AtSettings exact_robot() {
   sim::P3AtSettings settings;
   settings.chassis = sim::exact_chassis();
-  settings.chassis.true_track_m = 0.588;  // what the firmware believes: odometry is the truth
+  settings.chassis.true_track_m = 0.588;  // the firmware's value: odometry equals the truth
   return settings;
 }
 
@@ -39,7 +38,7 @@ class Bench {
     return config;
   }
 
-  /// A process that begins, perhaps after another was killed.
+  /// heeld starts, perhaps after it was killed.
   void start() {
     session.line_opened(now_ns);
     running = true;
@@ -76,7 +75,7 @@ class Bench {
   void inject(FaultKind kind, double duration_s = 0.0, double amount = 0.0) {
     robot.inject({kind, now_ns, ns_from_seconds(duration_s), amount});
   }
-  /// Odometry against where the robot truly is, seen from where it began.
+  /// Compares odometry with the robot's true pose relative to its start.
   void expect_odometry_is_truth(double tolerance_m) {
     const auto& pose = robot.true_pose();
     EXPECT_NEAR(session.state().odometry.x_m, pose.x_m, tolerance_m);
@@ -94,7 +93,7 @@ class Bench {
   double yaw_rate_rad_s = 0.0;
 };
 
-TEST(ArcosSessionOnP3At, ConnectsAtEveryRateItMayHaveBeenLeftAt) {
+TEST(ArcosSessionOnP3At, ConnectsAtEveryRateTheRobotMayHave) {
   for (const int baud : kRobotBauds) {
     sim::P3AtSettings settings = exact_robot();
     settings.boot_baud = baud;
@@ -106,7 +105,7 @@ TEST(ArcosSessionOnP3At, ConnectsAtEveryRateItMayHaveBeenLeftAt) {
   }
 }
 
-TEST(ArcosSessionOnP3At, MeanSpeedsAreWhatWasAskedAt9600Baud) {
+TEST(ArcosSessionOnP3At, MeanSpeedsAreTheCommandedOnesAt9600Baud) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
@@ -128,10 +127,10 @@ TEST(ArcosSessionOnP3At, MeanSpeedsAreWhatWasAskedAt9600Baud) {
   bench.run(2.0);
   bench.expect_odometry_is_truth(0.05);
   EXPECT_EQ(bench.session.state().checksum_errors, 0u);
-  EXPECT_LT(bench.robot.input_backlog(), 30u);  // commands do not queue up on the line
+  EXPECT_LT(bench.robot.input_backlog(), 30u);  // commands do not accumulate on the line
 }
 
-TEST(ArcosSessionOnP3At, ASlowLineIsMadeFasterBeforeTheMotorsRun) {
+TEST(ArcosSessionOnP3At, TheRateOfASlowLineIsRaisedBeforeTheMotorsRun) {
   for (const int wished : {19200, 38400, 57600, 115200}) {
     Bench bench(exact_robot(), ("pty:robot@" + std::to_string(wished)).c_str());
     bench.start();
@@ -143,7 +142,7 @@ TEST(ArcosSessionOnP3At, ASlowLineIsMadeFasterBeforeTheMotorsRun) {
     EXPECT_EQ(bench.robot.baud(), wished);
     EXPECT_EQ(bench.session.wanted_baud(), wished);
 
-    // The next process finds it where the last one left it.
+    // The next session finds the robot at the rate of the last one.
     bench.robot.receive(bench.session.close(bench.now_ns), bench.now_ns);
     bench.session = ArcosSession(bench.config);
     bench.start();
@@ -152,7 +151,7 @@ TEST(ArcosSessionOnP3At, ASlowLineIsMadeFasterBeforeTheMotorsRun) {
   }
 }
 
-TEST(ArcosSessionOnP3At, ALossyLineIsMadeFasterOrStaysReachable) {
+TEST(ArcosSessionOnP3At, TheRateOfALossyLineIsRaisedOrTheRobotStaysReachable) {
   for (int seed = 0; seed < 20; ++seed) {
     Bench bench(exact_robot(), "pty:robot");
     bench.inject(FaultKind::GarbleBytes, 0.0, 0.01);
@@ -183,15 +182,15 @@ TEST(ArcosSessionOnP3At, ANewCommandDoesNotWaitBehindOldOnes) {
         if (t_ns > t_asked_ns && (t_ns - t_asked_ns) % kTick_ns == 0) bench.tick();
         bench.robot.advance(t_ns + kNsPerMs);
       }
-      // Its own 9 bytes, RVEL's before it, or at 9600 the tick in which it is RVEL's turn; two steps of the
-      // model.
+      // Its own 9 bytes and RVEL's before it, or at 9600 baud the tick in which RVEL is sent; and two steps
+      // of the model.
       const double turn_ms = baud == 9600 ? 20.0 : 9 * byte_ms;
       EXPECT_LE(static_cast<double>(t_ns - t_asked_ns) / kNsPerMs, 9 * byte_ms + turn_ms + 2.0) << baud;
     }
   }
 }
 
-TEST(ArcosSessionOnP3At, OlderModelCountsInOtherUnits) {
+TEST(ArcosSessionOnP3At, AnOlderModelWithOtherUnitsIsMeasuredRight) {
   sim::P3AtSettings settings = sim::p3at_h8_settings();
   settings.chassis = exact_robot().chassis;
   Bench bench(settings);
@@ -207,7 +206,7 @@ TEST(ArcosSessionOnP3At, OlderModelCountsInOtherUnits) {
   bench.expect_odometry_is_truth(0.05);
 }
 
-TEST(ArcosSessionOnP3At, LeftOpenAndMovingItIsStoppedNotJolted) {
+TEST(ArcosSessionOnP3At, ARobotLeftOpenAndMovingIsStoppedAndDoesNotJump) {
   Bench bench;
   bench.inject(FaultKind::LeftOpen, 0.0, 400.0);
   bench.run(0.1);
@@ -217,12 +216,12 @@ TEST(ArcosSessionOnP3At, LeftOpenAndMovingItIsStoppedNotJolted) {
   EXPECT_GE(bench.count(Kind::FoundOpen), 1);
   bench.run(2.0);
   const auto after = bench.robot.true_pose();
-  // Nothing but what the watchdog had left standing when we came.
+  // The robot does not move again before the first command.
   EXPECT_LT(std::hypot(after.x_m - before.x_m, after.y_m - before.y_m), 0.20);
   EXPECT_NEAR(bench.robot.truth().v_m_s, 0.0, 1e-6);
 }
 
-TEST(ArcosSessionOnP3At, KilledWhileDrivingItStandsWithinTheWatchdogAndDoesNotResume) {
+TEST(ArcosSessionOnP3At, KilledWhileDrivingTheRobotStopsByTheWatchdogAndDoesNotResume) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
@@ -230,7 +229,7 @@ TEST(ArcosSessionOnP3At, KilledWhileDrivingItStandsWithinTheWatchdogAndDoesNotRe
   bench.run(3.0);
   ASSERT_GT(bench.robot.truth().v_m_s, 0.45);
   bench.running = false;  // kill -9
-  bench.run(2.0 + 0.5);   // the watchdog, and the way to rest at 1.5 m/s²
+  bench.run(2.0 + 0.5);   // the watchdog, and the time to brake at 1.5 m/s²
   ASSERT_NEAR(bench.robot.truth().v_m_s, 0.0, 1e-6);
   const auto stood = bench.robot.true_pose();
 
@@ -239,12 +238,12 @@ TEST(ArcosSessionOnP3At, KilledWhileDrivingItStandsWithinTheWatchdogAndDoesNotRe
   bench.start();
   for (const TimeNs end_ns = bench.now_ns + 5 * kNsPerS; bench.now_ns < end_ns;) {
     bench.tick();
-    ASSERT_NEAR(bench.robot.true_pose().x_m, stood.x_m, 1e-6) << "it jumped";
+    ASSERT_NEAR(bench.robot.true_pose().x_m, stood.x_m, 1e-6) << "the robot moved again";
   }
   EXPECT_EQ(bench.session.state().phase, LinkPhase::Running);
 }
 
-TEST(ArcosSessionOnP3At, LossyLineIsLivedWith) {
+TEST(ArcosSessionOnP3At, FollowsOverALossyLine) {
   for (const auto kind : {FaultKind::DropBytes, FaultKind::GarbleBytes}) {
     Bench bench;
     bench.inject(kind, 0.0, 0.005);
@@ -261,11 +260,11 @@ TEST(ArcosSessionOnP3At, LossyLineIsLivedWith) {
     EXPECT_GT(bench.session.state().sips, 350u);
     EXPECT_EQ(bench.count(Kind::SipSilence), 0);
     EXPECT_LT(oldest_ns, kNsPerS);
-    bench.expect_odometry_is_truth(0.4);  // as old as its last SIP
+    bench.expect_odometry_is_truth(0.4);  // the pose is as old as the last SIP
   }
 }
 
-TEST(ArcosSessionOnP3At, SilenceThenBackWithTheSamePose) {
+TEST(ArcosSessionOnP3At, AfterASilenceThePoseIsTheSame) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
@@ -293,11 +292,11 @@ TEST(ArcosSessionOnP3At, ControllerResetWhileDriving) {
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 20.0));
   EXPECT_EQ(bench.count(Kind::OdometryRebased), 1);
   bench.run(1.0);
-  // What it rolled while its counters were being zeroed nobody can know.
+  // How far it rolled while its counters were set to zero cannot be known.
   bench.expect_odometry_is_truth(0.2);
 }
 
-TEST(ArcosSessionOnP3At, StopButtonHoldsUntilANewSession) {
+TEST(ArcosSessionOnP3At, StopButtonKeepsTheMotorsOffUntilANewSession) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
@@ -319,7 +318,7 @@ TEST(ArcosSessionOnP3At, StopButtonHoldsUntilANewSession) {
   EXPECT_GT(bench.robot.truth().v_m_s, 0.35);
 }
 
-TEST(ArcosSessionOnP3At, ConfigThatNeverPassesItsChecksum) {
+TEST(ArcosSessionOnP3At, ConnectsWithoutAConfigWhoseChecksumIsAlwaysWrong) {
   Bench bench;
   bench.inject(FaultKind::BadConfig);
   bench.start();
@@ -327,7 +326,7 @@ TEST(ArcosSessionOnP3At, ConfigThatNeverPassesItsChecksum) {
   EXPECT_EQ(bench.count(Kind::ConfigMissing), 1);
 }
 
-TEST(ArcosSessionOnP3At, BumpersAndStallsAreSeen) {
+TEST(ArcosSessionOnP3At, BumpersAndStallsAreReported) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
@@ -359,7 +358,7 @@ TEST(ArcosSessionOnP3At, CloseLeavesItClosedAndAtRest) {
   EXPECT_FALSE(bench.robot.truth().motors_enabled);
 }
 
-TEST(P3AtGeometry, SonarsSitWhereTheSimulatorsOwnTableHasThem) {
+TEST(P3AtGeometry, SonarsAreWhereTheSimulatorsTableHasThem) {
   const RobotGeometry geometry = p3at_geometry();
   for (int number = 0; number < sim::kSonarCount; ++number) {
     const Pose2 expected = sim::sonar_mount(number);

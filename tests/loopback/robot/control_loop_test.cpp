@@ -1,5 +1,5 @@
-// The control thread's body with a simulated P3-AT over a pty in real time: its records hold what it decided
-// on.
+// The control thread's loop with a simulated P3-AT over a pty in real time: its records hold the inputs of
+// its decisions.
 #include "daemon/control_loop.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ PoseEstimate pose_of_frame(std::uint64_t sequence, TimeNs t_capture_ns) {
   return pose;
 }
 
-TEST(ControlLoopOverPty, TheRecordedInputsGiveTheRecordedDecisionsAgain) {
+TEST(ControlLoopOverPty, TheRecordedInputsGiveTheRecordedDecisions) {
   const std::string address = test::pty_address("control");
   const test::RobotThread robot(address);
   Config config;

@@ -1,4 +1,5 @@
-// The link and the simulated P3-AT as two ends of real lines, in real time: pty and TCP, hang-up and return.
+// The link and the simulated P3-AT at the two ends of real lines, in real time: pty and TCP, hang-up,
+// reconnection.
 #include "robot/robot_link.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +40,7 @@ class LinkBench {
     for (const TimeNs end_ns = monotonic_now_ns() + ns_from_seconds(seconds); monotonic_now_ns() < end_ns;)
       tick();
   }
-  /// False when a busy machine would have had time enough.
+  /// False after a time that is enough also for a busy machine.
   template <typename Condition>
   bool run_until(Condition condition) {
     for (const double end_s = test::monotonic_s() + test::kPatience_s; test::monotonic_s() < end_s;) {
@@ -84,7 +85,7 @@ TEST(RobotLinkOverPty, DrivesAndShutsDown) {
 }
 
 TEST(RobotLinkOverPty, ShutsDownWithinFourTenthsOfASecond) {
-  // A busy machine may hold up one shutdown; a link that takes too long takes it every time.
+  // A busy machine may delay one shutdown; a link that is too slow is slow every time.
   TimeNs shortest_ns = kNsPerS;
   for (int i = 0; i < 5 && shortest_ns >= 400 * kNsPerMs; ++i) {
     const std::string address = pty_address("shutdown");
@@ -98,7 +99,7 @@ TEST(RobotLinkOverPty, ShutsDownWithinFourTenthsOfASecond) {
   EXPECT_LT(shortest_ns, 400 * kNsPerMs);
 }
 
-TEST(RobotLinkOverPty, FindsTheRateOfARobotAsItComesAndRaisesIt) {
+TEST(RobotLinkOverPty, FindsTheRateOfARobotAndRaisesIt) {
   const std::string address = pty_address("rate");
   RobotThread robot(address, 9600);
   LinkBench bench(address + "@57600");
@@ -107,13 +108,13 @@ TEST(RobotLinkOverPty, FindsTheRateOfARobotAsItComesAndRaisesIt) {
   EXPECT_TRUE(bench.run_until_driving(robot)) << robot.truth().v_m_s;
 }
 
-TEST(RobotLinkOverPty, SipsAreStampedAsTheyComeNotAtTheTick) {
+TEST(RobotLinkOverPty, SipsAreStampedWhenTheyArriveNotAtTheTick) {
   const std::string address = pty_address("stamp");
   RobotThread robot(address);
   LinkBench bench(address);
   ASSERT_TRUE(bench.run_until(LinkPhase::Running));
-  // One long wait in place of many ticks: what came meanwhile bears the times at which it came. A busy
-  // machine may spoil one of the waits.
+  // One long wait in place of many ticks: SIPs that arrive in it have their own arrival times. A busy machine
+  // may disturb one of the waits.
   bool stamped_before_the_deadline = false;
   for (int i = 0; i < 10 && !stamped_before_the_deadline; ++i) {
     const TimeNs begin_ns = monotonic_now_ns();
@@ -127,7 +128,7 @@ TEST(RobotLinkOverPty, SipsAreStampedAsTheyComeNotAtTheTick) {
   EXPECT_TRUE(stamped_before_the_deadline);
 }
 
-TEST(RobotLinkOverPty, HungUpAndBack) {
+TEST(RobotLinkOverPty, ReconnectsAfterAHangUp) {
   const std::string address = pty_address("hangup");
   auto robot = std::make_unique<RobotThread>(address);
   LinkBench bench(address);
@@ -160,7 +161,7 @@ TEST(RobotLinkOverTcp, Drives) {
 }
 
 TEST(RobotLinkWithoutARobot, NeitherBlocksNorEnds) {
-  // A busy machine may hold up one of the runs; a link that blocks holds up every one.
+  // A busy machine may delay one of the runs; a link that blocks delays every one.
   TimeNs longest_ns = kNsPerS;
   for (int i = 0; i < 5 && longest_ns >= 50 * kNsPerMs; ++i) {
     LinkBench bench("pty:/nonexistent/robot");

@@ -1,4 +1,4 @@
-// A simulated P3-AT on a line of its own, run by a thread in real time.
+// A simulated P3-AT with its own line, run by a thread in real time.
 #pragma once
 
 #include <gtest/gtest.h>

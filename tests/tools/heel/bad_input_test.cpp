@@ -63,7 +63,7 @@ class Files {
   std::vector<std::string> bench(const std::vector<std::string>& changes) const {
     return changed({"bench", "vision", "--json"}, changes);
   }
-  /// With the options that given pictures need.
+  /// Adds the options that pictures need.
   std::vector<std::string> own(std::vector<std::string> more) const {
     more.insert(more.end(), {"--template", at("shirt.heel"), "--camera-info", at("camera.yaml")});
     return more;
@@ -232,7 +232,7 @@ TEST(GoodUsage, HelpAndVersionGoToStandardOutput) {
   }
 }
 
-TEST(GoodUsage, AFullDiskBehindStandardOutputIsNamed) {
+TEST(GoodUsage, AFullDiskAtStandardOutputIsReported) {
   const Outcome outcome = test::run_program({HEEL_PROGRAM, "--help"}, "/dev/full");
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, HasSubstr("standard output cannot be written"));

@@ -1,4 +1,4 @@
-// heel bench vision: what it says of a run, never how fast it was.
+// heel bench vision: the form of its output. No test depends on the speed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ std::vector<std::string> keys_of(const ordered_json& object) {
   return keys;
 }
 
-/// Times in order, and the ratio that the two medians give.
+/// Checks that the times are in order and that the ratio is that of the two medians.
 void expect_sound(const ordered_json& figure, const ordered_json& yardsticks) {
   const double min_ms = figure["min_ms"], median_ms = figure["median_ms"], p99_ms = figure["p99_ms"];
   EXPECT_GT(min_ms, 0.0);
@@ -56,7 +56,7 @@ void expect_stages(const ordered_json& figure, const std::vector<std::string>& n
   EXPECT_LE(figure["stage_share"].get<double>(), 1.0);
 }
 
-TEST(BenchVision, TheDefaultWalkGivesEveryAgreedFigureAndIsTracked) {
+TEST(BenchVision, TheDefaultWalkIsTrackedAndGivesEveryDocumentedFigure) {
   const TemporaryFolder folder;
   const int frames = test::kSanitized ? 2 : 24;
   const Outcome outcome = run_heel({"bench", "vision", "--json", "--frames", std::to_string(frames)});
@@ -112,7 +112,7 @@ TEST(BenchVision, AnotherSizeHasNoGoalsAndCanBeDrawn) {
   EXPECT_EQ(ordered_json::parse(test::read_text(folder.file("bench.json"))), json);
 }
 
-TEST(BenchVision, MeasuresOnesOwnPictures) {
+TEST(BenchVision, MeasuresGivenPictures) {
   const TemporaryFolder folder;
   const std::string camera = folder.file("camera.yaml"), shirt = folder.file("shirt.heel");
   const std::string back = folder.file("back.png");

@@ -1,4 +1,4 @@
-// heel calibrate against truth: views of a chessboard rendered through a known, distorted camera.
+// heel calibrate compared with truth: views of a chessboard, rendered through a known camera with distortion.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -142,7 +142,7 @@ TEST_F(Calibrate, RefusesTooFewViewsNamingThoseWithoutABoard) {
 }
 
 TEST_F(Calibrate, RefusesAViewOfAnotherBoardNamingIt) {
-  // A print stretched by 6 %: every corner is found, and fits no camera that fits the others.
+  // A print stretched by 6 %: every corner is found, but no camera fits these and the other views.
   std::vector<std::string> images = write_views(kGoodPoses);
   cv::Mat stretched;
   cv::warpAffine(cv::imread(images[2], cv::IMREAD_GRAYSCALE), stretched,
@@ -164,7 +164,7 @@ TEST_F(Calibrate, RefusesViewsThatDoNotFixTheFocalLength) {
   EXPECT_FALSE(std::filesystem::exists(output));
 }
 
-TEST_F(Calibrate, RefusesImagesOfDifferentSizesNamingTheOddOne) {
+TEST_F(Calibrate, RefusesImagesOfDifferentSizesNamingTheOneThatDiffers) {
   std::vector<std::string> images = write_views({kGoodPoses[0], kGoodPoses[1]});
   cv::imwrite(images[1], cv::Mat(240, 320, CV_8UC1, cv::Scalar(0)));
   const Outcome outcome = calibrate(images);
@@ -172,7 +172,7 @@ TEST_F(Calibrate, RefusesImagesOfDifferentSizesNamingTheOddOne) {
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("view1.png: 320x240"), HasSubstr("expected 640x480")));
 }
 
-TEST_F(Calibrate, RefusesABoardThatIsNone) {
+TEST_F(Calibrate, RefusesImpossibleBoardSizes) {
   for (const char* board : {"9", "9x", "x6", "9x6x2", "2x6", "-9x6", "9 by 6", ""}) {
     const Outcome outcome = calibrate({"unused.png"}, board);
     EXPECT_EQ(outcome.status, 2) << board;

@@ -1,4 +1,4 @@
-// heel experiment and heel simulate, as far as what `heel report` makes of them: the paper's figures.
+// heel experiment, heel simulate and heel report together: the paper's figures.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ class Experiments : public ::testing::Test {
     const Outcome outcome = run_heel(arguments);
     ASSERT_EQ(outcome.status, 0) << arguments[0] << ": " << outcome.err;
   }
-  /// A run without pictures, which takes a moment.
+  /// A run without pictures; it takes less than a second.
   void simulate(const std::string& experiment, const std::string& name, std::vector<std::string> more = {}) {
     const std::string scenarios = test::source_path("tools/heel-sim/experiments/");
     std::vector<std::string> arguments{"simulate", scenarios + experiment + ".toml", "--duration", "12",
@@ -34,7 +34,7 @@ class Experiments : public ::testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     expect_done(arguments);
   }
-  /// The rows of the experiments in poses of one kind, as if they were of poses of all kinds.
+  /// Copies the rows of one kind of experiment as rows of every kind, because all of them would take long.
   void gather_errors() {
     std::string all;
     for (const char* name : {"lateral", "distance", "yaw"}) {
@@ -47,7 +47,7 @@ class Experiments : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Experiments, GiveTheFiguresOfThePaperAndMore) {
+TEST_F(Experiments, GiveTheFiguresOfThePaperAndOthers) {
   const std::string out = folder_.path().string();
   expect_done({"experiment", "lateral", "distance", "yaw", "hard", "--repeats", "1", "-o", out});
   simulate("response", "response");

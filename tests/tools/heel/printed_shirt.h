@@ -1,4 +1,4 @@
-// A printed shirt on a wall, and the true picture of it after a known motion.
+// A printed shirt on a wall, and its true picture after a known motion.
 #pragma once
 
 #include <cmath>
@@ -25,7 +25,7 @@ inline CameraModel shirt_camera() {
   return camera;
 }
 
-/// A print of many sizes all over a plane: the reference view.
+/// A plane covered by prints of many sizes: the reference view.
 inline cv::Mat printed_plane() {
   cv::Mat image(kHeight_px, kWidth_px, CV_8UC1, cv::Scalar(120));
   cv::RNG random(17);

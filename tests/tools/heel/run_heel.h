@@ -1,4 +1,4 @@
-// Runs the built `heel` and keeps what it said.
+// Runs the built `heel` and keeps its output.
 #pragma once
 
 #include <string>

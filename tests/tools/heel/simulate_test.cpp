@@ -25,7 +25,7 @@ using test::write_text;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// Two seconds of a small picture: about what it takes to connect.
+/// Two seconds with a small picture: about the time to connect.
 std::string scenario_text(const std::string& name, const std::string& shirt) {
   return "name = \"" + name + "\"\nshows = \"what " + name +
          " is hard by\"\nduration_s = 2.0\n[person]\nshirt = \"" + shirt +
@@ -80,7 +80,7 @@ TEST_F(Simulate, AFolderGivesATableAndPictures) {
   EXPECT_FALSE(std::filesystem::exists(out + "/b_check"));
 }
 
-TEST_F(Simulate, SeveralGiveAListAndALimitThatIsNotMetNamesItsScenario) {
+TEST_F(Simulate, SeveralScenariosGiveAListAndAnUnmetLimitNamesItsScenario) {
   if (test::kThreadSanitizer) GTEST_SKIP() << "the lock-step tests run the same threads for a shorter time";
   const test::ScopedEnvironment plots("HEEL_PLOTS", "/bin/true");  // draws nothing
   const Outcome run =
@@ -94,8 +94,8 @@ TEST_F(Simulate, SeveralGiveAListAndALimitThatIsNotMetNamesItsScenario) {
   EXPECT_EQ(json[1].at("scenario"), "two");
 }
 
-// One run a core at a time: each is what it is alone, whichever ends first.
-TEST_F(Simulate, ManyRunsWithoutPicturesAreThoseOfTheirSeeds) {
+// One run on each core at a time: each gives the same as it does alone, whichever ends first.
+TEST_F(Simulate, ManyRunsWithoutPicturesDependOnlyOnTheirSeeds) {
   const std::string walk = scenario("walk"),
                     model = test::source_path("tools/heel-sim/pose_noise/pictured.toml");
   const Outcome many =

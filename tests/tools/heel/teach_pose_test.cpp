@@ -1,4 +1,4 @@
-// heel teach, then heel pose, on pictures whose truth is known; and the words and files between them.
+// heel teach, then heel pose, on pictures with known truth; their output and the template between them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 
-/// How far the region's corners land from where they should, on average.
+/// The mean distance of the region's corners from their true places.
 double mean_corner_error_px(const json& found, const cv::Matx33d& truth) {
   cv::Matx33d H;
   for (int i = 0; i < 9; ++i) H.val[i] = found[static_cast<std::size_t>(i)].get<double>();
@@ -73,7 +73,7 @@ class TeachAndPose : public ::testing::Test {
   cv::Mat reference;
 };
 
-TEST_F(TeachAndPose, TeachSaysHowGoodItIsAndKeepsWhatItWasTold) {
+TEST_F(TeachAndPose, TeachReportsTheQualityAndKeepsTheOptions) {
   const std::string picture = folder.file("verdict.png");
   const Outcome outcome = teach({"--picture", picture, "--oriented", "--max", "150"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -94,7 +94,7 @@ TEST_F(TeachAndPose, TeachSaysHowGoodItIsAndKeepsWhatItWasTold) {
   EXPECT_TRUE(std::equal(kept.grey.begin(), kept.grey.end(), reference.datastart, reference.dataend));
 }
 
-TEST_F(TeachAndPose, TeachTakesTheSameViewThroughACameraAddress) {
+TEST_F(TeachAndPose, TeachGivesTheSameTemplateThroughACameraAddress) {
   ASSERT_EQ(teach().status, 0);
   const std::string by_camera = folder.file("camera.heel");
   const Outcome outcome = run_heel({"teach", "--camera", "file:" + image, "--roi", test::kRoi, "--distance",
@@ -111,10 +111,10 @@ TEST_F(TeachAndPose, TeachRefusesAPlainShirtWithTheReasonAndStatusOne) {
   EXPECT_FALSE(std::filesystem::exists(shirt));
 }
 
-TEST_F(TeachAndPose, PoseFindsTheTruthAndSaysNothingOfWhatItDoesNotFind) {
+TEST_F(TeachAndPose, PoseFindsTheTruthAndGivesNoPoseForWhatItDoesNotFind) {
   ASSERT_EQ(teach().status, 0);
   const double rad = CV_PI / 180.0;
-  // Ten frames and more, so that their order by name is not their order by number.
+  // More than ten frames, so that the order of the names is not the order of the numbers.
   const std::vector<TrueMotion> motions = {
       {0, {0, 0, 0}},
       {20 * rad, {0, 0, 0.1}},
@@ -176,7 +176,7 @@ TEST_F(TeachAndPose, PoseFindsTheTruthAndSaysNothingOfWhatItDoesNotFind) {
   }
 }
 
-TEST_F(TeachAndPose, EveryLineHasExactlyTheAgreedKeysInTheirOrder) {
+TEST_F(TeachAndPose, EveryLineHasExactlyTheDocumentedKeysInTheirOrder) {
   ASSERT_EQ(teach().status, 0);
   const Outcome outcome = pose({image, "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -187,7 +187,7 @@ TEST_F(TeachAndPose, EveryLineHasExactlyTheAgreedKeysInTheirOrder) {
                                       "yaw_sigma_rad", "t_over_d", "position_m", "H_cur_from_ref", "ms"}));
 }
 
-TEST_F(TeachAndPose, RepeatsToTheBitButForTheClock) {
+TEST_F(TeachAndPose, RepeatsToTheBitExceptForTimes) {
   ASSERT_EQ(teach().status, 0);
   cv::imwrite(image, TrueMotion{0.3, {0.05, 0, 0.2}}.picture(reference));
   std::vector<json> first = lines_of(pose({image, "--json"}).out);
@@ -199,7 +199,7 @@ TEST_F(TeachAndPose, RepeatsToTheBitButForTheClock) {
   EXPECT_EQ(first, second);
 }
 
-TEST_F(TeachAndPose, LooksAtTheFramesAskedForAndDrawsThem) {
+TEST_F(TeachAndPose, UsesOnlyTheRequestedFramesAndDrawsThem) {
   ASSERT_EQ(teach().status, 0);
   const std::string pictures = folder.file("pictures/of/this");
   const Outcome outcome =

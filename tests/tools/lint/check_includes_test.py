@@ -1,4 +1,4 @@
-"""tools/check-includes accepts the tree as it is, and names file, line and rule of what is planted in a copy of it."""
+"""tools/check-includes accepts the tree, and names file, line and rule of each forbidden include planted in a copy of it."""
 import os
 import pathlib
 import shutil
@@ -31,7 +31,7 @@ class CheckIncludes(unittest.TestCase):
         return subprocess.run([SOURCE / "tools" / "check-includes", self.root], capture_output=True, text=True, check=False)
 
     def expect_found(self, *lines):
-        """Exactly these lines, each as far as given."""
+        """The output has exactly these lines; each is compared as far as it is given."""
         done = self.check()
         self.assertEqual(done.returncode, 1, done.stderr)
         found = done.stdout.splitlines()

@@ -1,4 +1,4 @@
-"""The hook that tools/install-hooks turns on refuses commits by what is staged, in a repository of its own."""
+"""The hook of tools/install-hooks refuses commits by the staged files; tested in a new repository."""
 import os
 import pathlib
 import shutil
@@ -33,7 +33,7 @@ class PreCommitHook(unittest.TestCase):
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
     def commit(self, text):
-        """Stages `text` as a new file of control and tries to commit it."""
+        """Stages `text` as a new file of src/control and tries to commit it."""
         (self.root / "src/control/planted.cpp").write_text(text, encoding="utf-8")
         self.git("add", "src/control/planted.cpp")
         return self.git("commit", "--message", "Plant a file", check=False)
