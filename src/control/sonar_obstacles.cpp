@@ -57,7 +57,7 @@ void SonarObstacleMap::update(const RobotState& robot) {
     if (reading.t_ns == echoes_[sonar].t_ns) continue;
     const ObstaclePoint point = in_robot_frame(robot_.sonars[sonar], reading.range_m);
     echoes_[sonar] = {reading.t_ns, pose.x_m + c * point.x_m - s * point.y_m,
-                      pose.y_m + s * point.x_m + c * point.y_m};
+                      pose.y_m + s * point.x_m + c * point.y_m, true};
   }
 }
 
@@ -66,7 +66,7 @@ SonarObstacles SonarObstacleMap::obstacles_at(TimeNs now_ns, const Odometry& new
   const double c = std::cos(pose.heading_rad), s = std::sin(pose.heading_rad);
   SonarObstacles obstacles(robot_);
   for (const Echo& echo : echoes_) {
-    if (echo.t_ns == 0 || now_ns - echo.t_ns > kKept_ns) continue;
+    if (!echo.known || now_ns - echo.t_ns > kKept_ns) continue;
     const double dx_m = echo.x_m - pose.x_m, dy_m = echo.y_m - pose.y_m;
     obstacles.add({c * dx_m + s * dy_m, c * dy_m - s * dx_m});
   }

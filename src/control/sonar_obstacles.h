@@ -49,8 +49,10 @@ class SonarObstacleMap {
 
   /// Takes in the readings that are new in `robot`.
   void update(const RobotState& robot);
-  /// Forgets every reading.
-  void clear() { echoes_ = {}; }
+  /// Discards every reading, also those that the robot's state repeats until its sonars are read again.
+  void clear() {
+    for (Echo& echo : echoes_) echo.known = false;
+  }
   /// The obstacles in the robot frame at `now_ns`. Since `newest` the robot is taken to have kept its speed
   /// and yaw rate.
   SonarObstacles obstacles_at(TimeNs now_ns, const Odometry& newest) const;
@@ -58,8 +60,9 @@ class SonarObstacleMap {
  private:
   /// Of one sonar, in odom.
   struct Echo {
-    TimeNs t_ns = 0;  // 0: none
+    TimeNs t_ns = 0;  // of the newest reading
     double x_m = 0.0, y_m = 0.0;
+    bool known = false;
   };
   RobotGeometry robot_;
   std::array<Echo, kSonars> echoes_{};

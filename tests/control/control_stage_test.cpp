@@ -227,6 +227,18 @@ TEST(ControlStage, AReconnectionDiscardsTheTarget) {
   EXPECT_FALSE(run.record.target.known);
 }
 
+TEST(ControlStage, AReconnectionDiscardsTheSonarObstacles) {
+  Following run;
+  run.run(2.0);
+  run.ahead_m = 1.0;
+  run.run(0.08);
+  ASSERT_TRUE(std::isfinite(run.record.free_distance_m));
+  ASSERT_NE(run.input.now_ns % (100 * kNsPerMs), 0) << "the sonars must not be read in this tick";
+  ++run.input.robot.reconnects;
+  run.tick();
+  EXPECT_FALSE(std::isfinite(run.record.free_distance_m)) << run.record.free_distance_m;
+}
+
 TEST(ControlStage, ReconfigureKeepsTheTargetAndTheSpeed) {
   Following run;
   run.run(5.0);

@@ -163,6 +163,8 @@ TEST(SonarObstacleMap, ANewReadingReplacesTheOldAndAnOldOneIsDropped) {
   EXPECT_EQ(map.obstacles_at(kRead_ns + SonarObstacleMap::kKept_ns + 2, robot.odometry).points().size(), 0u);
   map.clear();
   EXPECT_EQ(map.obstacles_at(kRead_ns, robot.odometry).points().size(), 0u);
+  map.update(robot);
+  EXPECT_EQ(map.obstacles_at(kRead_ns, robot.odometry).points().size(), 0u) << "the reading is an old one";
 }
 
 }  // namespace
