@@ -13,8 +13,7 @@ std::int16_t VelocityRounding::next(double wanted) {
   const double limit = limit_;
   const double clamped = std::clamp(wanted, -limit, limit);
   const double whole = std::clamp(std::round(clamped + carry_), -limit, limit);
-  // Without this clamp it would grow while the command is at the limit.
-  carry_ = std::clamp(carry_ + clamped - whole, -0.5, 0.5);
+  carry_ += clamped - whole;  // −0.5…0.5 also at the limit, because the carry is that of the clamped velocity
   return static_cast<std::int16_t>(whole);
 }
 
