@@ -122,6 +122,23 @@ TEST(ConfigLoad, RelativePathsAreRelativeToTheFile) {
   EXPECT_EQ(config.telemetry.directory, "");
 }
 
+TEST(ConfigLoad, PathsInAddressesAreRelativeToTheFile) {
+  for (const char* scheme : {"serial", "pty"}) {
+    const std::string text = std::string("[robot]\naddress = \"") + scheme + ":dev/robot\"\n";
+    EXPECT_EQ(parse_config(text, "/etc/heel/f.toml").config.robot.address,
+              std::string(scheme) + ":/etc/heel/dev/robot");
+  }
+  for (const char* scheme : {"file", "v4l2"}) {
+    const std::string text = std::string("[camera]\nsource = \"") + scheme + ":dev/camera\"\n";
+    EXPECT_EQ(parse_config(text, "/etc/heel/f.toml").config.camera.source,
+              std::string(scheme) + ":/etc/heel/dev/camera");
+  }
+  for (const char* address : {"libcamera:dev/camera", "sim:camera"}) {
+    const std::string text = std::string("[camera]\nsource = \"") + address + "\"\n";
+    EXPECT_EQ(parse_config(text, "/etc/heel/f.toml").config.camera.source, address) << "it holds no path";
+  }
+}
+
 TEST(ConfigLoad, MissingFileIsNamed) {
   EXPECT_THAT(test::complaint_of([] { load_config("/nowhere/heel.toml"); }),
               HasSubstr("/nowhere/heel.toml: cannot read (expected a configuration file"));

@@ -78,6 +78,26 @@ TEST(ViewLaw, YawGainTurnsTheWayThePersonTurns) {
   EXPECT_LT(law(law.target(law.rest_x_m(), 0, -0.2)).yaw_rate_rad_s, 0.0);
 }
 
+TEST(ViewLaw, TheBearingLimitCountsFromTheCameraWhereverItIsMounted) {
+  for (const double mount_y_m : {-0.2, 0.0, 0.2}) {
+    for (const double side : {-1.0, 1.0}) {
+      Law law;
+      law.config.camera.mount_y_m = mount_y_m;
+      law.config.control.gain_lateral_rad_s_m = 0.0;
+      law.config.control.gain_yaw_1_s = 0.0;
+      const double bearing_rad = side * (law.config.control.bearing_max_rad + 0.1);
+      const auto command = law(law.target(law.mount().x_m + 2.0 * std::cos(bearing_rad),
+                                          mount_y_m + 2.0 * std::sin(bearing_rad), 0.0));
+      // The robot drives past the person, which adds v sin(bearing) / range to the rate.
+      EXPECT_NEAR(
+          command.yaw_rate_rad_s,
+          side * 0.1 * law.config.control.bearing_gain_1_s + command.v_m_s * std::sin(bearing_rad) / 2.0,
+          1e-9)
+          << mount_y_m << " " << side;
+    }
+  }
+}
+
 TEST(PositionLaw, IsTheViewLawWithTheGainThatCancelsYaw) {
   Law position, view;
   position.yaw_gain = YawGain::CancelsYaw;

@@ -165,6 +165,25 @@ TEST(TargetEstimator, RestartsAfterOutliersInARow) {
   EXPECT_LT(scene.position_error_m(), 1e-6);
 }
 
+TEST(TargetEstimator, StartsAgainFromTheMeasurementAfterALongGap) {
+  Scene scene;
+  scene.person_v_m_s = 1.0;
+  scene.run(3.0);
+  const auto shown = scene.disturb;
+  scene.disturb = [](PoseEstimate& pose) { pose.reason = PoseReason::TooFewMatches; };
+  scene.run(0.1);
+  scene.person_v_m_s = 0.0;
+  const TimeNs before_ns = scene.estimator.predict(scene.now_ns).t_capture_ns;
+  scene.run(1.5);
+  scene.disturb = shown;
+  while (scene.estimator.predict(scene.now_ns).t_capture_ns == before_ns) scene.run(0.01);
+  EXPECT_LT(scene.position_error_m(), 1e-6);
+  const TargetState then = scene.estimator.predict(scene.now_ns);
+  const TargetState later = scene.estimator.predict(scene.now_ns + 200 * kNsPerMs);
+  EXPECT_NEAR(std::hypot(later.x_m - then.x_m, later.y_m - then.y_m), 0.0, 1e-9)
+      << "the speed of before the gap no longer counts";
+}
+
 TEST(TargetEstimator, RejectsFramesThatAreNotNewer) {
   Scene scene;
   scene.run(0.5);

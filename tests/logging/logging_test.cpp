@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdlib>
 #include <mutex>
 #include <sstream>
@@ -18,6 +19,7 @@
 
 #include "logging/journal_sink.h"
 #include "support/complaint.h"
+#include "support/process.h"
 
 namespace heel {
 namespace {
@@ -106,6 +108,18 @@ TEST(Logging, StopWritesTheWaitingMessagesAndLaterMessagesAreStillLogged) {
   EXPECT_THAT(text, testing::HasSubstr("message 99\n"));
   EXPECT_THAT(text, testing::HasSubstr("late\n"));
   EXPECT_THAT(text, testing::Not(testing::HasSubstr("not this one")));
+}
+
+TEST(Logging, AFullStandardErrorBlocksNoThreadThatLogs) {
+  test::Process process([] {
+    std::array<int, 2> ends{};
+    if (pipe(ends.data()) != 0 || dup2(ends[1], STDERR_FILENO) < 0) _exit(1);
+    start_logging("info");
+    // More than the pipe, which is not read, and the queue of messages hold.
+    const std::string text(200, 'x');
+    for (int i = 0; i < 20'000; ++i) spdlog::info(text);
+  });
+  EXPECT_EQ(process.wait(), 0);
 }
 
 }  // namespace

@@ -123,6 +123,15 @@ TEST(FrameTripleBuffer, WaitEndsWithAFrameAWakeOrTheTimeout) {
   EXPECT_LT(monotonic_now_ns() - wake_ns, 30 * kNsPerS);
 }
 
+TEST(FrameTripleBuffer, WaitReturnsAtOnceWhenAFrameIsUnread) {
+  FrameTripleBuffer ring(kWidth, kHeight);
+  fill(ring.writable(), 1);
+  ring.publish();
+  const TimeNs before_ns = monotonic_now_ns();
+  EXPECT_TRUE(ring.wait(20 * kNsPerS));
+  EXPECT_LT(monotonic_now_ns() - before_ns, 15 * kNsPerS);
+}
+
 // Writer and reader at full speed; the reader is sometimes as slow as vision.
 TEST(FrameTripleBuffer, UnderStressFramesAreWholeAndCountsAddUp) {
   FrameTripleBuffer ring(kWidth, kHeight);

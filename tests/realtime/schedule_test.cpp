@@ -52,6 +52,7 @@ struct Entered {
   ThreadEntry entry;
   std::string name;
   int policy = -1;
+  bool resets_on_fork = false;  ///< threads that it starts have ordinary scheduling
   int priority = -1;
   long timer_slack_ns = -1;
 };
@@ -62,7 +63,9 @@ Entered observe_this_thread(const ThreadEntry& entry) {
   std::array<char, 32> name{};
   pthread_getname_np(pthread_self(), name.data(), name.size());
   entered.name = name.data();
-  entered.policy = sched_getscheduler(0) & ~SCHED_RESET_ON_FORK;
+  const int scheduler = sched_getscheduler(0);
+  entered.policy = scheduler & ~SCHED_RESET_ON_FORK;
+  entered.resets_on_fork = (scheduler & SCHED_RESET_ON_FORK) != 0;
   sched_param parameters{};
   sched_getparam(0, &parameters);
   entered.priority = parameters.sched_priority;
@@ -105,6 +108,7 @@ TEST(EnterThread, HasThePriorityWhereTheKernelGrantsIt) {
   EXPECT_EQ(entered.entry.error, error);
   EXPECT_EQ(entered.policy, error == 0 ? SCHED_FIFO : SCHED_OTHER);
   EXPECT_EQ(entered.priority, error == 0 ? kPlan.priority : 0);
+  EXPECT_EQ(entered.resets_on_fork, error == 0);
 }
 
 TEST(EnterThread, ARefusalIsReportedAndTheThreadKeepsOrdinaryScheduling) {

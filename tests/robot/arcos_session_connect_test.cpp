@@ -106,6 +106,7 @@ TEST(ArcosSessionConnect, MotorsAlreadyOnAreDrivenOnlyAfterZeroHasBeenSent) {
   bench.robot.set_flag(arcos::kFlagMotorsEnabled, true);
   bench.v_m_s = 0.5;
   ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+  EXPECT_FALSE(bench.robot.received(CommandId::Enable).empty()) << "Running comes after ENABLE";
   bench.run(0.5);
   const auto speeds = bench.robot.received(CommandId::Vel);
   ASSERT_GT(speeds.size(), 3u);
@@ -135,6 +136,17 @@ TEST(ArcosSessionBaud, ASessionLeftOpenAtAnotherRateIsFoundAndClosed) {
   bench.robot.open = true;
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 30.0));
   EXPECT_TRUE(bench.robot.log[0].is(CommandId::Stop));
+}
+
+TEST(ArcosSessionBaud, TheRateOfAnOpenSessionIsTheFirstToTryWhenTheLineIsLost) {
+  SessionBench bench(bench_config("serial:/dev/ttyUSB0@115200"));
+  bench.robot.baud = 9600;
+  bench.robot.open = true;
+  for (int i = 0; i < 1500 && bench.count(Kind::FoundOpen) == 0; ++i) bench.tick();
+  ASSERT_EQ(bench.count(Kind::FoundOpen), 1);
+  bench.session.line_lost(bench.now_ns);
+  bench.session.line_opened(bench.now_ns);
+  EXPECT_EQ(bench.session.wanted_baud(), 9600);
 }
 
 TEST(ArcosSessionBaud, ASweepWithoutAnswerAsksToOpenTheDeviceAgain) {

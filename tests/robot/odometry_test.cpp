@@ -111,6 +111,15 @@ TEST(OdometryInterruption, CountersThatContinuedAreUsed) {
   robot.expect_pose(3.0, 0.4, kPi / 2);
 }
 
+TEST(OdometryInterruption, CountersNearZeroBeforeAndAfterWereNotZeroed) {
+  OdometryTracker odometry(1.0);
+  odometry.update(Counters{}.at(0.0, 0.0, 0.0), 0);
+  odometry.update(Counters{}.at(0.01, 0.0, 0.0), kCycle_ns);
+  odometry.interrupted();
+  EXPECT_EQ(odometry.update(Counters{}.at(0.04, 0.0, 0.0), kNsPerS), OdometryTracker::Step::Moved);
+  EXPECT_NEAR(odometry.pose().x_m, 0.04, 1e-9);
+}
+
 TEST(OdometryInterruption, ZeroedCountersContinueThePose) {
   Standing robot;
   robot.odometry.interrupted();

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -262,6 +263,46 @@ TEST(SimSource, UnderStressFramesAreWholeAndNeverGoBackwards) {
     if (first == 0) first = last;  // a frame before the first one given is not a drop
   }
   EXPECT_EQ(given + source.counters().dropped_by_driver, kFrames - first + 1);
+}
+
+/// The calling thread runs on the processor on which it is now, and on no other.
+void stay_on_this_processor() {
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  CPU_SET(static_cast<unsigned>(sched_getcpu()), &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+}
+
+// A reader that shares its processor with another thread is often interrupted while it copies a frame.
+// Meanwhile the writer writes every slot again.
+TEST(SimSource, AFrameThatChangesWhileItIsCopiedIsNotGiven) {
+  constexpr std::uint32_t kLarge_px = 256;
+  const std::string name = own_name("interrupted");
+  SimChannelWriter writer(name, kLarge_px, kLarge_px);
+  std::atomic<bool> done{false};
+  std::jthread producer([&] {
+    for (std::uint64_t sequence = 1; !done; ++sequence) {
+      make_frame(writer.writable(), sequence, kLarge_px, kLarge_px);
+      writer.publish();
+    }
+  });
+  std::jthread([&] {
+    stay_on_this_processor();
+    std::jthread other([&] {
+      while (!done) {
+      }
+    });
+    SimSource source(name);
+    EXPECT_EQ(source.open(), OpenResult::Opened);
+    FrameView frame;
+    for (const TimeNs end_ns = monotonic_now_ns() + 2 * kNsPerS; monotonic_now_ns() < end_ns;) {
+      if (source.wait_frame(kNsPerS, frame) != FrameResult::Frame || is_whole(frame)) continue;
+      ADD_FAILURE() << "frame " << frame.header.sequence;
+      break;
+    }
+    EXPECT_GT(frame.header.sequence, 100u);
+    done = true;
+  }).join();
 }
 
 }  // namespace

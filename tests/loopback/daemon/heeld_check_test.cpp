@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "files/template_file.h"
+#include "heel/shirt_template.h"
 #include "loopback/daemon/scene.h"
 #include "support/process.h"
 #include "support/temporary_folder.h"
@@ -18,6 +20,7 @@ using test::read_text;
 using test::run_program;
 using test::Scene;
 using test::source_path;
+using test::write_text;
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -64,6 +67,26 @@ TEST(HeeldCheck, FilesItRefersToAreLoaded) {
   const Outcome outcome = heeld({"--config", scene.write_config(), "--check"});
   EXPECT_EQ(outcome.status, kExitConfiguration);
   EXPECT_THAT(outcome.err, HasSubstr(scene.path("shirt.heel")));
+}
+
+TEST(HeeldCheck, ATemplateNeedsADistance) {
+  const Scene scene(1);
+  ShirtTemplate shirt = read_template(scene.path("shirt.heel"));
+  shirt.distance_m = 0.0;
+  write_template(shirt, scene.path("unknown.heel"));
+  const std::string text = read_text(scene.write_config());
+  const auto check = [&](const std::string& target) {
+    std::string changed = text;
+    const std::string key = "shirt = \"shirt.heel\"\n";
+    changed.replace(changed.find(key), key.size(), target);
+    return heeld({"--config", write_text(scene.path("unknown.toml"), changed), "--check"});
+  };
+  const Outcome without = check("shirt = \"unknown.heel\"\n");
+  EXPECT_EQ(without.status, kExitConfiguration);
+  EXPECT_THAT(without.err, HasSubstr("unknown.heel: has no distance (expected one, or target.distance_m)"));
+  const Outcome with = check("shirt = \"unknown.heel\"\ndistance_m = 1.75\n");
+  EXPECT_EQ(with.status, 0) << with.err;
+  EXPECT_THAT(with.out, HasSubstr("taken at 1.75 m"));
 }
 
 TEST(HeeldCheck, BearingLimitMustFitTheCamera) {

@@ -236,9 +236,26 @@ TEST_F(Heeld, ReloadIsAllOrNothing) {
   scene_.write_config({.sections = "[gate]\nv_max_m_s = 0.6\n[vision]\noctaves = 3\n"});
   daemon_->signal(SIGHUP);
   ASSERT_TRUE(daemon_->says("vision.octaves cannot change while running"));
+
+  // Values that do not fit the camera's calibration.
+  scene_.write_config({.sections = "[gate]\nv_max_m_s = 0.6\n[control]\nbearing_max_rad = 0.6\n"});
+  daemon_->signal(SIGHUP);
+  ASSERT_TRUE(daemon_->says("control.bearing_max_rad: 0.6 (expected less than"));
   sleep_s(1.0);
   EXPECT_LT(speed(), 0.12);
   EXPECT_TRUE(daemon_->running());
+}
+
+TEST_F(Heeld, ReloadChangesTheLogLevel) {
+  start_heeld(scene_.write_config());
+  ASSERT_TRUE(notify_.receives("STATUS=waiting for the robot")) << daemon_->output();
+  scene_.write_config({.runtime = "log_level = \"error\"\n"});
+  daemon_->signal(SIGHUP);
+  ASSERT_TRUE(notify_.receives("RELOADING=1")) << daemon_->output();
+  daemon_->signal(SIGTERM);
+  EXPECT_EQ(daemon_->wait(), 0);
+  EXPECT_THAT(daemon_->output(), HasSubstr("configuration: "));
+  EXPECT_THAT(daemon_->output(), Not(HasSubstr("heeld stopped"))) << "a message of level info";
 }
 
 class HeeldWithOneFrame : public Heeld {

@@ -2,13 +2,24 @@
 // reconnection.
 #include "robot/robot_link.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <termios.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <thread>
+#include <vector>
 
+#include "arcos/command_codec.h"
+#include "arcos/commands.h"
 #include "loopback/robot/robot_thread.h"
 #include "realtime/clock.h"
 #include "support/process.h"
@@ -151,6 +162,93 @@ TEST(RobotLinkOverPty, ADestroyedLinkLeavesTheRobotClosed) {
     ASSERT_TRUE(bench.run_until_driving(robot)) << robot.truth().v_m_s;
   }
   EXPECT_TRUE(closed_and_at_rest(robot));
+}
+
+/// A pty whose peer reads only when the test says so.
+class UnreadPty {
+ public:
+  UnreadPty() {
+    master_ = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+    std::array<char, 128> name{};
+    if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0 ||
+        ptsname_r(master_, name.data(), name.size()) != 0)
+      throw std::runtime_error("no pty");
+    path_ = name.data();
+    slave_ = open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK);
+    termios raw{};
+    tcgetattr(slave_, &raw);
+    cfmakeraw(&raw);
+    tcsetattr(slave_, TCSANOW, &raw);
+  }
+  ~UnreadPty() {
+    close(slave_);
+    close(master_);
+  }
+  UnreadPty(const UnreadPty&) = delete;
+  UnreadPty& operator=(const UnreadPty&) = delete;
+
+  std::string address() const { return "pty:" + path_; }
+  /// Writes zeros into the line until its driver takes no more.
+  void fill() {
+    const std::array<char, 512> zeros{};
+    for (int refused = 0; refused < 20; test::sleep_s(0.001)) {
+      const ssize_t taken = write(slave_, zeros.data(), zeros.size());
+      refused = taken > 0 ? 0 : refused + 1;
+    }
+  }
+  /// What the line has carried so far, without fill()'s zeros at the front.
+  std::vector<std::uint8_t> take() {
+    std::array<std::uint8_t, 4096> chunk{};
+    for (ssize_t size; (size = read(master_, chunk.data(), chunk.size())) > 0;)
+      carried_.insert(carried_.end(), chunk.begin(), chunk.begin() + size);
+    const auto first = std::find_if(carried_.begin(), carried_.end(), [](auto byte) { return byte != 0; });
+    return {first, carried_.end()};
+  }
+
+ private:
+  int master_ = -1, slave_ = -1;
+  std::string path_;
+  std::vector<std::uint8_t> carried_;
+};
+
+TEST(RobotLinkOverPty, ALineThatTakesNothingForASecondIsLost) {
+  UnreadPty pty;
+  LinkBench bench(pty.address());
+  ASSERT_TRUE(bench.run_until(LinkPhase::Syncing));
+  pty.fill();
+  EXPECT_TRUE(bench.run_until(LinkPhase::Lost));
+}
+
+TEST(RobotLinkOverPty, ShutdownSendsTheRestOfAPacketBeforeStop) {
+  const arcos::Frame sync0 = arcos::encode_plain(arcos::CommandId::Sync0);
+  const arcos::Frame stop = arcos::encode_plain(arcos::CommandId::Stop);
+  std::vector<std::uint8_t> carried;
+  // A busy machine may delay the thread that reads until shutdown() has given up.
+  for (int attempt = 0; attempt < 5 && carried.empty(); ++attempt) {
+    UnreadPty pty;
+    LinkBench bench(pty.address());
+    bench.run(0.1);
+    ASSERT_EQ(bench.link.state().phase, LinkPhase::Syncing) << "it listens before it sends SYNC0";
+    pty.fill();
+    bench.run(0.6);
+    std::atomic<bool> done{false};
+    std::jthread reader([&] {
+      while (!done) {
+        pty.take();
+        test::sleep_s(0.001);
+      }
+    });
+    bench.link.shutdown(monotonic_now_ns());
+    test::sleep_s(0.05);
+    done = true;
+    reader.join();
+    carried = pty.take();
+  }
+  std::vector<std::uint8_t> expected(sync0.bytes().begin(), sync0.bytes().end());
+  expected.insert(expected.end(), stop.bytes().begin(), stop.bytes().end());
+  ASSERT_GE(carried.size(), expected.size());
+  carried.resize(expected.size());
+  EXPECT_EQ(carried, expected);
 }
 
 TEST(RobotLinkOverTcp, Drives) {
