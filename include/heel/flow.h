@@ -1,5 +1,5 @@
 /// \file
-/// Everything that travels between threads, in the order it flows:
+/// All data exchanged between threads, in the order in which it flows:
 /// \verbatim
 ///   camera → FrameHeader → PoseEstimate → TargetState → StopReason → VelocityCommand → P3-AT
 ///                                 RobotState (odometry, bumpers, flags) ← SIP ┘
@@ -7,7 +7,7 @@
 /// - Convention: all of it is trivially copyable. Frames of reference:
 ///   - camera: x right, y down, z forward
 ///   - robot: x forward, y left, z up; origin between the wheels, on the floor
-///   - odom: the robot frame at the moment the session began; drifts as odometry does
+///   - odom: the robot frame at the start of the session; it drifts, as odometry does
 /// - Units: SI and radians; pixels in names that end in _px.
 /// - Errors: named reasons (PoseReason, LinkPhase, StopReason).
 #pragma once
@@ -26,12 +26,12 @@ namespace heel {
 /// A frame without its pixels. Pixels are 8-bit grey (luma), row-major.
 struct FrameHeader {
   std::uint64_t sequence = 0;  ///< counts every frame the camera made, dropped ones included
-  TimeNs t_capture_ns = 0;     ///< when the exposure happened, as near as the driver tells
+  TimeNs t_capture_ns = 0;     ///< time of the exposure, as far as the driver reports it
   std::uint32_t width_px = 0;
   std::uint32_t height_px = 0;
 };
 
-/// A frame whose pixels belong to somebody else: valid only during the call it is passed to.
+/// A frame that does not own its pixels: valid only during the call that it is passed to.
 struct FrameView {
   FrameHeader header;
   const std::uint8_t* grey = nullptr;  ///< first pixel of the first row
@@ -43,16 +43,16 @@ struct FrameView {
 /// Why a frame gave a pose, or why it did not.
 enum class PoseReason : std::uint8_t {
   Found,
-  TooFewFeatures,    ///< the frame holds fewer than four features in the scale range
+  TooFewFeatures,    ///< the frame has fewer than four features in the scale range
   TooFewMatches,     ///< fewer than four pairs survived sign, ratio and mutual check
   NoHomography,      ///< no sample of four pairs has more support than itself
-  TooFewInliers,     ///< certainty or inlier count below the floor
-  ImplausibleShape,  ///< the template's outline lands mirrored, folded, or absurdly large or small
+  TooFewInliers,     ///< certainty or number of inliers below the configured minimum
+  ImplausibleShape,  ///< the template's outline is mirrored, folded, or far too large or small
   NoValidMotion,     ///< no decomposition puts the shirt in front of both cameras, facing the camera
   WrongFrameSize,    ///< the frame is not of the size the camera was calibrated at
 };
 
-/// The shirt as one frame saw it. Conventions of the reference view: the plane z = d, normal (0,0,1);
+/// The pose of the shirt in one frame. Conventions of the reference view: the plane z = d, normal (0,0,1);
 /// X_cur = R_cur_from_ref X_ref + t;  H_cur_from_ref = K_cur (R + (t/d) nᵀ) K_ref⁻¹;  x_cur ~ H x_ref.
 struct PoseEstimate {
   std::uint64_t frame_sequence = 0;
@@ -81,12 +81,12 @@ struct PoseEstimate {
 
 // ── robot → control ─────────────────────────────────────────────────────────────────────────────
 
-/// Where the session with the robot's controller stands.
+/// The phase of the session with the robot's controller.
 enum class LinkPhase : std::uint8_t {
   Closed,    ///< no line, or not yet tried
   Syncing,   ///< SYNC0…SYNC2, baud sweep
-  Opening,   ///< OPEN sent, first SIP awaited; CONFIG asked
-  Enabling,  ///< zero velocity sent, ENABLE awaiting its flag
+  Opening,   ///< OPEN sent, first SIP awaited; CONFIG requested
+  Enabling,  ///< zero velocity and ENABLE sent, the motors' flag awaited
   Running,   ///< SIPs arrive, motors are enabled
   Disabled,  ///< SIPs arrive, motors went off (STOP button, E-stall): off until heeld is restarted
   Lost,      ///< SIPs stopped or the line broke; reconnecting
@@ -102,7 +102,7 @@ struct Odometry {
   double yaw_rate_rad_s = 0.0;
 };
 
-/// What one sonar heard last. A sonar that hears nothing reports 5 m.
+/// The last echo of one sonar. A sonar without an echo reports 5 m.
 struct SonarEcho {
   TimeNs t_ns = 0;  ///< first byte of the SIP that reported it; 0: none yet
   double range_m = 0.0;
@@ -131,17 +131,17 @@ struct RobotState {
 
 // ── control ─────────────────────────────────────────────────────────────────────────────────────
 
-/// Everything one control tick decides on. The inputs since the start and the configuration give every tick's
-/// decisions again, to the bit.
+/// All inputs of one control tick. The inputs since the start and the configuration give the decisions of
+/// every tick again, to the bit.
 struct ControlInput {
   TimeNs now_ns = 0;  ///< when the tick ran
   RobotState robot;
   bool has_pose = false;  ///< a frame has been processed since the start
-  PoseEstimate pose;      ///< the newest; the same as in the tick before when no frame has come since
+  PoseEstimate pose;      ///< the newest; the same as in the last tick when no frame has come since
   bool shutdown = false;  ///< this is the last tick
 };
 
-/// The target in the odometry frame, carried from the frame's capture time to now.
+/// The target in the odometry frame, predicted from the frame's capture time to now.
 struct TargetState {
   bool known = false;
   TimeNs t_capture_ns = 0;  ///< of the frame it is computed from
@@ -149,20 +149,21 @@ struct TargetState {
   // In the robot frame at `now`:
   double x_m = 0.0;  ///< centre of the back
   double y_m = 0.0;
-  double yaw_rad = 0.0;  ///< walking direction against the robot's heading, counter-clockwise + (robot frame)
-  // Where the reference view is recreated (the pose the robot is to take), robot frame at `now`:
+  double yaw_rad =
+      0.0;  ///< walking direction relative to the robot's heading, counter-clockwise + (robot frame)
+  // The goal, where the robot has the reference view again; robot frame at `now`:
   double goal_x_m = 0.0;
   double goal_y_m = 0.0;
 };
 
-/// What became of the newest pose in a tick.
+/// What the estimator did with the newest pose in a tick.
 enum class MeasurementStatus : std::uint8_t {
   None,      ///< no new frame
-  Accepted,  ///< the estimator took it
+  Accepted,  ///< the estimator used it
   Rejected,  ///< not found, or an outlier
 };
 
-/// What may keep the robot at rest, as bits of Conditions.
+/// The conditions that keep the robot at rest, as bits of Conditions.
 enum Condition : std::uint16_t {
   kShutdown = 1 << 0,
   kLinkDown = 1 << 1,
@@ -198,17 +199,17 @@ enum class StopReason : std::uint8_t {
   LowCertainty,
 };
 
-/// What the gate holds back, as bits of VelocityCommand::limited_by.
+/// The gate's limits that changed a command, as bits of VelocityCommand::limited_by.
 enum GateLimit : std::uint8_t {
   kGateSpeed = 1,
   kGateAcceleration = 2,
   kGateAge = 4,
   kGateNotFinite = 8,
   kGateSeparation = 16,  ///< the person is too near
-  kGateObstacle = 32,    ///< something the sonars hear is in the way
+  kGateObstacle = 32,    ///< a sonar obstacle is in the way
 };
 
-/// What goes to the wire, once a tick. Expires by itself.
+/// The command that is sent each tick. It expires by itself.
 struct VelocityCommand {
   TimeNs t_issued_ns = 0;
   TimeNs t_expires_ns = 0;  ///< after this it counts as zero
@@ -219,12 +220,12 @@ struct VelocityCommand {
 
 // ── everything → telemetry ──────────────────────────────────────────────────────────────────────
 
-/// One control tick: what it decided on, and what it decided.
+/// One control tick: its inputs and its decisions.
 struct TickRecord {
   std::uint64_t tick = 0;
-  TimeNs lateness_ns = 0;  ///< after its absolute deadline
+  TimeNs lateness_ns = 0;  ///< how long after its absolute deadline it ran
   ControlInput input;
-  MeasurementStatus measurement = MeasurementStatus::None;  ///< what became of input.pose
+  MeasurementStatus measurement = MeasurementStatus::None;  ///< of input.pose
   TargetState target;
   Conditions conditions = 0;
   StopReason stop_reason = StopReason::NoTargetYet;
@@ -235,22 +236,22 @@ struct TickRecord {
   VelocityCommand command;  ///< after the gate, as sent
 };
 
-/// What a real-time thread reports to people. It pushes the record; the telemetry thread makes it text, logs
+/// What a real-time thread reports to the user. It pushes the record; the telemetry thread formats it, logs
 /// it and writes it to events.log. (Changes of stop reason, link phase and target need no event: telemetry
-/// sees them in the ticks and poses.)
+/// finds them in the ticks and poses.)
 enum class EventKind : std::uint8_t {
-  CameraOpened,       ///< text: what was agreed with the device
+  CameraOpened,       ///< text: format, size and rate
   CameraUnavailable,  ///< text: why it does not open
   CameraLost,         ///< text: why; it will be opened again
-  CameraEnded,        ///< a file's last frame has been given
-  FrameRefused,       ///< a: width_px, b: height_px; not the size the ring was made for
+  CameraEnded,        ///< the last frame of a file was delivered
+  FrameRefused,       ///< a: width_px, b: height_px; not the size of the calibration
   FrameCorrupt,       ///< a: corrupt frames so far
   Overrun,            ///< a: periods missed so far, b: lateness_ns of this one
-  Note,               ///< text: anything else, with "{}" in place of the number a
-  Warning,            ///< as Note, and a person should know about it
+  Note,               ///< text: any other message, with "{}" in place of the number a
+  Warning,            ///< as Note, but something is wrong
 };
 
-/// A report of a real-time thread; `a` and `b` mean what its kind says.
+/// A report of a real-time thread; its kind defines the meaning of `a` and `b`.
 struct Event {
   TimeNs t_ns = 0;
   EventKind kind = EventKind::Note;
@@ -259,23 +260,23 @@ struct Event {
   std::array<char, 128> text{};  ///< ends with a zero
 };
 
-/// Counters of the frame path since the start; capture pushes them whenever they have changed.
+/// Counters of the capture thread since the start; it pushes them when they have changed.
 struct CaptureCounters {
   TimeNs t_ns = 0;  ///< when they were read
   std::uint64_t captured = 0;
   std::uint64_t dropped_by_driver = 0;  ///< gaps in the driver's sequence, buffers with the error flag
-  std::uint64_t dropped_unread = 0;     ///< overtaken by a fresher frame
+  std::uint64_t dropped_unread = 0;     ///< replaced by a newer frame before vision took it
   std::uint64_t reopened = 0;           ///< openings of the camera after the first
   bool operator==(const CaptureCounters&) const = default;
 };
 
-/// What threads exchange is copied byte by byte.
+/// These structs are copied between threads byte by byte.
 template <typename... T>
 inline constexpr bool kAllTriviallyCopyable = (std::is_trivially_copyable_v<T> && ...);
 static_assert(kAllTriviallyCopyable<FrameHeader, FrameView, PoseEstimate, RobotState, TargetState,
                                     VelocityCommand, ControlInput, TickRecord, Event, CaptureCounters>);
 
-/// The reasons and phases as people read them in logs, records and status lines.
+/// The texts of reasons and phases in logs, records and status lines.
 const char* to_string(PoseReason reason);
 const char* to_string(LinkPhase phase);
 const char* to_string(MeasurementStatus status);

@@ -43,8 +43,8 @@ double symmetric_transfer_error_px2(const Eigen::Matrix3d& H_cur_from_ref,
 /// When a pair supports a sample, and when the search ends.
 struct RansacSettings {
   double inlier_px = 3.0;      ///< an inlier's symmetric transfer error is below 2 · inlier_px²
-  double confidence = 0.999;   ///< stop when a better sample is this unlikely
-  int max_iterations = 10000;  ///< 0.999 sure with 83 % wrong
+  double confidence = 0.999;   ///< probability that no better sample exists at which the search stops
+  int max_iterations = 10000;  ///< enough for confidence 0.999 when 83 % of the pairs are wrong
   std::uint64_t seed = 1;
   bool precision = true;  ///< compute rms_px and covariance as well
 };
@@ -64,10 +64,10 @@ struct RobustHomography {
 /// RANSAC with local optimisation and MSAC's cost. Memory is taken once for `max_pairs`; pairs beyond that
 /// many are left out.
 ///
-/// Pure but for its work space: every call starts from the seed and reads no clock, so the same pairs give
-/// the same result. `max_iterations` alone bounds the time.
+/// Every call starts from the seed and reads no clock, so the same pairs give the same result; only work
+/// space is kept between calls. `max_iterations` alone bounds the time.
 ///
-/// The plane is taken to be opaque and in front of both cameras: a mirrored map is never returned.
+/// The plane is assumed to be opaque and in front of both cameras: a mirrored homography is never returned.
 class HomographyEstimator {
  public:
   HomographyEstimator(int max_pairs, const RansacSettings& settings);

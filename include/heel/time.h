@@ -1,7 +1,7 @@
 /// \file
 /// Time inside heel: one monotonic clock, passed as an argument, never read by a stage.
 ///
-/// - Units: nanoseconds as signed 64-bit integers; the origin is the clock's own.
+/// - Units: nanoseconds as signed 64-bit integers, from the origin of the clock.
 #pragma once
 
 #include <cstdint>

@@ -12,13 +12,13 @@ struct VisionConfig {
   int max_features = 1000;
   double match_ratio = 0.8;
   double inlier_px = 3.0;
-  int min_inliers = 8;          ///< four or five are garbage
-  double min_certainty = 0.05;  ///< below: not found at all
+  int min_inliers = 8;          ///< wrong homographies reach four or five
+  double min_certainty = 0.05;  ///< below it the shirt counts as not found
   int ransac_iterations = 5000;
   double distance_min_m = 0.8;             ///< nearest at which the target is looked for
   double distance_max_m = 6.0;             ///< farthest
-  bool tracking = true;                    ///< look first where the last frame says the target must be
-  double tracking_rate_rad_s = 1.5;        ///< how fast the target may cross the view
+  bool tracking = true;                    ///< search first where the last frame predicts the target
+  double tracking_rate_rad_s = 1.5;        ///< largest rate at which the target crosses the view
   double back_curvature_1_m = 1.5;         ///< κ: the back's sides lie κ X² behind its middle; 0: a plane
   double back_curvature_sigma_1_m = 0.33;  ///< builds differ by this, one standard deviation
   double back_shape_sigma_m = 0.002;  ///< how far folds and breath have moved the back since it was taught

@@ -17,9 +17,9 @@ struct CameraConfig {
   int height_px = 480;
   double rate_hz = 30.0;
   double exposure_ms = 0.0;     ///< 0: automatic
-  double focus = -1.0;          ///< driver units; −1: as it is
+  double focus = -1.0;          ///< driver units; −1: unchanged
   double gain = -1.0;           ///< driver units; −1: automatic
-  double file_speed = 1.0;      ///< file source: times its own rate; 0: each frame as soon as it is requested
+  double file_speed = 1.0;      ///< file source: factor on its rate; 0: each frame as soon as it is requested
   std::string at_end = "stop";  ///< after a file source's last frame: stop (come to rest and exit) or loop
   // Mount: the camera's optical centre in the robot frame.
   double mount_x_m = 0.15;
@@ -30,7 +30,7 @@ struct CameraConfig {
 
 struct TargetConfig {
   std::string shirt = "shirt.heel";  ///< the template file
-  double distance_m = 0.0;           ///< overrides the template's distance; 0: as the template says
+  double distance_m = 0.0;           ///< in place of the template's distance; 0: the template's
 };
 
 struct EstimateConfig {
@@ -50,7 +50,8 @@ struct ControlConfig {
   double gain_yaw_1_s = 0.8;    ///< yaw rate from yaw error; control/proportional_law.h says how it is chosen
   double setpoint_t_z_m = 0.0;  ///< added to the template's distance: + follows from farther away
   double setpoint_t_x_m = 0.0;  ///< + drives to the left of the person
-  double setpoint_yaw_rad = 0.0;  ///< + moves round to the right of the person, facing them
+  double setpoint_yaw_rad =
+      0.0;  ///< + moves the robot around the person to their right side, still facing them
   double deadband_distance_m = 0.05;
   bool reverse = false;           ///< may drive backwards when the person comes nearer
   double bearing_max_rad = 0.35;  ///< largest angle between the person and the optical axis
@@ -59,7 +60,7 @@ struct ControlConfig {
 
 struct SupervisorConfig {
   double certainty_follow = 0.1;  ///< following starts at this certainty …
-  double certainty_drop = 0.06;   ///< … and goes on at this one (hysteresis)
+  double certainty_drop = 0.06;   ///< … and continues while it is at least this (hysteresis)
   int frames_to_follow = 3;       ///< good frames in a row before the robot moves
   double target_timeout_s = 0.4;  ///< no good frame for this long: target lost
   double frame_timeout_s = 0.3;   ///< no frame for this long: camera silent
@@ -73,8 +74,8 @@ struct GateConfig {
   double yaw_rate_max_rad_s = 1.0;
   double acceleration_m_s2 = 0.6;
   double deceleration_m_s2 = 1.5;
-  double separation_m = 0.8;  ///< the robot drives no nearer to the person, camera to back
-  double clearance_m = 0.4;   ///< nor nearer to a sonar obstacle in its way, bumper to echo
+  double separation_m = 0.8;  ///< the robot does not drive nearer to the person than this, camera to back
+  double clearance_m = 0.4;   ///< nor nearer than this to a sonar obstacle in its way, bumper to echo
   double yaw_acceleration_rad_s2 = 2.5;
   double command_lifetime_s = 0.2;
 };
@@ -100,8 +101,9 @@ struct TelemetryConfig {
 
 struct RuntimeConfig {
   std::string log_level = "info";
-  std::string ready_after = "all";  ///< all (robot and first frame), robot, start: when systemd is told READY
-  bool realtime = true;             ///< request SCHED_FIFO and mlockall; without them, warn and go on
+  std::string ready_after =
+      "all";             ///< when systemd receives READY: all (robot and first frame), robot, start
+  bool realtime = true;  ///< request SCHED_FIFO and mlockall; when refused, warn and continue
   int priority_control = 60;
   int priority_capture = 50;
   int priority_vision = 40;

@@ -1,1 +1,1 @@
-"""One case a file: what it shows in the first line, and run(bench)."""
+"""One case in each file: its first line says what it shows; run(bench) runs it."""

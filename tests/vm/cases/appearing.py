@@ -1,4 +1,4 @@
-"""heeld starts with camera and robot absent, and is ready only when both have come."""
+"""heeld starts without camera and robot, and is ready only when both are connected."""
 from vm.service import START_S
 
 VIVID = "modprobe vivid n_devs=1 node_types=0x1 num_inputs=1 input_types=0"
@@ -28,7 +28,7 @@ def run(bench):
 
 
 def standing(bench):
-    """What this case leaves behind, made if it is not there: heeld follows vivid's picture, the robot behind the adapter."""
+    """The state after this case, set up where needed: heeld follows vivid's picture, the robot is behind the adapter."""
     if bench.service.state() == "active":
         return
     bench.guest.run(VIVID)

@@ -1,4 +1,4 @@
-"""The FTDI adapter falls out while the robot moves: its watchdog stops it; plugged in again, it is found by its name."""
+"""The FTDI adapter is unplugged while the robot moves: the robot's watchdog stops it; plugged in again, the adapter is found by its name."""
 from cases.appearing import standing
 
 

@@ -1,4 +1,4 @@
-"""The loop is closed through the kernel: heel-sim draws what its robot's camera sees, v4l2loopback is the camera, a 16550 the cable."""
+"""A closed loop through the kernel: heel-sim renders its robot's camera, v4l2loopback is the camera, a 16550 is the serial line."""
 import csv
 import io
 import json
@@ -12,7 +12,7 @@ SCENARIO = os.path.join(os.path.dirname(__file__), "..", "vm", "slow_walk.toml")
 TEACH_M = "1.5"
 PATH_M = 4.98  # of the person, in 50 s; then they stand
 WALK_S = 120.0
-# The stroll is slow because vision takes the emulator half a second and more: pictures are fresh for three.
+# The person walks slowly, because vision takes half a second or more in the emulator: frames count as fresh for 3 s.
 FRESH_S = 3.0
 
 
@@ -49,7 +49,7 @@ def person_path_m(robot):
 
 
 def check(bench, robot):
-    """By the simulator's truth, with the command that reports on any run; its picture stays in the run's folder."""
+    """Checks the run by the simulator's truth with `heel report`; the figures stay in the run's folder."""
     folder = os.path.join(bench.machine.folder, "closed_loop")
     os.makedirs(folder, exist_ok=True)
     for name in ("ticks.csv", "poses.csv"):
@@ -58,7 +58,7 @@ def check(bench, robot):
     with open(os.path.join(folder, "truth.csv"), "w") as file:
         file.write(robot.truth())
     heel = os.path.join(os.path.dirname(robot.heel_sim), "heel")
-    # It also says that no frame was seen during the walk: the guest has a clock of its own.
+    # It also reports that no frame was seen during the walk, because the guest has another clock.
     report = subprocess.run([heel, "report", folder, "--json"], check=False, capture_output=True, text=True).stdout
     told = json.loads(report)
     driven_m, rms_m, least_m = told["robot_path_m"], told["following_rms_m"], told["separation_m"]["min"]

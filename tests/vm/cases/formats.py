@@ -1,4 +1,4 @@
-"""Every pixel format heel takes is followed; a control is set and read back; what cannot do is refused with the reason."""
+"""heeld follows with every pixel format that heel reads; a control is set and read back; what the camera cannot do is refused with the reason."""
 from cases.appearing import VIVID
 from vm.service import START_S
 

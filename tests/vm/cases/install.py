@@ -1,4 +1,4 @@
-"""The .deb installs on a fresh machine: disabled, stopped, account and device rules in place; a template is taught there."""
+"""The .deb installs on a fresh machine: the service is disabled and stopped, account and device rules exist; a template is taught there."""
 import os
 
 PICTURE_SIZE = (320, 180)
@@ -36,7 +36,7 @@ def run(bench):
 
 
 def grab(bench, device):
-    """A picture of the camera as a PGM."""
+    """Returns a picture of the camera as a PGM."""
     width_px, height_px = PICTURE_SIZE
     bench.guest.run(f"v4l2-ctl -d {device} --set-fmt-video=width={width_px},height={height_px},pixelformat=GREY "
                     "--set-parm=10 --stream-mmap --stream-skip=3 --stream-count=1 --stream-to=/mnt/share/picture.grey")

@@ -1,4 +1,4 @@
-"""libcamera, by its test camera vimc: its pictures are followed; its driver lets go of it and takes it again; others' names are refused."""
+"""libcamera with its test camera vimc: heeld follows its pictures; its driver is unbound and bound again; unknown names are refused."""
 from cases.install import CAMERA_INFO
 from vm.bench import CAMERA_REST_S
 from vm.service import START_S
@@ -30,11 +30,11 @@ def run(bench):
     service.wait_until_ready()
     opened = service.events("camera opened", begin_s)
     bench.check(any(f"{SIZE['width_px']}x{SIZE['height_px']}-" in line for line in opened), f"a format is agreed on: {opened}")
-    # libcamera cannot let go of a camera that failed: heeld ends in order, and systemd starts it again.
+    # libcamera cannot release a camera that failed: heeld shuts down normally, and systemd starts it again.
     bench.fault("libcamera, vimc", "unbound, bound", robot, cause=f"echo vimc.0 >{DRIVER}/unbind", cure=f"echo vimc.0 >{DRIVER}/bind",
                 rest_within_s=CAMERA_REST_S)
     journal = service.journal_since(begin_s)
-    bench.check("only in a new process" in journal and "heeld stopped" in journal, "heeld has ended in order, with the reason")
+    bench.check("only in a new process" in journal and "heeld stopped" in journal, "heeld has shut down normally, with the reason")
     service.stop()
     guest.run("modprobe -r vimc")
 

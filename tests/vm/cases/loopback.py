@@ -1,4 +1,4 @@
-"""A v4l2loopback device: the program that feeds it ends while the robot moves, and is started again."""
+"""A v4l2loopback device: the program that writes its frames ends while the robot moves, and is started again."""
 from vm.bench import CAMERA_REST_S
 
 DEVICE = "/dev/video40"

@@ -1,4 +1,4 @@
-"""A newcomer's day: install, plug camera and robot in, calibrate, teach, check, start, watch, tune a gain, stop, remove."""
+"""All steps of a new user: install, plug camera and robot in, calibrate, teach, check, start, watch, tune a gain, stop, remove."""
 import os
 import re
 
@@ -27,7 +27,7 @@ def run(bench):
     bench.check("wrote" in told, "the shirt is taught")
     told = guest.run("heel pose --template /etc/heel/shirt.heel --camera-info /etc/heel/camera.yaml /etc/heel/picture.pgm")
     bench.check("found in 1 of 1" in told, "and found in the picture")
-    # Of the file as the package brings it, only what differs here.
+    # Changes only what differs here from the package's configuration file.
     guest.run("sed -i -e 's/^width_px = .*/width_px = 320/' -e 's/^height_px = .*/height_px = 180/' -e 's/^rate_hz = 30.*/rate_hz = 10.0/' "
               "-e 's/^octaves = .*/octaves = 1/' -e 's/^max_features = .*/max_features = 150/' "
               "-e 's/^frame_timeout_s = .*/frame_timeout_s = 1.5/' -e 's/^target_timeout_s = .*/target_timeout_s = 1.5/' "

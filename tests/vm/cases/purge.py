@@ -1,4 +1,4 @@
-"""Removing keeps the configuration, purging leaves nothing."""
+"""Removing the package keeps the configuration, purging it leaves nothing."""
 
 
 def run(bench):

@@ -1,4 +1,4 @@
-"""SIGHUP: systemd is told RELOADING with the time, and READY again; a bad file changes nothing."""
+"""SIGHUP: systemd receives RELOADING with the time, and READY again; a bad file changes nothing."""
 from cases.appearing import standing
 
 

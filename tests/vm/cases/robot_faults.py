@@ -1,4 +1,4 @@
-"""What goes wrong on the robot's side of the cable: noise, silence, a reset, left open at another rate; and another adapter."""
+"""Faults of the robot and its line: noise, silence, a reset, a session left open at another rate; and another adapter."""
 from cases.appearing import VIVID
 from vm.bench import SILENCE_REST_S
 from vm.service import START_S
@@ -56,7 +56,7 @@ def off_and_on(bench, plug):
 
 
 def other_adapter(bench, machine, plugged):
-    """The robot's adapter is known by its serial number, and another one of the same make is not taken for it."""
+    """The robot's adapter is recognised by its serial number; another adapter of the same model is not used."""
     guest = bench.guest
     guest.run(f"mkdir -p {ADAPTERS} && touch {ADAPTERS}/HEEL0001 && udevadm trigger --subsystem-match=tty")
     machine.unplug_ftdi(plugged)

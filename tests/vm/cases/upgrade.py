@@ -1,11 +1,11 @@
-"""A newer package comes while the robot moves: it stops, and what was changed of the configuration is kept, though its default changed."""
+"""A newer package is installed while the robot moves: the robot stops, and the user's changes of the configuration are kept although its default changed."""
 import os
 import subprocess
 
 from cases.appearing import standing
 
-CHANGED = "# a line that somebody wrote here"
-NEW_DEFAULT = "# a line that came with a newer package"
+CHANGED = "# a line written by the user"
+NEW_DEFAULT = "# a line of the newer package"
 
 
 def run(bench):
@@ -19,7 +19,7 @@ def run(bench):
     bench.check(guest.run("dpkg-query -W -f '${Version}' heel").endswith("+newer"), "the newer package is installed")
     bench.check(bench.service.state() == "inactive", "the service waits for a person to start it")
     bench.check(guest.run("cat /etc/heel/heel.toml") == before, "the configuration is as it was")
-    bench.check(NEW_DEFAULT in guest.run("cat /etc/heel/heel.toml.dpkg-dist"), "and the newer default stands beside it")
+    bench.check(NEW_DEFAULT in guest.run("cat /etc/heel/heel.toml.dpkg-dist"), "the newer default is beside it")
     bench.service.start()
     bench.service.wait_until_ready()
     bench.wait_until_following(robot)
@@ -29,7 +29,7 @@ def run(bench):
 
 
 def newer_package(bench):
-    """The package again with a higher version and another default configuration; its name in the shared folder."""
+    """Makes the package with a higher version and another default configuration; returns its name in the shared folder."""
     folder, name = os.path.join(bench.machine.folder, "newer"), "newer.deb"
 
     def edit(path, text):

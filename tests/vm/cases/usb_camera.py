@@ -1,4 +1,4 @@
-"""The kernel's uvcvideo driver and a 16550: the robot follows; the USB camera stalls, falls out, comes back."""
+"""The kernel's uvcvideo driver and a 16550: the robot follows; the USB camera stalls, is unplugged and plugged in again."""
 from vm.bench import CAMERA_REST_S
 
 ATTACH = "systemd-run -q --collect --unit=usb-camera /usr/local/lib/heel-vm/usb_camera.py /etc/heel/picture.pgm 10"

@@ -1,4 +1,4 @@
-"""Everything that vivid can do wrong: refused calls, damaged and dropped buffers, stalls, counters that wrap, a dead device."""
+"""Every fault that vivid can produce: refused calls, damaged and dropped buffers, stalls, counters that wrap, a lost device."""
 from cases.appearing import VIVID
 from vm.bench import CAMERA_REST_S
 
@@ -40,7 +40,7 @@ def run(bench):
     row = bench.blip("vivid", "half of the buffers dropped", robot, control("percentage_of_dropped_buffers=50"),
                      cure=control("percentage_of_dropped_buffers=0"))
     bench.check(row["frames_dropped_by_driver"] >= FEWEST_DROPPED, f"at least {FEWEST_DROPPED} of them are counted")
-    # Counters and clocks that begin shortly before their end, from the next start of streaming on.
+    # Counters and clocks that start shortly before they wrap, when streaming starts the next time.
     lost = told_and_counted("the sequence number wraps", f"{control('wrap_sequence_number=1')} && {FATAL}", "camera opened",
                             cure=control("wrap_sequence_number=0"), lasts_s=WRAP_S)
     bench.check(lost < WRAP_S * RATE_HZ, "and no frames that never were")

@@ -1,4 +1,4 @@
-"""The camera's driver lets go of it while the robot moves, and takes it again; then the service is stopped."""
+"""The camera's driver is unbound while the robot moves, and bound again; then the service is stopped."""
 from cases.appearing import standing
 from vm.bench import CAMERA_REST_S
 

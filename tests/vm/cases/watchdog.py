@@ -1,4 +1,4 @@
-"""systemd's watchdog is fed by the control loop's health: its thread alone is held, and the service is killed and restarted."""
+"""systemd's watchdog is fed only while the control loop runs: its thread alone is held, and the service is killed and restarted."""
 from cases.appearing import VIVID
 
 RESTARTS = "systemctl show --value -p NRestarts heeld"

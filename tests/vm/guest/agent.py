@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The guest's side of the suite: a shell for the host over a virtio-serial port.
+"""The guest's side of the tests: a shell for the host over a virtio-serial port.
 
 One JSON object a line each way: {"id", "command", "timeout_s"} in, {"id", "status", "output"} out; status is the shell's,
 or null when the command was still running after timeout_s and was ended.
@@ -50,7 +50,7 @@ def main():
                 continue
             *lines, waiting = (waiting + data).split(b"\n")
             for line in lines:
-                # Each in its own thread: a long command does not keep a short one waiting.
+                # Each in its own thread, so that a short command need not wait for a long one.
                 threading.Thread(target=answer, args=(port, lock, json.loads(line)), daemon=True).start()
 
 

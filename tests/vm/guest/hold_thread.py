@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Holds one thread of a process, and only that one: what a control loop that has hung looks like from outside.
+"""Holds one thread of a process, and only that one, as if the control loop hung.
 
   hold_thread.py PID THREAD-NAME SECONDS
 """

@@ -28,7 +28,7 @@ YUY2 = b"YUY2" + bytes.fromhex("00001000800000aa00389b71")
 
 
 def read_pgm(path):
-    """Width, height and grey bytes of a binary PGM with 8 bits."""
+    """Returns width, height and grey bytes of a binary PGM with 8 bits."""
     with open(path, "rb") as file:
         data = file.read()
     kind, width, height, depth = data.split(maxsplit=4)[:4]

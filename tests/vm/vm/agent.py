@@ -1,4 +1,4 @@
-"""The host's end of the guest's shell (guest/agent.py)."""
+"""The host's side of the guest's shell (guest/agent.py)."""
 import json
 import socket
 import threading
@@ -33,7 +33,7 @@ class Agent:
         self._take(0, "the guest's agent", timeout_s)
 
     def run(self, command, timeout_s=wait.LONGEST_S, check=True):
-        """The command's output (both streams). With check, CommandFailed unless it succeeds."""
+        """Returns the command's output (both streams). With check, raises CommandFailed when the command fails."""
         status, output = self.status_of(command, timeout_s)
         if check and status != 0:
             how = "does not end" if status is None else f"ends with status {status}"

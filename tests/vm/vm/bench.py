@@ -1,4 +1,4 @@
-"""What a case of the suite works with: the machine, the robots, heeld's service; checks; measured faults."""
+"""What a case uses: the machine, the robots, heeld's service; checks; measured faults."""
 import time
 
 from . import wait
@@ -6,14 +6,14 @@ from .service import FRAME_TIMEOUT_S, Service
 
 SPEED_M_S = 0.6
 DECELERATION_M_S2 = 1.5
-# What the emulator may add to what heeld does: both processors of the machine are the emulator's, the simulator's and others'.
+# The emulator may add this to heeld's times: it shares both processors with the simulator and other programs.
 EMULATOR_S = 1.5
 STOPPING_S = SPEED_M_S / DECELERATION_M_S2
 CAMERA_REST_S = FRAME_TIMEOUT_S + STOPPING_S + EMULATOR_S
 SILENCE_REST_S = 0.5 + STOPPING_S + EMULATOR_S  # sip_timeout_s
-WATCHDOG_REST_S = 2.0 + STOPPING_S + 0.3        # after the last byte the robot heard: nothing of it is emulated
+WATCHDOG_REST_S = 2.0 + STOPPING_S + 0.3        # after the last byte that the robot received: no part of it is emulated
 RECOVERY_S = 60.0
-AFTERWARDS_S = 1.0  # recorded beyond the recovery
+AFTERWARDS_S = 1.0  # recorded after the recovery
 
 
 class CheckFailed(Exception):
@@ -25,7 +25,7 @@ class Bench:
         self.machine = machine
         self.guest = machine.agent
         self.service = Service(machine)
-        self.robots = robots        # by the device of the guest they stand behind: "16550", "FTDI"
+        self.robots = robots        # by the guest's device to which they are connected: "16550", "FTDI"
         self.new_robot = new_robot  # (name, faults) → another simulated robot
         self.package = package      # the .deb's path in the guest
         self.say = say
@@ -43,7 +43,7 @@ class Bench:
         self.say(f"    ok: {what}")
 
     def wait(self, what, condition, timeout_s=wait.LONGEST_S, step_s=0.2):
-        """As a check that may take a while."""
+        """A check that waits until the condition holds."""
         begin_s = time.monotonic()
         wait.until(what, condition, timeout_s, step_s)
         self.say(f"    ok: {what} ({time.monotonic() - begin_s:.1f} s)")
@@ -54,13 +54,13 @@ class Bench:
         self.wait(f"{robot.name} is at speed", lambda: robot.speed_m_s() > 0.5 * speed_m_s, RECOVERY_S)
 
     def in_guest(self, command):
-        """Runs it and returns the guest's CLOCK_MONOTONIC just before, seconds."""
+        """Runs the command and returns the guest's CLOCK_MONOTONIC just before it, in seconds."""
         return float(self.guest.run(f"cut -d' ' -f1 /proc/uptime; {command}").split("\n")[0])
 
     def fault(self, device, name, robot, cause, cure, rest_within_s=None):
-        """A fault that must bring the moving robot to rest, and whose end must let it move again; returns the table's row.
+        """A fault that must bring the moving robot to rest; after its end the robot must move again. Returns the table's row.
         cause and cure are commands for the guest or functions. Times are taken before them and by the simulator's truth, so they are upper bounds.
-        Without rest_within_s it is the robot's watchdog that must stop it."""
+        Without rest_within_s the robot's watchdog must stop it."""
         self.say(f"  {device}: {name}")
         self.wait_until_following(robot)
         caused_s, begin_s = time.monotonic(), self._do(cause)
@@ -80,7 +80,7 @@ class Bench:
         return self._record(device, name, begin_s, rested_s - caused_s, moved_s - cured_s)
 
     def blip(self, device, name, robot, cause, cure=None, rest_at_most_s=None, lasts_s=4.0):
-        """A fault that needs nothing but heeld to be over; the robot may stop for it or go on. Returns the table's row."""
+        """A fault from which heeld recovers alone; the robot may stop or continue. Returns the table's row."""
         self.say(f"  {device}: {name}")
         self.wait_until_following(robot)
         caused_s, begin_s = time.monotonic(), self._do(cause)
@@ -92,11 +92,11 @@ class Bench:
         if rested_s is not None:
             moved_s = wait.until(f"{robot.name} moves again", lambda: robot.moved_since(rested_s), RECOVERY_S)
         self.check(rest_at_most_s is None or rested_s is None or rested_s - caused_s <= rest_at_most_s,
-                   "goes on" if rested_s is None else f"at rest after {rested_s - caused_s:.2f} s and moves again")
+                   "continues" if rested_s is None else f"at rest after {rested_s - caused_s:.2f} s and moves again")
         return self._record(device, name, begin_s, rested_s and rested_s - caused_s, moved_s and moved_s - rested_s)
 
     def timed_fault(self, device, name, robot, begin_s, lasts_s, rest_at_most_s=None):
-        """A fault that the simulated robot was started with: begin_s seconds after its start, for lasts_s. Returns the row."""
+        """A fault given to the simulated robot at its start: it begins begin_s seconds later and lasts lasts_s. Returns the row."""
         self.say(f"  {device}: {name}")
         self.wait_until_following(robot)
         caused_s = robot.at(begin_s)
@@ -121,12 +121,12 @@ class Bench:
 
     def _record(self, device, name, begin_s, rest_s, recovery_s):
         end_s = self.in_guest("true") + AFTERWARDS_S
-        wait.until("the recording has it", lambda: self.service.recorded_until() > end_s, step_s=0.5)
+        wait.until("the recording contains the fault", lambda: self.service.recorded_until() > end_s, step_s=0.5)
         row = {"device": device, "fault": name, "rest_s": rest_s, "recovery_s": recovery_s,
                **self.service.losses(begin_s, end_s)}
         row["events"] = self.service.events("^(?!deadline)", begin_s)  # they say why
         self.rows.append(row)
-        recovery = "went on" if recovery_s is None else f"moves again after {recovery_s:.2f} s"
+        recovery = "continued" if recovery_s is None else f"moves again after {recovery_s:.2f} s"
         self.say(f"    ok: {recovery}; {row['without_picture_s']} s without a picture, {row['without_robot_s']} s without "
                  f"the robot; {row['frames_captured']} frames, {row['frames_dropped_by_driver']} more lost by the driver, camera "
                  f"opened again {row['camera_reopened']} times, {row['bytes_discarded']} bytes discarded")

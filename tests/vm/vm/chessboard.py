@@ -15,7 +15,7 @@ def _rotation(tilt_rad, turn_rad, roll_rad):
 
 
 def _grey(x_m, y_m):
-    """The board about its middle, white round it, on a grey wall."""
+    """The brightness of the board, its white margin and the grey wall at a point; the origin is the board's middle."""
     column, row = x_m / SQUARE_M + (COLUMNS + 1) / 2, y_m / SQUARE_M + (ROWS + 1) / 2
     if 0 <= column < COLUMNS + 1 and 0 <= row < ROWS + 1:
         return 20 if (int(column) + int(row)) % 2 else 230
@@ -24,7 +24,7 @@ def _grey(x_m, y_m):
 
 
 def picture(width_px, height_px, focal_px, pose):
-    """pose: tilt, turn, roll in rad; the middle's x, y, z in m. A PGM."""
+    """Returns a PGM. pose: tilt, turn, roll in rad; x, y, z of the board's middle in m."""
     R, (tx, ty, tz) = _rotation(*pose[:3]), pose[3:]
     # A ray d meets the board's plane z = 0 where R^T (s d - t) has no third component.
     normal = [R[0][2], R[1][2], R[2][2]]
@@ -45,7 +45,7 @@ def picture(width_px, height_px, focal_px, pose):
 
 
 def poses():
-    """Tilted each way, in the picture's corners too."""
+    """Boards tilted in every direction, also in the picture's corners."""
     return [(0.0, 0.0, 0.0, 0.0, 0.0, 0.36), (0.5, 0.0, 0.05, 0.0, 0.0, 0.38), (-0.5, 0.0, -0.05, 0.0, 0.0, 0.38),
             (0.0, 0.5, 0.0, 0.0, 0.0, 0.38), (0.0, -0.5, 0.1, 0.0, 0.0, 0.38), (0.3, 0.4, 0.0, 0.08, 0.02, 0.45),
             (-0.3, 0.4, 0.0, -0.08, 0.02, 0.45), (0.3, -0.4, 0.0, 0.08, -0.02, 0.45), (-0.3, -0.4, 0.1, -0.08, -0.02, 0.45),

@@ -1,6 +1,6 @@
 """The virtual robot computer: two cores, a 16550, USB, a folder shared with the host.
 
-Emulated, never KVM: that may open and yet crawl. The processor is one without AVX: an emulator is slower with it."""
+Always emulated: KVM may be present and still be very slow. The processor has no AVX, which the emulator runs slowly."""
 import os
 import subprocess
 
@@ -14,7 +14,7 @@ TTY_S1 = "robot-line"  # QEMU's name of the 16550's other end
 
 class Machine:
     """`folder` gets the sockets, the console's log and the shared folder; `image` is build/vm; `tty_s1` is the path of the pty
-    that the guest's /dev/ttyS1 is joined to."""
+    at the other end of the guest's /dev/ttyS1."""
 
     def __init__(self, image, folder, tty_s1):
         self.folder = folder
@@ -79,7 +79,7 @@ class Machine:
             return False
 
     def stop(self):
-        """Ends at once: the disk is a throw-away snapshot."""
+        """Ends at once: the disk is a temporary snapshot."""
         self._process.kill()
         self._process.wait()
 

@@ -1,4 +1,4 @@
-"""What heeld recorded of a stretch of time: how long it went without a picture, without the robot; frames and bytes lost."""
+"""What heeld recorded in an interval: the longest time without a picture and without the robot; frames and bytes lost."""
 import csv
 import io
 
@@ -19,7 +19,7 @@ def _grown(rows, column):
 
 
 def _since(text, begin_s, end_s):
-    """As _rows, for a file that has a line only where something has changed: with the newest line before begin_s, or zeros."""
+    """As _rows, for a file with a line for each change: with the newest line before begin_s, or zeros."""
     rows = list(csv.DictReader(io.StringIO(text)))
     before = [row for row in rows if float(row["t_s"]) < begin_s][-1:]
     return (before or [dict.fromkeys(rows[0], 0)] if rows else []) + _rows(text, begin_s, end_s)

@@ -1,4 +1,4 @@
-"""The simulated P3-AT on the host: heel-sim behind a pty, and the truth it writes."""
+"""The simulated P3-AT on the host: heel-sim at a pty, and the truth that it writes."""
 import os
 import subprocess
 import time
@@ -11,10 +11,10 @@ RESTING_RAD_S = 0.002
 
 
 class Robot:
-    """heel-sim in real time. Times in and out of here are seconds of the host's CLOCK_MONOTONIC."""
+    """heel-sim in real time. All times are seconds of the host's CLOCK_MONOTONIC."""
 
     def __init__(self, heel_sim, folder, name, faults=(), boot_baud=9600, world=()):
-        """`world`: options that give it one, with a person and a camera."""
+        """`world`: options for a world with a person and a camera."""
         self.name = name
         self.pty = os.path.join(folder, f"{name}.pty")
         self._truth = os.path.join(folder, f"{name}.csv")
@@ -74,13 +74,13 @@ class Robot:
         return self._since(t_s, lambda row: abs(row[1]) > MOVING_M_S)
 
     def last_heard(self, before_s):
-        """When the last bytes before that time came."""
+        """When the last bytes before that time arrived."""
         with open(self._wire) as file:
             times_s = [float(line.split(" ", 1)[0]) for line in file if line.endswith("\n")]
         return max(t_s for t_s in times_s if t_s <= before_s)
 
     def at(self, t_s):
-        """A time since the simulator's start, as faults are given, on the host's clock."""
+        """Converts a time since the simulator's start, as for faults, to the host's clock."""
         return self._zero_s + t_s
 
     def speed_m_s(self):
@@ -93,7 +93,7 @@ class Robot:
         return self.rows()[-1][4] > 0.5
 
     def truth(self):
-        """All of the truth so far, as the file's text."""
+        """The text of the truth file so far."""
         with open(self._truth) as file:
             text = file.read()
         return text[:text.rfind("\n") + 1]
@@ -108,7 +108,7 @@ class Robot:
 
 
 def rows_from(rows, t_s):
-    """The rows from t_s on, in order of time, without looking through all that came before."""
+    """The rows from t_s on, in order of time, without a search through the earlier rows."""
     first = len(rows)
     while first > 0 and rows[first - 1][0] >= t_s:
         first -= 1

@@ -34,7 +34,7 @@ directory = "/var/lib/heel"
 {more}"""
 DEFAULTS = {
     "width_px": 320, "height_px": 180, "format": "auto", "more_camera": "", "octaves": 1, "max_features": 150,
-    "setpoint_t_z_m": -0.6,  # the picture stands still, at the template's distance: the robot always wants nearer
+    "setpoint_t_z_m": -0.6,  # the picture does not move, at the template's distance: the robot always wants to drive nearer
     "bearing_max_rad": 0.35, "info": "camera.yaml", "shirt": "shirt.heel", "frame_timeout_s": FRAME_TIMEOUT_S, "more": "",
 }
 
@@ -55,7 +55,7 @@ class Service:
         self._guest.run(f"cp /mnt/share/{name} /etc/heel/{name}")
 
     def start(self):
-        """Does not wait: READY may be far."""
+        """Does not wait for READY."""
         self._guest.run("systemctl start --no-block heeld")
 
     def wait_until_ready(self):
@@ -77,7 +77,7 @@ class Service:
         return self._guest.status_of(f"journalctl -u heeld -o cat -n {lines} --no-pager")[1]
 
     def journal_since(self, begin_s):
-        """From begin_s (guest's CLOCK_MONOTONIC) on, or up to a second before."""
+        """The journal from begin_s (guest's CLOCK_MONOTONIC) on; it may start up to a second earlier."""
         now_s = float(self._guest.run("cut -d' ' -f1 /proc/uptime"))
         return self._guest.status_of(f"journalctl -u heeld -o cat --no-pager --since=-{int(now_s - begin_s) + 1}s")[1]
 
@@ -95,7 +95,7 @@ class Service:
         return float(self._guest.run("tail -n 1 /var/lib/heel/ticks.csv").split(",", 1)[0] or 0)
 
     def recorded(self, name):
-        """Complete lines of a file of the recording."""
+        """The complete lines of a file of the recording."""
         self._guest.run(f"cp /var/lib/heel/{name} /mnt/share/{name}")
         with open(os.path.join(self._machine.share, name)) as file:
             text = file.read()

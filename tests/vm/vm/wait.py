@@ -1,4 +1,4 @@
-"""Waiting that always ends."""
+"""Waiting with a time-out."""
 import time
 
 LONGEST_S = 60.0
@@ -9,7 +9,7 @@ class Timeout(Exception):
 
 
 def until(what, condition, timeout_s=LONGEST_S, step_s=0.05):
-    """The first true value of condition(); Timeout names `what` otherwise."""
+    """Returns the first true value of condition(); otherwise raises Timeout, which names `what`."""
     give_up_s = time.monotonic() + timeout_s
     while True:
         value = condition()
