@@ -90,7 +90,7 @@ double FrameClock::oldest_view_s() const {
 }
 
 FrameCommands mean_by_frame(const std::vector<SentVelocity>& sent, const FrameClock& clock) {
-  constexpr double kRoundingFrames = 1e-6;  // a tick on the frame's own time is after it
+  constexpr double kRoundingFrames = 1e-6;  // a tick at the time of a frame comes after the frame
   FrameCommands mean;
   std::map<int, int> counts;
   for (const SentVelocity& one : sent) {

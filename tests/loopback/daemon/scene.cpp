@@ -23,7 +23,7 @@ constexpr double kFocal_px = 600.0;
 constexpr double kTemplateDistance_m = 2.0;
 const cv::Rect kBack(220, 120, 200, 240);  // in the reference view, about its centre
 
-/// Blotches of many sizes on grey: features at every scale.
+/// Spots of many sizes on grey: features at every scale.
 cv::Mat reference_view() {
   cv::Mat view(kHeight_px, kWidth_px, CV_8U, cv::Scalar(128));
   cv::RNG random(42);
@@ -37,7 +37,7 @@ cv::Mat reference_view() {
   return view;
 }
 
-/// The same back farther away: the plane z = d seen from a camera that stands back along z.
+/// The same back farther away: the plane z = d, seen from a camera moved back along z.
 cv::Mat seen_from(const cv::Mat& reference, double distance_m) {
   const double s = kTemplateDistance_m / distance_m;
   const double cx = (kWidth_px - 1) / 2.0, cy = (kHeight_px - 1) / 2.0;
@@ -75,14 +75,13 @@ void Scene::write_pictures(int frames, double distance_m) const {
   for (int i = 0; i < frames; ++i) fs::create_symlink(first, path("frames/" + std::to_string(i) + ".png"));
 }
 
-// Sanitizers make vision ten times slower and leave the rest of the behaviour as it is: frames come more
-// slowly then, and count as fresh for longer.
+// Under sanitizers vision is ten times slower: frames come more slowly then, and count as fresh for longer.
 constexpr const char* kRate = kSanitized ? "rate_hz = 5\n" : "rate_hz = 25\n";
 constexpr const char* kSupervisor =
     kSanitized ? "[supervisor]\nframe_timeout_s = 3\ntarget_timeout_s = 3\n" : "";
 
 std::string Scene::write_config(const MoreConfig& more) const {
-  // Every key that is not named here stands at its default.
+  // Every key that is not named here has its default.
   return write_text(path("heel.toml"),
                     "[camera]\nsource = \"file:frames\"\ninfo = \"camera.yaml\"\n" + std::string(kRate) +
                         more.camera + kSupervisor +
@@ -111,7 +110,7 @@ std::vector<Truth> all_truth(const std::string& csv_path) {
   std::string header, row;
   std::getline(rows, header);
   std::vector<Truth> truth;
-  // The last line may be half written: a complete one is followed by a newline.
+  // The last line may be incomplete: a complete line ends with a newline.
   while (std::getline(rows, row) && !rows.eof()) truth.push_back(row_of(header, row));
   return truth;
 }
@@ -125,7 +124,7 @@ Truth newest_truth(const std::string& csv_path) {
   const std::streamoff size = file.tellg();
   if (size > kTail_bytes) {
     file.seekg(size - kTail_bytes);
-    std::getline(file, row);  // the first is cut
+    std::getline(file, row);  // the first row is incomplete
   } else {
     file.seekg(static_cast<std::streamoff>(header.size()) + 1);
   }
