@@ -7,9 +7,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/angles.h"
-#include "evaluation/reports/csv_table.h"
 #include "evaluation/reports/run_numbers.h"
 #include "files/csv_file.h"
+#include "files/csv_table.h"
 #include "files/template_file.h"
 #include "heel/shirt_template.h"
 

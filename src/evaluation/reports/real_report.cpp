@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "evaluation/reports/csv_table.h"
+#include "files/csv_table.h"
 
 namespace heel::evaluation {
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "core/angles.h"
-#include "evaluation/reports/csv_table.h"
+#include "files/csv_table.h"
 #include "heel/error.h"
 
 namespace heel::evaluation {

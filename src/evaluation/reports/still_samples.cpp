@@ -6,8 +6,8 @@
 
 #include "core/angles.h"
 #include "evaluation/metrics/metrics.h"
-#include "evaluation/reports/csv_table.h"
 #include "files/csv_file.h"
+#include "files/csv_table.h"
 
 namespace heel::evaluation {
 namespace {

@@ -10,12 +10,12 @@
 
 #include "core/angles.h"
 #include "evaluation/experiments/still_image_file.h"
-#include "evaluation/reports/csv_table.h"
 #include "evaluation/reports/error_statistics.h"
 #include "evaluation/reports/fit_rows.h"
 #include "evaluation/reports/paper_comparison.h"
 #include "evaluation/reports/paper_numbers.h"
 #include "evaluation/reports/run_table.h"
+#include "files/csv_table.h"
 #include "support/temporary_folder.h"
 
 namespace heel {
@@ -149,7 +149,7 @@ TEST(ExperimentReport, WritesTheNumbersOfTheGivenRowsAndTheirQuality) {
     EXPECT_THAT(summary, HasSubstr("](" + std::string(name) + ".png)"));
   }
   EXPECT_FALSE(std::filesystem::exists(folder.file("fig3_t_z.csv"))) << "there are no rows of this kind";
-  const evaluation::CsvTable steps(folder.file("fig5_yaw_over_x.csv"));
+  const CsvTable steps(folder.file("fig5_yaw_over_x.csv"));
   ASSERT_EQ(steps.rows(), 9U);
   EXPECT_NEAR(steps.number(8, "commanded"), 0.8, 1e-9);
   EXPECT_EQ(steps.number(8, "found"), 1.0);
@@ -220,7 +220,7 @@ TEST(ErrorStatistics, BinsHaveUnitAndMiddleAndCellsHaveBounds) {
   const auto samples = written_and_read({row_at(0, 1.6, 0.18, 0.02), row_at(0, 1.7, 0.18, 0.04),
                                          row_at(0, 2.1, 0.18, -0.03), row_at(0, 2.1, -1.0, 0.0)});
   evaluation::write_errors(evaluation::error_curves(samples), folder.file("curves.csv"));
-  const evaluation::CsvTable curves(folder.file("curves.csv"));
+  const CsvTable curves(folder.file("curves.csv"));
   EXPECT_EQ(curves.text(0, "condition"), "distance");
   EXPECT_EQ(curves.text(0, "unit"), "m");
   EXPECT_EQ(curves.text(0, "bin"), "1.5 ... 2 m");
@@ -229,7 +229,7 @@ TEST(ErrorStatistics, BinsHaveUnitAndMiddleAndCellsHaveBounds) {
   EXPECT_NEAR(curves.number(0, "yaw_mean_deg"), kDegPerRad * 0.03, 1e-3);
 
   evaluation::write_error_map(samples, folder.file("map.csv"));
-  const evaluation::CsvTable map(folder.file("map.csv"));
+  const CsvTable map(folder.file("map.csv"));
   ASSERT_EQ(map.rows(), 9U * 10U);
   const std::size_t cell = 1 * 10 + 5;
   EXPECT_NEAR(map.number(cell, "distance_from_m"), 1.5, 1e-9);
@@ -261,7 +261,7 @@ evaluation::MetricsCollector straight_run(double beside_m, double heading_rad) {
 TEST(PaperNumbers, TheResponseIsMeasuredFromThePersonsPath) {
   const TemporaryFolder folder;
   evaluation::write_response(folder.path().string(), straight_run(0.6, -0.5));
-  const evaluation::CsvTable rows(folder.file("fig7_response.csv"));
+  const CsvTable rows(folder.file("fig7_response.csv"));
   ASSERT_EQ(rows.rows(), 41U);
   EXPECT_EQ(rows.number(0, "driven_m"), 0.0);
   EXPECT_NEAR(rows.number(40, "driven_m"), 2.0, 1e-6);
@@ -275,10 +275,10 @@ TEST(PaperNumbers, TheRunIsComparedWithOneThatFollowsThePositionOnly) {
   const auto run = straight_run(0.1, 0.0), position_only = straight_run(0.3, 0.0);
   const auto json = [&] { return nlohmann::json::parse(test::read_text(folder.file("fig8_walk.json"))); };
   evaluation::write_walk(folder.path().string(), run, nullptr);
-  EXPECT_EQ(evaluation::CsvTable(folder.file("fig8_walk.csv")).rows(), 41U);
+  EXPECT_EQ(CsvTable(folder.file("fig8_walk.csv")).rows(), 41U);
   EXPECT_FALSE(json().contains("position_only_rms_m"));
   evaluation::write_walk(folder.path().string(), run, &position_only);
-  const evaluation::CsvTable rows(folder.file("fig8_walk.csv"));
+  const CsvTable rows(folder.file("fig8_walk.csv"));
   ASSERT_EQ(rows.rows(), 82U);
   EXPECT_EQ(rows.text(40, "run"), "walk");
   EXPECT_EQ(rows.text(41, "run"), "walk-position-only");

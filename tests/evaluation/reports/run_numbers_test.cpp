@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "core/angles.h"
-#include "evaluation/reports/csv_table.h"
 #include "evaluation/reports/run_files.h"
 #include "evaluation/reports/synthetic_run.h"
+#include "files/csv_table.h"
 
 namespace heel {
 namespace {
 
-using evaluation::CsvTable;
 using test::TemporaryFolder;
 
 class RunNumbers : public ::testing::Test {

@@ -1,14 +1,16 @@
-#include "evaluation/reports/csv_table.h"
+#include "files/csv_table.h"
 
 #include <cstdlib>
 #include <fstream>
 
 #include "heel/error.h"
 
-namespace heel::evaluation {
+namespace heel {
 namespace {
 
-std::vector<std::string> split(const std::string& line) {
+/// The cells of a line, which may end as lines do on Windows.
+std::vector<std::string> split(std::string line) {
+  if (line.ends_with('\r')) line.pop_back();
   std::vector<std::string> cells;
   std::size_t from = 0;
   while (true) {
@@ -43,7 +45,7 @@ std::string CsvTable::place(std::size_t row) const {
 const std::string& CsvTable::text(std::size_t row, const std::string& column) const {
   const auto found = columns_.find(column);
   if (found == columns_.end())
-    throw Error(path_ + ": no column '" + column + "' (expected a recording of heeld or heel-sim)");
+    throw Error(path_ + ": no column '" + column + "' (expected a file of this kind to have it)");
   return cells_[row][found->second];
 }
 
@@ -56,4 +58,4 @@ double CsvTable::number(std::size_t row, const std::string& column) const {
   return value;
 }
 
-}  // namespace heel::evaluation
+}  // namespace heel

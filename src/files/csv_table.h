@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace heel::evaluation {
+namespace heel {
 
 class CsvTable {
  public:
@@ -28,4 +28,4 @@ class CsvTable {
   std::vector<std::vector<std::string>> cells_;
 };
 
-}  // namespace heel::evaluation
+}  // namespace heel
