@@ -1,7 +1,10 @@
-// heel experiment: the paper's experiments, and others, on the rendered world; CSV files for heel report.
+// heel experiment: the paper's experiments, and others, on the rendered world and on pictures of others; CSV
+// files for heel report.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -9,9 +12,13 @@
 
 #include "commands.h"
 #include "config/config_load.h"
+#include "evaluation/experiments/false_detections.h"
+#include "evaluation/experiments/foreign_answers.h"
+#include "evaluation/experiments/planar_matching.h"
 #include "evaluation/experiments/real_images.h"
 #include "evaluation/experiments/still_image_cases.h"
 #include "evaluation/experiments/still_image_file.h"
+#include "evaluation/reports/foreign_tables.h"
 #include "files/image_file.h"
 #include "sim/lockstep/lockstep.h"
 
@@ -19,6 +26,10 @@ namespace heel::cli {
 namespace {
 
 constexpr const char* kReal = "real";
+constexpr const char* kForeign = "foreign";
+constexpr const char* kPlanar = "foreign-planar";
+constexpr const char* kFalse = "foreign-false";
+constexpr const char* kOtherPeople = "/person/one-by-one.mp4";
 constexpr int kVideoStep = 3;  ///< ten frames a second show how certainty rises and falls
 
 struct ExperimentOptions {
@@ -29,7 +40,14 @@ struct ExperimentOptions {
   double teach_distance_m = 1.5;
   int repeats = 0;
   std::string data;
+  std::string foreign_set;
+
+  bool wants(const char* name) const { return std::find(names.begin(), names.end(), name) != names.end(); }
 };
+
+VisionConfig vision_of(const ExperimentOptions& options) {
+  return options.config_file.empty() ? VisionConfig{} : load_config(options.config_file).config.vision;
+}
 
 sim::Scenario base_scenario(const ExperimentOptions& options) {
   if (!options.scenario.empty()) return sim::read_scenario(options.scenario);
@@ -89,22 +107,84 @@ void run_real_image_experiment(const ExperimentOptions& options) {
   std::fflush(stdout);
 }
 
+std::vector<evaluation::ForeignRow> answers_of(const evaluation::ForeignSet& set,
+                                               const evaluation::ForeignTemplates& templates,
+                                               const evaluation::ForeignMethod& method) {
+  const std::size_t all = set.pictures.size() - templates.usable.size() - templates.refused.size();
+  const bool shown = isatty(STDERR_FILENO) == 1;
+  const auto on_progress = [&](std::size_t done) {
+    if (shown) fmt::print(stderr, "\r{:<10} {:5} of {} pictures", method.name, done, all);
+  };
+  auto rows = evaluation::answer_foreign_set(set, templates, method, on_progress);
+  if (shown) std::fputs("\r\033[K", stderr);
+  return rows;
+}
+
+void run_false_detections(const ExperimentOptions& options, const evaluation::ForeignSet& set,
+                          const evaluation::ForeignTemplates& templates) {
+  const VisionConfig vision = vision_of(options);
+  std::vector<evaluation::FalseDetections> all = {evaluation::search_other_prints(set, templates, vision)};
+  const std::string video = data_folder(options) + kOtherPeople;
+  if (std::filesystem::exists(video)) {
+    all.push_back(evaluation::search_video(video, templates, vision));
+  } else {
+    fmt::print("{:<10} SKIPPED: no {}\n", kFalse, video);
+  }
+  evaluation::write_false_detections(all, options.out + "/foreign_false.csv");
+  for (const evaluation::FalseDetections& one : all) {
+    fmt::print("{:<10} {} in {}: {} pictures, found in {}\n", kFalse, one.searched_for, one.in, one.pictures,
+               one.found.size());
+    for (const std::string& found : one.found) fmt::print("{:<10}   {}\n", "", found);
+  }
+}
+
+void run_foreign_experiments(const ExperimentOptions& options) {
+  const std::string folder =
+      options.foreign_set.empty() ? data_folder(options) + "/foreign" : options.foreign_set;
+  if (options.foreign_set.empty() && !std::filesystem::exists(folder)) {
+    fmt::print("{:<10} SKIPPED: no {}\n", kForeign, folder);
+    return;
+  }
+  const evaluation::ForeignSet set = evaluation::read_foreign_set(folder);
+  const evaluation::ForeignTemplates templates = evaluation::teach_foreign_set(set);
+  if (options.wants(kForeign)) {
+    const std::string file = options.out + "/foreign.csv";
+    evaluation::write_foreign_rows(answers_of(set, templates, evaluation::heel_method(vision_of(options))),
+                                   file);
+    fmt::print("{}", evaluation::foreign_score_table(evaluation::read_foreign(file)));
+    for (const auto& [shirt, why] : templates.refused)
+      fmt::print("refused by teach: {} {} - {}\n", shirt.first, shirt.second, why);
+  }
+  if (options.wants(kPlanar)) {
+    std::vector<evaluation::ForeignRow> all;
+    for (const evaluation::ForeignMethod& method : evaluation::planar_methods())
+      for (evaluation::ForeignRow& row : answers_of(set, templates, method)) all.push_back(std::move(row));
+    const std::string file = options.out + "/foreign_planar.csv";
+    evaluation::write_foreign_rows(all, file);
+    fmt::print("{:<10} {} answers of {} methods: {}\n", kPlanar, all.size(),
+               evaluation::planar_methods().size(), file);
+  }
+  if (options.wants(kFalse)) run_false_detections(options, set, templates);
+  std::fflush(stdout);
+}
+
 void run_experiments(const ExperimentOptions& options) {
   std::filesystem::create_directories(options.out);
-  if (std::find(options.names.begin(), options.names.end(), kReal) != options.names.end())
-    run_real_image_experiment(options);
+  if (options.wants(kReal)) run_real_image_experiment(options);
+  if (options.wants(kForeign) || options.wants(kPlanar) || options.wants(kFalse))
+    run_foreign_experiments(options);
   for (const evaluation::StillImageExperiment& known : evaluation::still_image_experiments())
-    if (std::find(options.names.begin(), options.names.end(), known.name) != options.names.end())
-      run_still_experiment(known, options);
+    if (options.wants(known.name)) run_still_experiment(known, options);
 }
 
 }  // namespace
 
 void add_experiment_command(CLI::App& app) {
   auto options = std::make_shared<ExperimentOptions>();
-  CLI::App* command = app.add_subcommand(
-      "experiment",
-      "Estimates the pose of the rendered person in commanded poses; writes NAME.csv for `heel report`");
+  CLI::App* command = app.add_subcommand("experiment",
+                                         "Estimates the pose of persons in rendered and in other pictures "
+                                         "whose truth is known; writes NAME.csv\n"
+                                         "for `heel report`");
   std::vector<std::string> names;
   std::string help = "one or more of:";
   for (const evaluation::StillImageExperiment& known : evaluation::still_image_experiments()) {
@@ -113,6 +193,11 @@ void add_experiment_command(CLI::App& app) {
   }
   names.emplace_back(kReal);
   help += std::string("\n  ") + kReal + ": homography error on real pairs, certainty over a real video";
+  names.insert(names.end(), {kForeign, kPlanar, kFalse});
+  help += std::string("\n  ") + kForeign +
+          ": pictures of people by others, with truth: what is found, and the errors" + "\n  " + kPlanar +
+          ": planar matching by OpenCV on the same pictures" + "\n  " + kFalse +
+          ": every shirt searched for in pictures that do not show it";
   command->add_option("name", options->names, help)->required()->check(CLI::IsMember(names));
   command->add_option("-o,--out", options->out, "folder for CSV files and pictures")->required();
   command
@@ -121,6 +206,9 @@ void add_experiment_command(CLI::App& app) {
       ->check(CLI::Range(1, 1000));
   command->add_option("--data", options->data,
                       "folder of the real pictures (default: HEEL_TEST_DATA, else ../shared/data)");
+  command->add_option(
+      "--foreign-set", options->foreign_set,
+      "folder of the foreign set: images/, truth.csv, camera.yaml (default: foreign in --data)");
   command->add_option(
       "--scenario", options->scenario,
       "uses the camera, light and person of this scenario (default: the simulator's defaults)");

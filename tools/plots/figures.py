@@ -7,6 +7,7 @@ import error_map
 import hard_cases
 import overview
 import real_video
+import reliability
 import response
 import run_errors
 import run_frames
@@ -26,6 +27,7 @@ MODULES = (
     conditions,
     error_map,
     real_video,
+    reliability,
 )
 
 

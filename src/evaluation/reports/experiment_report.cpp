@@ -6,10 +6,12 @@
 
 #include "core/angles.h"
 #include "evaluation/reports/error_statistics.h"
+#include "evaluation/reports/foreign_report.h"
 #include "evaluation/reports/paper_comparison.h"
 #include "evaluation/reports/paper_numbers.h"
 #include "evaluation/reports/real_report.h"
 #include "evaluation/reports/run_files.h"
+#include "evaluation/reports/summary_part.h"
 #include "files/atomic_file.h"
 
 namespace heel::evaluation {
@@ -103,6 +105,15 @@ void add_runs(ExperimentData& data, std::vector<RunLine>& lines, Figures& figure
   figures.add("fig8_walk.png", "Figure 8: both paths of a long walk");
 }
 
+/// The parts in marks, by which tools/experiments-page finds them.
+std::string summary_of(const std::vector<SummaryPart>& parts) {
+  std::string text = "# Experiments\n";
+  for (const SummaryPart& part : parts)
+    text += "\n## " + part.heading + "\n\n<!-- " + part.name + " -->\n\n" + part.text + "\n<!-- end of " +
+            part.name + " -->\n";
+  return text;
+}
+
 void add_errors(const std::vector<StillSample>& samples, Figures& figures) {
   if (samples.empty()) return;
   write_errors(error_curves(samples), figures.directory() + "/errors_over_conditions.csv");
@@ -114,7 +125,7 @@ void add_errors(const std::vector<StillSample>& samples, Figures& figures) {
 }  // namespace
 
 bool holds_experiments(const std::string& directory) {
-  for (const char* name : {"lateral", "distance", "yaw", "hard", "errors"})
+  for (const char* name : {"lateral", "distance", "yaw", "hard", "errors", "foreign"})
     if (fs::exists(directory + "/" + name + ".csv")) return true;
   return !run_names(directory + "/runs").empty();
 }
@@ -139,20 +150,27 @@ std::string report_experiments(const std::string& directory) {
   add_errors(data.errors, figures);
   if (fs::exists(directory + "/real_video.csv")) figures.add("real_video.png", "Certainty over a real video");
 
-  std::string summary = "# Experiments\n\n## Beside the paper\n\n" + paper_table(data) +
-                        "\n## Goals of the design\n\n" + goals_table(data) + "\n";
+  std::vector<SummaryPart> parts = foreign_parts(directory, data.errors);
+  if (fs::exists(directory + "/foreign_sigma.csv"))
+    figures.add("foreign_reliability.png", "Right poses over the certainty, errors over the stated sigma");
+  const bool own_world = !data.all_stills().empty() || !lines.empty();
+  if (own_world) {
+    parts.push_back({"paper", "Beside the paper", paper_table(data)});
+    parts.push_back({"goals", "Goals of the design", goals_table(data)});
+  }
   if (!lines.empty())
-    summary +=
-        "## Found, wrong, found again\n\nWhile the person walks; wrong: 15 degrees or a tenth of the "
-        "distance off.\n\n" +
-        run_table(lines) + "\n";
+    parts.push_back(
+        {"runs", "Found, wrong, found again",
+         "While the person walks; wrong: 15 degrees or a tenth of the distance off.\n\n" + run_table(lines)});
   std::vector<RunLine> without;
   const fs::path folder = fs::path(directory) / "without-pictures";
   for (const std::string& name : run_names(folder.string()))
     without.push_back(run_line(name, read_run((folder / name).string())));
   if (const std::string table = worlds_table(lines, without); !table.empty())
-    summary += "## Both worlds on the same scenarios\n\n" + table + "\n";
-  summary += real_section(directory) + "\n## Figures\n\n" + figures.links();
+    parts.push_back({"worlds", "Both worlds on the same scenarios", table});
+  if (own_world) parts.push_back({"real", "Real pictures", real_text(directory)});
+  parts.push_back({"figures", "Figures", figures.links()});
+  const std::string summary = summary_of(parts);
   write_file_atomically(directory + "/summary.md", summary);
   return summary;
 }

@@ -58,9 +58,8 @@ std::string video_text(const std::string& path) {
 
 }  // namespace
 
-std::string real_section(const std::string& directory) {
-  return "## Real pictures\n\n" + pairs_text(directory + "/real_pairs.csv") + "\n" +
-         video_text(directory + "/real_video.csv");
+std::string real_text(const std::string& directory) {
+  return pairs_text(directory + "/real_pairs.csv") + "\n" + video_text(directory + "/real_video.csv");
 }
 
 }  // namespace heel::evaluation

@@ -6,6 +6,6 @@
 namespace heel::evaluation {
 
 /// Markdown; says what was skipped where a file is absent.
-std::string real_section(const std::string& directory);
+std::string real_text(const std::string& directory);
 
 }  // namespace heel::evaluation
