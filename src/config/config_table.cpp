@@ -84,7 +84,7 @@ const ConfigKey kKeys[] = {
     number(HEEL_KEY(vision, distance_max_m), "m", {0.5, 30}, No, "Farthest distance at which the person is searched for."),
     flag(HEEL_KEY(vision, tracking), No, "Whether to search first where the last frame predicts the person, and in the whole frame only if the person is not there."),
     number(HEEL_KEY(vision, tracking_rate_rad_s), "rad/s", {0.1, 20}, No, "Largest rate at which the person may cross the view, the robot's own rotation included; a larger value widens the region that is searched first."),
-    number(HEEL_KEY(vision, back_curvature_1_m), "1/m", {0, 5}, No, "Curvature c of the back: a point x metres to the side of the middle lies c·x² metres behind it. An ellipse 0.4 m wide and 0.24 m deep has c = 1.5 in the middle. 0 models a plane, as the paper does; use it for a flat target."),
+    number(HEEL_KEY(vision, back_curvature_1_m), "1/m", {0, 5}, No, "How curved the back is: 1.5 is the average shape measured on real backs, other values scale its depths in proportion. 0 models a plane, as the paper does; use it for a flat target."),
     number(HEEL_KEY(vision, back_curvature_sigma_1_m), "1/m", {0, 2}, No, "Standard deviation of that curvature between people; the standard deviations of the pose include it."),
     number(HEEL_KEY(vision, back_shape_sigma_m), "m", {0, 0.05}, No, "Standard deviation of each of five smooth changes of the back's shape since the template was taken (folds, breathing, gait); the standard deviations of the pose include it."),
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "vision/pose/alternative_hypotheses.h"
+#include "vision/pose/average_back.h"
 
 namespace heel {
 namespace {
@@ -14,17 +15,6 @@ constexpr double kPlaneAdvantage = 1.25;
 // The odds of the curved surface are the advantage to the power −4: 2 to 5 at 1.25 times, 1 to 16 at twice.
 constexpr double kAdvantageExponent = 4.0;
 constexpr double kMinNoise_px = 0.3;  // smaller residuals do not make a fit better
-
-BackSurface flat_surface(const ReferenceView& reference, const VisionConfig& config) {
-  const Eigen::Vector3d top_left = reference.K_inverse * reference.outline_px[0].homogeneous();
-  const Eigen::Vector3d bottom_right = reference.K_inverse * reference.outline_px[2].homogeneous();
-  BackSurface surface;
-  surface.axis_x = 0.5 * (top_left.x() + bottom_right.x());
-  surface.axis_y = 0.5 * (top_left.y() + bottom_right.y());
-  surface.half_size = 0.5 * (bottom_right - top_left).head<2>();
-  if (reference.distance_m > 0.0) surface.shape_sigma = config.back_shape_sigma_m / reference.distance_m;
-  return surface;
-}
 
 /// How well a pose explains the frame: it is better with more pairs and with smaller residuals.
 double explanation(std::size_t pairs, const FrontalPose& pose) {
@@ -39,19 +29,15 @@ BackPoseSelector::BackPoseSelector(const ReferenceView& reference, const Eigen::
       K_cur_(K_cur),
       centre_px_(reference.centre_px),
       flat_(flat_surface(reference, config)),
-      curved_(flat_),
+      curved_(average_back(reference, config)),
       frontal_estimator_(reference.px.size()),
-      surface_refiner_(reference.px, reference.K_inverse, frontal_estimator_) {
-  if (!(reference.distance_m > 0.0)) return;
-  curved_.bend = config.back_curvature_1_m * reference.distance_m;
-  curved_.bend_sigma = config.back_curvature_sigma_1_m * reference.distance_m;
-}
+      surface_refiner_(reference.px, reference.K_inverse, frontal_estimator_) {}
 
 FrontalPose BackPoseSelector::estimate(const PlaneSolution& plane, TemplateMatcher& matcher,
                                        const FeatureGrid& frame) {
   FrontalProblem problem{plane.inliers, K_ref_, K_cur_, plane.H_cur_from_ref, centre_px_, flat_};
   FrontalPose of_plane = frontal_estimator_.estimate(problem, plane.motion);
-  if (curved_.bend == 0.0) return of_plane;
+  if (curved_.flat()) return of_plane;
   problem.surface = curved_;
   const CurvedSurfacePose of_curve =
       surface_refiner_.refine(problem, frontal_estimator_.estimate(problem, plane.motion), matcher, frame);

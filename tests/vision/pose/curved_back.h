@@ -20,10 +20,10 @@ inline constexpr double kDistance_m = 1.5;
 /// deviation.
 inline BackSurface back(double curvature_1_m, double shape_sigma_m = 0.0) {
   BackSurface surface;
-  surface.bend = curvature_1_m * kDistance_m;
   surface.axis_x = (K_inverse * kCentre_px.homogeneous()).x();
   surface.axis_y = (K_inverse * kCentre_px.homogeneous()).y();
   surface.half_size = {100.0 / 600.0, 150.0 / 605.0};
+  surface.depth.u2 = curvature_1_m * kDistance_m * surface.half_size.x() * surface.half_size.x();
   surface.shape_sigma = shape_sigma_m / kDistance_m;
   return surface;
 }

@@ -17,7 +17,8 @@ using test::View;
 
 TEST(BackSurface, DerivativeIsThatOfTheImage) {
   Random random(1);
-  const BackSurface surface = back(1.5);
+  BackSurface surface = back(1.5);
+  surface.depth = {.u2 = -0.01, .u4 = 0.03, .v = -0.02, .v2 = 0.01, .v3 = -0.01, .u2v = 0.02};
   for (int i = 0; i < 100; ++i) {
     const View view = random_view(random, plain_camera(), 0.8);
     const Eigen::Matrix3d KR = K * view.R;
