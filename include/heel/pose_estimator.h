@@ -25,6 +25,7 @@ struct ExpectedView {
   Region region;  ///< pixels of the frame; may reach beyond it
   double sigma_min_px = 0.0, sigma_max_px = 0.0;
   bool upsample = false;  ///< it is small there: FeatureSettings::upsample
+  bool tracking = false;  ///< expected from an earlier frame; one from the same frame is a second look
 };
 
 /// The same frame (and expectation) gives the same estimate; only memory is kept between frames. `t_done_ns`

@@ -21,7 +21,7 @@ struct VisionConfig {
   double tracking_rate_rad_s = 1.5;  ///< largest rate at which the target crosses the view
   double back_curvature_1_m = 1.5;   ///< 1.5: the average back; its depths are in proportion; 0: a plane
   double back_curvature_sigma_1_m = 0.33;  ///< builds differ by this, one standard deviation
-  double back_shape_sigma_m = 0.002;  ///< how far folds and breath have moved the back since it was taught
+  double back_shape_sigma_m = 0.004;  ///< how far folds and breath have moved the back since it was taught
 };
 
 }  // namespace heel

@@ -86,7 +86,7 @@ const ConfigKey kKeys[] = {
     number(HEEL_KEY(vision, tracking_rate_rad_s), "rad/s", {0.1, 20}, No, "Largest rate at which the person may cross the view, the robot's own rotation included; a larger value widens the region that is searched first."),
     number(HEEL_KEY(vision, back_curvature_1_m), "1/m", {0, 5}, No, "How curved the back is: 1.5 is the average shape measured on real backs, other values scale its depths in proportion. 0 models a plane, as the paper does; use it for a flat target."),
     number(HEEL_KEY(vision, back_curvature_sigma_1_m), "1/m", {0, 2}, No, "Standard deviation of that curvature between people; the standard deviations of the pose include it."),
-    number(HEEL_KEY(vision, back_shape_sigma_m), "m", {0, 0.05}, No, "Standard deviation of each of five smooth changes of the back's shape since the template was taken (folds, breathing, gait); the standard deviations of the pose include it."),
+    number(HEEL_KEY(vision, back_shape_sigma_m), "m", {0, 0.05}, No, "How far cloth and body lie from where they were when the template was taken (folds, breathing, gait), one standard deviation of each smooth departure; the standard deviations of the pose include it."),
 
     number(HEEL_KEY(estimate, acceleration_m_s2), "m/s²", {0.05, 20}, Yes, "Standard deviation of the person's acceleration; a larger value reacts faster and smooths less."),
     number(HEEL_KEY(estimate, yaw_acceleration_rad_s2), "rad/s²", {0.05, 50}, Yes, "Standard deviation of the person's yaw acceleration."),

@@ -8,14 +8,18 @@
 #include <span>
 #include <vector>
 
+#include "heel/camera_model.h"
+#include "heel/flow.h"
 #include "heel/homography.h"
 #include "heel/motion.h"
+#include "heel/shirt_template.h"
 #include "heel/vision_config.h"
 #include "vision/matching/feature_grid.h"
 #include "vision/matching/template_matcher.h"
 #include "vision/pose/back_surface.h"
 #include "vision/pose/curved_surface_refiner.h"
 #include "vision/pose/frontal_pose_estimator.h"
+#include "vision/pose/surface_pose_refiner.h"
 #include "vision/template/reference_view.h"
 
 namespace heel {
@@ -27,24 +31,37 @@ struct PlaneSolution {
   PlaneMotion motion;
 };
 
+/// What a frame shows: the picture and its features.
+struct FrameContent {
+  const FrameView& view;
+  const FeatureGrid& features;
+};
+
 class BackPoseSelector {
  public:
   /// `reference` must outlive this. If its distance is unknown, the curvature in units of the distance is
   /// unknown, too: then the back is modelled as a plane, and sigmas include the noise of pixels only. Memory
   /// is taken once.
-  BackPoseSelector(const ReferenceView& reference, const Eigen::Matrix3d& K_cur, const VisionConfig& config);
+  BackPoseSelector(const ShirtTemplate& shirt, const ReferenceView& reference, const CameraModel& camera,
+                   const VisionConfig& config);
 
   BackPoseSelector(const BackPoseSelector&) = delete;
   BackPoseSelector& operator=(const BackPoseSelector&) = delete;
 
-  FrontalPose estimate(const PlaneSolution& plane, TemplateMatcher& matcher, const FeatureGrid& frame);
+  /// `patch_rounds`: see SurfacePoseRefiner::refine; one is enough where the last frame was like this one.
+  FrontalPose estimate(const PlaneSolution& plane, TemplateMatcher& matcher, const FrameContent& frame,
+                       int patch_rounds);
 
  private:
+  FrontalPose refined(const BackSurface& surface, std::span<const PointPair> pairs, const FrontalPose& pose,
+                      const FrameView& frame, int patch_rounds);
+
   Eigen::Matrix3d K_ref_, K_cur_;
   Eigen::Vector2d centre_px_;
   BackSurface flat_, curved_;
   FrontalPoseEstimator frontal_estimator_;
   CurvedSurfaceRefiner surface_refiner_;
+  SurfacePoseRefiner patch_refiner_;
 };
 
 }  // namespace heel

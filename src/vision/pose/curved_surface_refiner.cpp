@@ -74,11 +74,11 @@ CurvedSurfacePose CurvedSurfaceRefiner::refine(const FrontalProblem& problem, co
     for (const double other_yaw_rad : kOtherYaws_rad)
       try_from(turned(problem, start.motion, other_yaw_rad - yaw_rad));
   }
-  if (best.support < 0.0) return {start, 0};
+  if (best.support < 0.0) return {start, {}};
 
   FrontalProblem of_surface = problem;
   of_surface.pairs = best.pairs;
-  CurvedSurfacePose answer{estimator_.estimate(of_surface, as_start(best.motion)), best.pairs.size()};
+  CurvedSurfacePose answer{estimator_.estimate(of_surface, as_start(best.motion)), best.pairs};
   inflate_covariance(alternatives_to(answer.pose.motion, fits_, best.support), answer.pose);
   return answer;
 }

@@ -20,7 +20,8 @@ namespace heel {
 
 struct CurvedSurfacePose {
   FrontalPose pose;
-  std::size_t pairs = 0;  ///< that the pose rests on; 0: too few fitted, the pose is the start
+  /// That the pose rests on, valid until the next call; none: too few fitted, the pose is the start.
+  std::span<const PointPair> pairs;
 };
 
 class CurvedSurfaceRefiner {

@@ -161,6 +161,11 @@ PlaneMotion mirrored_motion(const FrontalProblem& problem, const FrontalMotion& 
   return other;
 }
 
+double yaw_sigma_rad(const Eigen::Matrix3d& R_cur_from_ref, const Matrix6d& covariance) {
+  const Eigen::Vector3d gradient = yaw_gradient(R_cur_from_ref);
+  return std::sqrt(gradient.dot(covariance.topLeftCorner<3, 3>() * gradient));
+}
+
 FrontalPoseEstimator::FrontalPoseEstimator(std::size_t max_pairs) : capacity_(max_pairs) {
   pairs_.reserve(capacity_);
   linearised_.J.resize(2 * static_cast<Eigen::Index>(capacity_), 6);
@@ -218,8 +223,7 @@ FrontalPose FrontalPoseEstimator::estimate(const FrontalProblem& problem, const 
   const bool same = (chosen.R_cur_from_ref - other.R_cur_from_ref).norm() < kSameMinimum;
   const AlternativeHypothesis mirrored{other, same ? 0.0 : std::exp(-0.5 * std::max(0.0, chi2_excess))};
 
-  const Eigen::Vector3d gradient = yaw_gradient(chosen.R_cur_from_ref);
-  pose.yaw_sigma_rad = std::sqrt(gradient.dot(pose.covariance.topLeftCorner<3, 3>() * gradient));
+  pose.yaw_sigma_rad = yaw_sigma_rad(chosen.R_cur_from_ref, pose.covariance);
   pose.t_over_d_sigma = pose.covariance.diagonal().tail<3>().cwiseSqrt();
   inflate_covariance({&mirrored, 1}, pose);
   return pose;

@@ -60,6 +60,9 @@ struct FrontalPose {
   double ambiguity = 0.0;  ///< probability that an alternative is the true pose, 0…1
 };
 
+/// Of the yaw, for the covariance of (ω, δt): FrontalPose::covariance.
+double yaw_sigma_rad(const Eigen::Matrix3d& R_cur_from_ref, const Matrix6d& covariance);
+
 class FrontalPoseEstimator {
  public:
   /// Memory is taken once; pairs beyond `max_pairs` are ignored.

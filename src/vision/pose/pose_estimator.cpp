@@ -22,6 +22,9 @@ constexpr std::size_t kHomographyPairs = 4;  // the fewest that determine a homo
 // So few supporting pairs are no detection, but enough of a hint to search their place again, upsampled.
 constexpr std::uint32_t kMinInliersForUpsampling = 5;
 
+// How often patches are aligned and the pose is solved. While tracking, the start is nearly the pose.
+constexpr int kSearchPatchRounds = 3, kTrackingPatchRounds = 1;
+
 using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 Eigen::Matrix3d homography_of(const PoseEstimate& pose) {
@@ -102,7 +105,7 @@ PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current
       view_predictor(reference, camera, config, extractor.settings()),
       matcher(reference.set, config.max_features, static_cast<float>(config.match_ratio)),
       plane_fitter(reference, frame_shape_limits(range), config),
-      back_pose_selector(reference, K_cur, config),
+      back_pose_selector(shirt, reference, camera, config),
       workspace(static_cast<std::size_t>(config.max_features), reference.px.size()) {}
 
 PoseEstimate PoseEstimator::Impl::estimate(const FrameView& frame, const ExpectedView& search) {
@@ -140,7 +143,8 @@ PoseEstimate PoseEstimator::Impl::steps(const FrameView& frame, const ExpectedVi
   const std::optional<PlaneMotion> motion = choose(motions, fit, work);
   if (!motion) return with_reason(pose, PoseReason::NoValidMotion);
   const FrontalPose back =
-      back_pose_selector.estimate({fit.inliers, fit.H_cur_from_ref, *motion}, matcher, frame_grid);
+      back_pose_selector.estimate({fit.inliers, fit.H_cur_from_ref, *motion}, matcher, {frame, frame_grid},
+                                  search.tracking ? kTrackingPatchRounds : kSearchPatchRounds);
   return with_back_pose(pose, back, reference);
 }
 

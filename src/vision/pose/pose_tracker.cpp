@@ -28,7 +28,9 @@ PoseEstimate PoseTracker::search_whole_frame(const FrameView& frame) {
 PoseEstimate PoseTracker::estimate(const FrameView& frame) {
   PoseEstimate pose;
   if (predicts_view_in(frame)) {
-    pose = estimator_.estimate(frame, estimator_.expected_view(last_found_, frame.header.t_capture_ns));
+    ExpectedView expected = estimator_.expected_view(last_found_, frame.header.t_capture_ns);
+    expected.tracking = true;
+    pose = estimator_.estimate(frame, expected);
     pose.tracked = pose.found();
   }
   if (!pose.found()) pose = search_whole_frame(frame);

@@ -1,0 +1,79 @@
+#include "vision/patches/grey_pyramid.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace heel {
+namespace {
+
+// A picture is halved when steps are longer than this: √2 is midway between two levels.
+constexpr double kLongStep_px = 1.42;
+
+}  // namespace
+
+float GreyPyramid::Level::at(const Eigen::Vector2d& px) const {
+  const double x = std::clamp(px.x(), 0.0, width_px - 1.001), y = std::clamp(px.y(), 0.0, height_px - 1.001);
+  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  const float fx = static_cast<float>(x - column), fy = static_cast<float>(y - row);
+  const float* p = grey.data() + static_cast<std::ptrdiff_t>(row) * width_px + column;
+  const float upper = p[0] + fx * (p[1] - p[0]);
+  const float lower = p[width_px] + fx * (p[width_px + 1] - p[width_px]);
+  return upper + fy * (lower - upper);
+}
+
+/// Every pixel is the mean of 2 × 2 of this level's.
+GreyPyramid::Level GreyPyramid::Level::half() const {
+  Level half;
+  half.width_px = width_px / 2;
+  half.height_px = height_px / 2;
+  half.grey.reserve(static_cast<std::size_t>(half.width_px) * static_cast<std::size_t>(half.height_px));
+  for (int y = 0; y < half.height_px; ++y) {
+    const float* upper = grey.data() + static_cast<std::ptrdiff_t>(2 * y) * width_px;
+    const float* lower = upper + width_px;
+    for (int x = 0; x < half.width_px; ++x, upper += 2, lower += 2)
+      half.grey.push_back(0.25f * (upper[0] + upper[1] + lower[0] + lower[1]));
+  }
+  return half;
+}
+
+GreyPyramid::GreyPyramid(std::span<const std::uint8_t> grey, int width_px, int height_px) {
+  levels_.push_back({width_px, height_px, {grey.begin(), grey.end()}});
+  while (levels_.size() < kLevels) levels_.push_back(levels_.back().half());
+}
+
+bool GreyPyramid::sample(const Eigen::Vector2d& centre_px, const Eigen::Matrix2d& step_px, int side,
+                         PatchSamples& out) const {
+  const double step_length_px = std::sqrt(std::abs(step_px.determinant()));
+  const std::size_t index = step_length_px > 2.0 * kLongStep_px ? 2 : step_length_px > kLongStep_px ? 1 : 0;
+  const Level& level = levels_[index];
+  const double shrink = static_cast<double>(1U << index);
+  const Eigen::Vector2d centre = (centre_px.array() + 0.5).matrix() / shrink - Eigen::Vector2d::Constant(0.5);
+  const Eigen::Matrix2d step = step_px / shrink;
+
+  const double reach = 0.5 * (side - 1);
+  const Eigen::Vector2d extent = reach * step.cwiseAbs().rowwise().sum();
+  const Eigen::Vector2d last = centre + extent;
+  if (!((centre - extent).minCoeff() >= 0.0) || !(last.x() < level.width_px - 1.01) ||
+      !(last.y() < level.height_px - 1.01))
+    return false;
+  const float step_x = static_cast<float>(step(0, 0)), step_y = static_cast<float>(step(1, 0));
+  float* value = out.data();
+  for (int row = 0; row < side; ++row) {
+    const Eigen::Vector2d first = centre - reach * step.col(0) + (row - reach) * step.col(1);
+    const float first_x = static_cast<float>(first.x()), first_y = static_cast<float>(first.y());
+    for (int column = 0; column < side; ++column) {
+      const float x = first_x + static_cast<float>(column) * step_x;
+      const float y = first_y + static_cast<float>(column) * step_y;
+      const int ix = static_cast<int>(x), iy = static_cast<int>(y);
+      const float fx = x - static_cast<float>(ix), fy = y - static_cast<float>(iy);
+      const float* p = level.grey.data() + static_cast<std::ptrdiff_t>(iy) * level.width_px + ix;
+      const float upper = p[0] + fx * (p[1] - p[0]);
+      const float lower = p[level.width_px] + fx * (p[level.width_px + 1] - p[level.width_px]);
+      *value++ = upper + fy * (lower - upper);
+    }
+  }
+  return true;
+}
+
+}  // namespace heel
