@@ -149,8 +149,12 @@ struct TargetState {
   // In the robot frame at `now`:
   double x_m = 0.0;  ///< centre of the back
   double y_m = 0.0;
-  double yaw_rad =
-      0.0;  ///< walking direction relative to the robot's heading, counter-clockwise + (robot frame)
+  // Directions against the robot's heading, counter-clockwise +; each sigma is one standard deviation.
+  double yaw_rad = 0.0;         ///< of the back; it swings with each stride
+  double travel_yaw_rad = 0.0;  ///< direction of travel; while the person stands, mean yaw of the back
+  double travel_yaw_sigma_rad = 0.0;
+  double stride_yaw_rad = 0.0;  ///< mean direction of travel over the stride before the frame
+  double stride_yaw_sigma_rad = 0.0;
   // The goal, where the robot has the reference view again; robot frame at `now`:
   double goal_x_m = 0.0;
   double goal_y_m = 0.0;

@@ -16,6 +16,8 @@ constexpr double kStartYawRateSigma_rad_s = 0.5;
 // A homography measures scale, and so range, to a few per cent, and direction much better.
 constexpr double kRangeSigmaPerM = 0.02;
 constexpr double kAcrossSigmaPerM = 0.005;
+// For the travel filter, which has states for the sway that estimate.position_sigma_m allows for.
+constexpr double kSwayingPositionSigma_m = 0.01;
 // After a longer gap the filters start again from the measurement.
 constexpr TimeNs kLongestGap_ns = kNsPerS;
 // Longest prediction after the last frame. A person who walks usually walks on; a person who turns soon stops
@@ -55,11 +57,11 @@ void TargetEstimator::add_odometry(const Odometry& odometry) {
   odometry_.add(odometry);
 }
 
-void TargetEstimator::start(const Eigen::Vector2d& position_odom_m, double yaw_odom_rad,
-                            const Eigen::Matrix2d& R_position, double yaw_variance) {
-  position_.start(position_odom_m, R_position, kStartSpeedSigma_m_s);
-  yaw_.start(Eigen::Matrix<double, 1, 1>(yaw_odom_rad), Eigen::Matrix<double, 1, 1>(yaw_variance),
-             kStartYawRateSigma_rad_s);
+void TargetEstimator::start(const BackMeasurement& back) {
+  position_.start(back.position_m, back.R_position, kStartSpeedSigma_m_s);
+  yaw_.start(Eigen::Matrix<double, 1, 1>(back.yaw_rad),
+             Eigen::Matrix<double, 1, 1>(back.yaw_sigma_rad * back.yaw_sigma_rad), kStartYawRateSigma_rad_s);
+  travel_.start(back);
   known_ = true;
   outliers_in_a_row_ = 0;
 }
@@ -71,29 +73,35 @@ bool TargetEstimator::update(const PoseEstimate& pose) {
   if (!measurement || !robot || (known_ && gap_ns <= 0)) return false;
 
   const Eigen::Vector2d line_of_sight_m = rotation(robot->heading_rad) * measurement->position_m;
-  const Eigen::Vector2d position_m = Eigen::Vector2d(robot->x_m, robot->y_m) + line_of_sight_m;
-  const double yaw_rad = robot->heading_rad + measurement->yaw_rad;
-  const Eigen::Matrix2d R_position = position_covariance(line_of_sight_m, settings_.position_sigma_m);
-  const double yaw_sigma_rad = std::max(measurement->yaw_sigma_rad, settings_.yaw_sigma_rad);
-  const Eigen::Matrix<double, 1, 1> R_yaw(yaw_sigma_rad * yaw_sigma_rad);
+  BackMeasurement back;
+  back.position_m = Eigen::Vector2d(robot->x_m, robot->y_m) + line_of_sight_m;
+  back.R_position = position_covariance(line_of_sight_m, settings_.position_sigma_m);
+  back.yaw_rad = robot->heading_rad + measurement->yaw_rad;
+  back.yaw_sigma_rad = std::max(measurement->yaw_sigma_rad, settings_.yaw_sigma_rad);
+  BackMeasurement swaying = back;
+  swaying.R_position = position_covariance(line_of_sight_m, kSwayingPositionSigma_m);
 
   bool accepted = true;
   if (!known_ || gap_ns > kLongestGap_ns) {
-    start(position_m, yaw_rad, R_position, R_yaw(0));
+    start(back);
   } else {
-    position_.predict(seconds_from_ns(gap_ns), settings_.acceleration_m_s2);
-    yaw_.predict(seconds_from_ns(gap_ns), settings_.yaw_acceleration_rad_s2);
-    const Eigen::Vector2d d_position = position_m - position_.position();
-    const Eigen::Matrix<double, 1, 1> d_yaw(wrap_angle_rad(yaw_rad - yaw_.position()(0)));
+    const double gap_s = seconds_from_ns(gap_ns);
+    position_.predict(gap_s, settings_.acceleration_m_s2);
+    yaw_.predict(gap_s, settings_.yaw_acceleration_rad_s2);
+    travel_.predict(gap_s, settings_.acceleration_m_s2);
+    const Eigen::Vector2d d_position = back.position_m - position_.position();
+    const Eigen::Matrix<double, 1, 1> d_yaw(wrap_angle_rad(back.yaw_rad - yaw_.position()(0)));
+    const Eigen::Matrix<double, 1, 1> R_yaw(back.yaw_sigma_rad * back.yaw_sigma_rad);
     const double gate = settings_.outlier_sigma * settings_.outlier_sigma;
-    const bool outlier = position_.distance_squared(d_position, R_position) > gate ||
+    const bool outlier = position_.distance_squared(d_position, back.R_position) > gate ||
                          yaw_.distance_squared(d_yaw, R_yaw) > gate;
     if (!outlier) {
-      position_.correct(d_position, R_position);
+      position_.correct(d_position, back.R_position);
       yaw_.correct(d_yaw, R_yaw);
+      travel_.correct(swaying);
       outliers_in_a_row_ = 0;
     } else if (++outliers_in_a_row_ >= settings_.outliers_to_reset) {
-      start(position_m, yaw_rad, R_position, R_yaw(0));
+      start(back);
     } else {
       accepted = false;
     }
@@ -122,6 +130,10 @@ TargetState TargetEstimator::predict(TimeNs now_ns) const {
       R_robot_from_odom * (position_odom_m - Eigen::Vector2d(robot->x_m, robot->y_m));
   const double yaw_rad = wrap_angle_rad(yaw_odom_rad - robot->heading_rad);
 
+  const DirectionEstimate travel = travel_.travel(prediction_s(kLongestTurn_ns));
+  const DirectionEstimate stride = travel_.stride();
+  const double travel_yaw_rad = wrap_angle_rad(travel.angle_rad - robot->heading_rad);
+
   // At the goal the camera has the person where the reference view has them, moved by the set points. The
   // mount leads from the camera to the robot's centre.
   const Eigen::Vector2d person_from_camera_m =
@@ -135,6 +147,10 @@ TargetState TargetEstimator::predict(TimeNs now_ns) const {
   target.x_m = position_m.x();
   target.y_m = position_m.y();
   target.yaw_rad = yaw_rad;
+  target.travel_yaw_rad = travel_yaw_rad;
+  target.travel_yaw_sigma_rad = travel.sigma_rad;
+  target.stride_yaw_rad = wrap_angle_rad(stride.angle_rad - robot->heading_rad);
+  target.stride_yaw_sigma_rad = stride.sigma_rad;
   target.goal_x_m = goal_m.x();
   target.goal_y_m = goal_m.y();
   return target;

@@ -1,11 +1,13 @@
 // Estimates the person's pose in the odometry frame. A frame's measurement is placed by the robot's pose at
-// its capture time. Two constant-velocity filters, of position and of walking direction, smooth and predict.
+// its capture time. Two constant-velocity filters, of the back's position and yaw, smooth and predict; a
+// third filter separates the direction of travel from the swing of the back.
 #pragma once
 
 #include "core/config.h"
 #include "estimate/constant_velocity_filter.h"
 #include "estimate/odometry_history.h"
 #include "estimate/target_measurement.h"
+#include "estimate/travel_filter.h"
 #include "heel/flow.h"
 
 namespace heel {
@@ -28,8 +30,7 @@ class TargetEstimator {
   TargetState predict(TimeNs now_ns) const;
 
  private:
-  void start(const Eigen::Vector2d& position_odom_m, double yaw_odom_rad, const Eigen::Matrix2d& R_position,
-             double yaw_variance);
+  void start(const BackMeasurement& back);
 
   CameraMount mount_;
   EstimateConfig settings_;
@@ -41,6 +42,7 @@ class TargetEstimator {
   OdometryHistory odometry_;
   ConstantVelocityFilter<2> position_;  // odom, m
   ConstantVelocityFilter<1> yaw_;       // odom, rad, continuous
+  TravelFilter travel_;                 // odom
   bool known_ = false;
   TimeNs t_capture_ns_ = 0;
   double certainty_ = 0.0;

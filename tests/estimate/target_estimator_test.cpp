@@ -147,6 +147,44 @@ TEST(TargetEstimator, SmoothsNoiseWithoutBias) {
   EXPECT_LT(std::sqrt(squares / 1000), 0.05);  // measurements: 0.08
 }
 
+TEST(TargetEstimator, TheDirectionOfTravelOfAPersonWhoStandsIsTheYawOfTheBack) {
+  Scene scene;
+  scene.robot.heading_rad = 0.3;
+  scene.person.heading_rad = 0.7;
+  scene.run(0.5);
+  const TargetState target = scene.estimator.predict(scene.now_ns);
+  EXPECT_NEAR(target.yaw_rad, 0.4, 1e-9);
+  EXPECT_NEAR(target.travel_yaw_rad, 0.4, 1e-9);
+  EXPECT_NEAR(target.stride_yaw_rad, 0.4, 1e-9);
+  EXPECT_GT(target.travel_yaw_sigma_rad, 0.02);
+  EXPECT_LT(target.travel_yaw_sigma_rad, 0.12);
+  EXPECT_LT(target.stride_yaw_sigma_rad, target.travel_yaw_sigma_rad);
+}
+
+TEST(TargetEstimator, TheDirectionOfTravelDoesNotSwingWithTheBack) {
+  Scene scene;
+  scene.person_v_m_s = 0.8;
+  scene.v_m_s = 0.8;
+  scene.disturb = [&scene](PoseEstimate& pose) {
+    Pose2 swinging = scene.person;
+    swinging.heading_rad += 0.12 * std::sin(4.5 * seconds_from_ns(scene.now_ns));
+    pose = measured(swinging, scene.robot, mount_of(scene.config.camera), scene.reference);
+    pose.t_capture_ns = scene.now_ns;
+  };
+  scene.run(5.0);
+  double back_rad = 0.0, travel_rad = 0.0, stride_rad = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    scene.run(0.01);
+    const TargetState target = scene.estimator.predict(scene.now_ns);
+    back_rad = std::max(back_rad, std::abs(target.yaw_rad));
+    travel_rad = std::max(travel_rad, std::abs(target.travel_yaw_rad));
+    stride_rad = std::max(stride_rad, std::abs(target.stride_yaw_rad));
+  }
+  EXPECT_GT(back_rad, 0.1);
+  EXPECT_LT(travel_rad, 0.04);
+  EXPECT_LT(stride_rad, 0.015);
+}
+
 TEST(TargetEstimator, RejectsOneOutlier) {
   Scene scene;
   scene.run(1.0);

@@ -21,7 +21,8 @@ inline std::string decision_bytes(const TickRecord& record) {
   const TargetState& target = record.target;
   append(record.tick, record.measurement, record.conditions, record.stop_reason, record.free_distance_m);
   append(target.known, target.t_capture_ns, target.certainty, target.x_m, target.y_m, target.yaw_rad,
-         target.goal_x_m, target.goal_y_m);
+         target.travel_yaw_rad, target.travel_yaw_sigma_rad, target.stride_yaw_rad,
+         target.stride_yaw_sigma_rad, target.goal_x_m, target.goal_y_m);
   append_command(record.wanted);
   append_command(record.command);
   return bytes;

@@ -56,6 +56,10 @@ TEST(CsvColumns, ATicksValuesAreUnderTheirColumnNames) {
   tick.target.known = true;
   tick.target.x_m = 2.0;
   tick.target.yaw_rad = -0.75;
+  tick.target.travel_yaw_rad = -0.5;
+  tick.target.travel_yaw_sigma_rad = 0.0625;
+  tick.target.stride_yaw_rad = -0.625;
+  tick.target.stride_yaw_sigma_rad = 0.03125;
   tick.target.goal_y_m = 0.0625;
   tick.wanted.v_m_s = 0.75;
   tick.command.v_m_s = 0.5;
@@ -89,6 +93,10 @@ TEST(CsvColumns, ATicksValuesAreUnderTheirColumnNames) {
       {"free_distance_m", "1.125"},
       {"target_x_m", "2"},
       {"target_yaw_rad", "-0.75"},
+      {"target_travel_yaw_rad", "-0.5"},
+      {"target_travel_yaw_sigma_rad", "0.0625"},
+      {"target_stride_yaw_rad", "-0.625"},
+      {"target_stride_yaw_sigma_rad", "0.03125"},
       {"goal_y_m", "0.0625"},
       {"wanted_v_m_s", "0.75"},
       {"command_v_m_s", "0.5"},
@@ -101,8 +109,8 @@ TEST(CsvColumns, ATicksValuesAreUnderTheirColumnNames) {
 
 TEST(CsvColumns, UnknownValuesAreNan) {
   const auto tick = row_of(tick_columns(), TickRecord{});
-  for (const char* name :
-       {"odom_x_m", "battery_v", "sonar_range_m_0", "target_x_m", "target_yaw_rad", "goal_x_m"}) {
+  for (const char* name : {"odom_x_m", "battery_v", "sonar_range_m_0", "target_x_m", "target_yaw_rad",
+                           "target_travel_yaw_rad", "target_stride_yaw_sigma_rad", "goal_x_m"}) {
     EXPECT_EQ(tick.at(name), "nan") << name;
   }
   PoseEstimate estimate;
