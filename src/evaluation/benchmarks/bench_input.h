@@ -24,6 +24,9 @@ struct BenchInput {
   std::vector<BenchFrame> frames;  ///< the first is for warming up only
 };
 
+/// The simulator's own camera, as wide, at any size.
+CameraModel camera_of(cv::Size size);
+
 inline constexpr double kWorldRate_Hz = 30.0;
 /// What the simulated world is rendered for at most: the person's path is so long.
 inline constexpr int kMaxWorldFrames = 600;
@@ -32,5 +35,11 @@ inline constexpr int kMaxWorldFrames = 600;
 /// pictures depend on nothing that is measured. Throws heel::Error when the shirt cannot be taught from such
 /// pictures (too small).
 BenchInput walk_in_a_room(cv::Size size, int frames);
+
+inline const cv::Size kFarShirtSize{1920, 1080};
+/// A person stands so far away that the back is about 85 pixels wide in 1920 × 1080, in a cluttered room with
+/// other people; every frame from another place. The frames come so long after each other that each is
+/// searched as a whole.
+BenchInput far_shirt_in_a_room(int frames);
 
 }  // namespace heel::evaluation

@@ -72,13 +72,19 @@ std::unique_ptr<Subject> features_subject(const BenchInput& input) {
   return std::make_unique<HeelFeatures>(input, figure);
 }
 
+std::unique_ptr<Subject> orb_subject(const BenchInput& input, const char* key, const char* label,
+                                     int features) {
+  return std::make_unique<OpenCvFeatures>(input, Figure{.key = key, .label = label},
+                                          cv::ORB::create(features));
+}
+
 Subjects opencv_features_subjects(const BenchInput& input) {
   Subjects subjects;
   const auto add = [&](const char* key, const char* label, cv::Ptr<cv::Feature2D> algorithm) {
     subjects.push_back(
         std::make_unique<OpenCvFeatures>(input, Figure{.key = key, .label = label}, std::move(algorithm)));
   };
-  add("orb_1000", "cv::ORB(1000)", cv::ORB::create(kOrbFeatures));
+  subjects.push_back(orb_subject(input, "orb_1000", "cv::ORB(1000)", kOrbFeatures));
   add("akaze", "cv::AKAZE", cv::AKAZE::create());
   add("sift", "cv::SIFT", cv::SIFT::create());
   return subjects;

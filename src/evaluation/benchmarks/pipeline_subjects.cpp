@@ -8,6 +8,8 @@ namespace heel::evaluation {
 namespace {
 
 constexpr double kSearchGoal = 1.3, kTrackingGoal = 0.4;  // × cv::ORB(1000)
+constexpr double kFarShirtGoal = 1.3;                     // × cv::ORB(3000)
+constexpr int kFarShirtOrbFeatures = 3000;
 
 /// The daemon's vision stage with the daemon's default settings.
 template <typename Vision>
@@ -59,6 +61,19 @@ class Tracking : public HeelVision<PoseTracker> {
   }
 };
 
+/// As the daemon searches while it has no shirt to track: what it finds may come after several frames.
+class FarShirtSearch : public HeelVision<PoseTracker> {
+ public:
+  using HeelVision::HeelVision;
+
+ private:
+  void complete(Figure& figure) const override {
+    HeelVision::complete(figure);
+    figure.found_share = found_share();
+    figure.pixels = kFarShirtSize.area();
+  }
+};
+
 Figure figure_of(const BenchInput& input, const char* key, const char* label, double goal) {
   Figure figure{.key = key, .label = label, .yardstick = "orb_1000"};
   if (input.frames.front().grey.size() == kGoalSize) figure.goal = goal;
@@ -75,6 +90,17 @@ std::unique_ptr<PipelineSubject> search_subject(const BenchInput& input) {
 std::unique_ptr<PipelineSubject> tracking_subject(const BenchInput& input) {
   return std::make_unique<Tracking>(input,
                                     figure_of(input, "tracking", "frame to pose, tracking", kTrackingGoal));
+}
+
+Subjects far_shirt_subjects(const BenchInput& input) {
+  Subjects subjects;
+  subjects.push_back(
+      std::make_unique<FarShirtSearch>(input, Figure{.key = "search_1080p",
+                                                     .label = "searching, 1920x1080, shirt of 85 px",
+                                                     .yardstick = "orb_3000",
+                                                     .goal = kFarShirtGoal}));
+  subjects.push_back(orb_subject(input, "orb_3000", "cv::ORB(3000), 1920x1080", kFarShirtOrbFeatures));
+  return subjects;
 }
 
 }  // namespace heel::evaluation

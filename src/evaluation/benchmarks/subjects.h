@@ -19,9 +19,14 @@ class PipelineSubject : public Subject {
 std::unique_ptr<PipelineSubject> search_subject(const BenchInput& input);
 std::unique_ptr<PipelineSubject> tracking_subject(const BenchInput& input);
 
+/// Searching for a small shirt in large pictures, and cv::ORB(3000) on them; keys search_1080p, orb_3000.
+Subjects far_shirt_subjects(const BenchInput& input);
+
 /// Features of a frame: heel's alone, then OpenCV's.
 std::unique_ptr<Subject> features_subject(const BenchInput& input);
 Subjects opencv_features_subjects(const BenchInput& input);
+std::unique_ptr<Subject> orb_subject(const BenchInput& input, const char* key, const char* label,
+                                     int features);
 
 /// 300 × 1000 features matched; keys matcher, bf_matcher.
 Subjects matcher_subjects(const BenchInput& input);

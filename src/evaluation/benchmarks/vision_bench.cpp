@@ -88,7 +88,8 @@ std::optional<double> VisionBench::ratio(const Figure& figure) const {
   return ratio(figure.times, figure.yardstick);
 }
 
-VisionBench measure_vision(const BenchInput& input, const std::function<void(std::size_t)>& progress) {
+VisionBench measure_vision(const BenchInput& input, const BenchInput* far_shirt,
+                           const std::function<void(std::size_t)>& progress) {
   if (input.frames.size() < 2)
     throw Error(input.source + ": frames: " + std::to_string(input.frames.size()) +
                 " (expected 2 or more, the first for warming up)");
@@ -96,6 +97,11 @@ VisionBench measure_vision(const BenchInput& input, const std::function<void(std
   const auto wall_begin = std::chrono::steady_clock::now();
   const TimeNs cpu_begin_ns = thread_cpu_ns();
   run_all(field.subjects, input.frames.size(), progress);
+  if (far_shirt != nullptr) {
+    Subjects more = far_shirt_subjects(*far_shirt);
+    run_all(more, far_shirt->frames.size(), [](std::size_t /*frame*/) {});
+    field.add(std::move(more));
+  }
   const double cpu_s = seconds_from_ns(thread_cpu_ns() - cpu_begin_ns);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_begin).count();
 

@@ -36,6 +36,8 @@ struct Figure {
   Times times{};
   std::optional<double> features{};         ///< found in a frame, on average
   std::optional<double> corner_error_px{};  ///< of the homographies, median
+  std::optional<double> found_share{};      ///< of the frames in which the shirt was found
+  std::optional<double> pixels{};           ///< of a frame, where they are not the run's
   std::vector<StageFigure> stages{};        ///< those that the frames went through, in order
   double stage_share = 0.0;                 ///< of the whole time, what the stages account for
 };
@@ -66,7 +68,9 @@ struct VisionBench {
 };
 
 /// Measures every frame but the first once. `progress` hears of every frame done. Throws heel::Error when the
-/// template and the frames do not fit together.
-VisionBench measure_vision(const BenchInput& input, const std::function<void(std::size_t)>& progress);
+/// template and the frames do not fit together. `far_shirt` adds the search in large pictures with a small
+/// shirt; null: without.
+VisionBench measure_vision(const BenchInput& input, const BenchInput* far_shirt,
+                           const std::function<void(std::size_t)>& progress);
 
 }  // namespace heel::evaluation

@@ -46,8 +46,9 @@ Json figure_json(const VisionReport& report, const Figure& figure) {
   json["frames"] = figure.times.count;
   if (figure.features) json["features"] = *figure.features;
   if (figure.corner_error_px) json["corner_error_px"] = *figure.corner_error_px;
+  if (figure.found_share) json["found_share"] = *figure.found_share;
   if (figure.stages.empty()) return json;
-  json["ns_per_px"] = 1e6 * figure.times.median_ms / static_cast<double>(report.size.area());
+  json["ns_per_px"] = 1e6 * figure.times.median_ms / figure.pixels.value_or(report.size.area());
   json["stage_share"] = figure.stage_share;
   for (const StageFigure& stage : figure.stages) {
     Json entry = times_json(bench, stage.times, figure.yardstick);

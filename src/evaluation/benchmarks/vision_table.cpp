@@ -27,7 +27,9 @@ std::string details(const VisionReport& report, const Figure& figure) {
   std::string text;
   if (figure.features) text += printed("%.0f features", *figure.features);
   if (!figure.stages.empty() && figure.times.count > 0)
-    text += printed(", %.1f ns a pixel", 1e6 * figure.times.median_ms / report.size.area());
+    text += printed(", %.1f ns a pixel",
+                    1e6 * figure.times.median_ms / figure.pixels.value_or(report.size.area()));
+  if (figure.found_share) text += printed(", found in %.0f %%", 100.0 * *figure.found_share);
   if (figure.corner_error_px) text += printed("corner error %.2f px", *figure.corner_error_px);
   return text.empty() ? text : "  (" + text + ")";
 }

@@ -38,7 +38,8 @@ class Follower {
   sim::RobotMotion motion_{.x_m = -kStartGap_m};
 };
 
-/// As wide a view as the simulator's own camera has, at any size.
+}  // namespace
+
 CameraModel camera_of(cv::Size size) {
   CameraModel camera = sim::default_camera_model();
   const double scale = static_cast<double>(size.width) / camera.width_px;
@@ -53,6 +54,8 @@ CameraModel camera_of(cv::Size size) {
   camera.height_px = size.height;
   return camera;
 }
+
+namespace {
 
 sim::Scenario scenario_of(cv::Size size) {
   using sim::WalkStep;
