@@ -23,6 +23,8 @@ sim::LockstepSettings settings_of(const SimulateOptions& options, const sim::Sce
     settings.shirt.distance_m = options.teach_distance_m;
   } else if (!options.template_file.empty()) {
     settings.shirt = read_template(options.template_file);
+    if (settings.config.target.distance_m > 0.0)
+      settings.shirt.distance_m = settings.config.target.distance_m;
   } else if (settings.scenario.camera.source == "sim") {
     settings.shirt = sim::teach_from_world(settings.scenario, options.teach_distance_m);
   } else {

@@ -151,7 +151,9 @@ std::vector<ForeignMethod> planar_methods() {
                     }),
       planar_method("AKAZE",
                     [] {
-                      return Detector{cv::AKAZE::create(), cv::NORM_HAMMING};
+                      const cv::Ptr<cv::AKAZE> akaze = cv::AKAZE::create();
+                      akaze->setThreshold(kAkazeThreshold);
+                      return Detector{akaze, cv::NORM_HAMMING};
                     }),
   };
 }
