@@ -1,5 +1,7 @@
 // heel simulate: scenarios through the daemon's own stages in lock step, and how well the person was
 // followed.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -51,10 +53,11 @@ std::vector<sim::Scenario> named_scenarios(const SimulateOptions& options,
     scenarios.push_back(scenario_of(options, file));
     const std::string& name = scenarios.back().name;
     if (!is_folder_name(name))
-      throw Error(file + ": name: '" + name +
-                  "' cannot name a folder (expected letters, digits, '-' and '_')");
+      throw Error(fmt::format("{}: name: '{}' cannot name a folder (expected letters, digits, '-' and '_')",
+                              file, name));
     if (!names.insert(name).second)
-      throw Error(file + ": name: a second scenario called '" + name + "' (expected different names)");
+      throw Error(
+          fmt::format("{}: name: a second scenario called '{}' (expected different names)", file, name));
   }
   return scenarios;
 }
