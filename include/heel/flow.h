@@ -50,6 +50,7 @@ enum class PoseReason : std::uint8_t {
   ImplausibleShape,  ///< the template's outline is mirrored, folded, or far too large or small
   NoValidMotion,     ///< no decomposition puts the shirt in front of both cameras, facing the camera
   WrongFrameSize,    ///< the frame is not of the size the camera was calibrated at
+  PatchesDisagree,   ///< too few patches of the print are where the pose puts them
 };
 
 /// The pose of the shirt in one frame. Conventions of the reference view: the plane z = d, normal (0,0,1);

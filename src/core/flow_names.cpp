@@ -21,6 +21,8 @@ const char* to_string(PoseReason reason) {
       return "no valid motion";
     case PoseReason::WrongFrameSize:
       return "wrong frame size";
+    case PoseReason::PatchesDisagree:
+      return "patches disagree";
   }
   return "?";
 }

@@ -20,9 +20,14 @@ GuidedMatcher::GuidedMatcher(int max_cur, const GuidedMatchSettings& settings) :
 
 void GuidedMatcher::match(const FeatureSet& ref, std::span<const PredictedFeature> predicted,
                           const FeatureGrid& cur, std::vector<Match>& out) {
+  match(ref, predicted, cur, settings_.radius_px, out);
+}
+
+void GuidedMatcher::match(const FeatureSet& ref, std::span<const PredictedFeature> predicted,
+                          const FeatureGrid& cur, double radius_px, std::vector<Match>& out) {
   taken_by_.assign(cur.undistorted_px().size(), -1);
   out.clear();
-  const double radius2_px2 = settings_.radius_px * settings_.radius_px;
+  const double radius2_px2 = radius_px * radius_px;
   const FeatureSet& cur_features = cur.features();
 
   for (std::size_t r = 0; r < ref.features.size(); ++r) {
@@ -33,7 +38,7 @@ void GuidedMatcher::match(const FeatureSet& ref, std::span<const PredictedFeatur
     const double max_sigma_px = predicted_sigma_px * settings_.scale_ratio;
     float nearest2 = std::numeric_limits<float>::infinity(), second2 = nearest2;
     std::size_t nearest = 0;
-    cur.visit_near(predicted_px, settings_.radius_px, [&](const FeatureGrid::Entry& entry) {
+    cur.visit_near(predicted_px, radius_px, [&](const FeatureGrid::Entry& entry) {
       if (entry.laplacian != ref.features[r].laplacian) return;
       const double dx_px = entry.x_px - predicted_px.x(), dy_px = entry.y_px - predicted_px.y();
       if (!(dx_px * dx_px + dy_px * dy_px < radius2_px2)) return;

@@ -34,7 +34,9 @@ class GuidedMatcher {
   GuidedMatcher(int max_cur, const GuidedMatchSettings& settings);
 
   /// `predicted`: one for each feature of `ref`, in their order. Allocates nothing when `out` has capacity
-  /// for a match for each feature of `ref`.
+  /// for a match for each feature of `ref`. `radius_px` replaces that of the settings.
+  void match(const FeatureSet& ref, std::span<const PredictedFeature> predicted, const FeatureGrid& cur,
+             double radius_px, std::vector<Match>& out);
   void match(const FeatureSet& ref, std::span<const PredictedFeature> predicted, const FeatureGrid& cur,
              std::vector<Match>& out);
 

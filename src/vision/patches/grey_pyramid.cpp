@@ -10,7 +10,16 @@ namespace {
 // A picture is halved when steps are longer than this: √2 is midway between two levels.
 constexpr double kLongStep_px = 1.42;
 
+/// From pixels of the full picture to those of a level, 2^level times as large.
+Eigen::Vector2d in_level(const Eigen::Vector2d& px, std::size_t level) {
+  return (px.array() + 0.5).matrix() / static_cast<double>(1U << level) - Eigen::Vector2d::Constant(0.5);
+}
+
 }  // namespace
+
+float GreyPyramid::at(const Eigen::Vector2d& px, std::size_t level) const {
+  return levels_[level].at(in_level(px, level));
+}
 
 float GreyPyramid::Level::at(const Eigen::Vector2d& px) const {
   const double x = std::clamp(px.x(), 0.0, width_px - 1.001), y = std::clamp(px.y(), 0.0, height_px - 1.001);
@@ -47,9 +56,8 @@ bool GreyPyramid::sample(const Eigen::Vector2d& centre_px, const Eigen::Matrix2d
   const double step_length_px = std::sqrt(std::abs(step_px.determinant()));
   const std::size_t index = step_length_px > 2.0 * kLongStep_px ? 2 : step_length_px > kLongStep_px ? 1 : 0;
   const Level& level = levels_[index];
-  const double shrink = static_cast<double>(1U << index);
-  const Eigen::Vector2d centre = (centre_px.array() + 0.5).matrix() / shrink - Eigen::Vector2d::Constant(0.5);
-  const Eigen::Matrix2d step = step_px / shrink;
+  const Eigen::Vector2d centre = in_level(centre_px, index);
+  const Eigen::Matrix2d step = step_px / static_cast<double>(1U << index);
 
   const double reach = 0.5 * (side - 1);
   const Eigen::Vector2d extent = reach * step.cwiseAbs().rowwise().sum();

@@ -29,8 +29,11 @@ class GreyPyramid {
   bool sample(const Eigen::Vector2d& centre_px, const Eigen::Matrix2d& step_px, int side,
               PatchSamples& out) const;
 
-  /// Bilinear, in the full picture; places outside have the value of the nearest edge.
-  float at(const Eigen::Vector2d& px) const { return levels_.front().at(px); }
+  /// Bilinear, of the picture at its size / 2^level; `px` are pixels of the full picture. Places outside have
+  /// the value of the nearest edge.
+  float at(const Eigen::Vector2d& px, std::size_t level = 0) const;
+
+  static constexpr std::size_t kLevels = 3;
 
  private:
   struct Level {
@@ -39,7 +42,6 @@ class GreyPyramid {
     float at(const Eigen::Vector2d& px) const;
     Level half() const;
   };
-  static constexpr std::size_t kLevels = 3;
   std::vector<Level> levels_;
 };
 

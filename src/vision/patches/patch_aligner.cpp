@@ -12,7 +12,7 @@ namespace {
 constexpr double kMinArea = 0.01;  // of a visible patch, current to reference image
 constexpr int kMinHalf_px = 4, kMaxHalf_px = (kMaxPatchSide - 3) / 2;  // of a patch in the frame
 constexpr int kIterations = 8;
-constexpr double kSettled_px = 0.03;
+constexpr double kPatchSettled_px = 0.03;
 // Standard deviation of grey levels below which a patch is plain.
 constexpr float kPlainReference = 5.f, kPlainFrame = 2.f;
 // Along an edge the place is undetermined; the damping keeps it where it is.
@@ -105,7 +105,7 @@ std::optional<AlignedPatch> PatchAligner::align_one(const FrameView& frame, std:
     const Eigen::Vector2d step_px = step_from_gradient * seen->gradient;
     shift_px -= step_px;
     if (!(shift_px.norm() < settings_.max_shift_px)) return std::nullopt;
-    if (step_px.norm() < kSettled_px) break;
+    if (step_px.norm() < kPatchSettled_px) break;
   }
   if (correlation < settings_.min_correlation) return std::nullopt;
   const double noise2 = kAlikeSamples * 2.0 * (1.0 - correlation) * model.variance() + kCameraNoise2;

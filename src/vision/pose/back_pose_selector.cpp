@@ -13,7 +13,10 @@ namespace {
 
 // The plane is selected if it explains the frame this many times better than the curved surface.
 constexpr double kPlaneAdvantage = 1.25;
-// The odds of the curved surface are the advantage to the power −4: 2 to 5 at 1.25 times, 1 to 16 at twice.
+// Of a plane that is one, so many times more patches are in place than of the curved surface.
+constexpr double kPlanePatchAdvantage = 1.1;
+// Without patches the odds of the curved surface are the advantage to the power −4: 2 to 5 at 1.25 times, 1
+// to 16 at twice.
 constexpr double kAdvantageExponent = 4.0;
 constexpr double kMinNoise_px = 0.3;  // smaller residuals do not make a fit better
 
@@ -22,27 +25,18 @@ double explanation(std::size_t pairs, const FrontalPose& pose) {
   return static_cast<double>(pairs) / std::max(kMinNoise_px, pose.motion.noise_px);
 }
 
-FrontalPose with_patches(FrontalPose pose, const SurfacePose& refined) {
-  pose.motion = refined.motion;
-  pose.covariance = refined.covariance;
-  pose.yaw_rad = yaw_of_rotation(refined.motion.R_cur_from_ref);
-  pose.yaw_sigma_rad = yaw_sigma_rad(refined.motion.R_cur_from_ref, refined.covariance);
-  pose.t_over_d_sigma = refined.covariance.diagonal().tail<3>().cwiseSqrt();
-  return pose;
-}
-
 }  // namespace
 
-BackPoseSelector::BackPoseSelector(const ShirtTemplate& shirt, const ReferenceView& reference,
-                                   const CameraModel& camera, const VisionConfig& config)
+BackPoseSelector::BackPoseSelector(const ReferenceView& reference, const Eigen::Matrix3d& K_cur,
+                                   const VisionConfig& config, SurfacePoseRefiner& patch_refiner)
     : K_ref_(reference.K),
-      K_cur_(camera.K()),
+      K_cur_(K_cur),
       centre_px_(reference.centre_px),
       flat_(flat_surface(reference, config)),
       curved_(average_back(reference, config)),
       frontal_estimator_(reference.px.size()),
       surface_refiner_(reference.px, reference.K_inverse, frontal_estimator_),
-      patch_refiner_(shirt, camera) {}
+      patch_refiner_(patch_refiner) {}
 
 FrontalPose BackPoseSelector::estimate(const PlaneSolution& plane, TemplateMatcher& matcher,
                                        const FrameContent& frame, int patch_rounds) {
@@ -52,21 +46,19 @@ FrontalPose BackPoseSelector::estimate(const PlaneSolution& plane, TemplateMatch
   problem.surface = curved_;
   const CurvedSurfacePose of_curve = surface_refiner_.refine(
       problem, frontal_estimator_.estimate(problem, plane.motion), matcher, frame.features);
+  const std::optional<SurfacePose> curve =
+      patch_refiner_.refine(frame.view, curved_, of_curve.pairs, of_curve.pose.motion, patch_rounds);
   const double advantage =
       explanation(plane.inliers.size(), of_plane) / explanation(of_curve.pairs.size(), of_curve.pose);
-  if (!(advantage >= kPlaneAdvantage))
-    return refined(curved_, of_curve.pairs, of_curve.pose, frame.view, patch_rounds);
+  if (!(advantage >= kPlaneAdvantage)) return curve ? frontal_pose(*curve) : of_curve.pose;
+
+  const std::optional<SurfacePose> flat =
+      patch_refiner_.refine(frame.view, flat_, plane.inliers, of_plane.motion, patch_rounds);
+  if (curve && !(flat && flat->score > kPlanePatchAdvantage * curve->score)) return frontal_pose(*curve);
+  if (flat) return frontal_pose(*flat);
   const AlternativeHypothesis curved{of_curve.pose.motion, std::pow(advantage, -kAdvantageExponent)};
   inflate_covariance({&curved, 1}, of_plane);
-  return refined(flat_, plane.inliers, of_plane, frame.view, patch_rounds);
-}
-
-/// `pose` itself where too few patches are found.
-FrontalPose BackPoseSelector::refined(const BackSurface& surface, std::span<const PointPair> pairs,
-                                      const FrontalPose& pose, const FrameView& frame, int patch_rounds) {
-  const std::optional<SurfacePose> refined =
-      patch_refiner_.refine(frame, surface, pairs, pose.motion, patch_rounds);
-  return refined ? with_patches(pose, *refined) : pose;
+  return of_plane;
 }
 
 }  // namespace heel

@@ -1,5 +1,6 @@
 // From a motion of the template's plane to the pose of the back: of a curved surface, as backs are, or of a
-// plane, as a picture or a board is. The model that explains the frame better is selected.
+// plane, as a picture or a board is. Features say whether it may be a plane, patches of the whole print
+// whether it is one.
 //
 // Convention: X_cur = R_cur_from_ref X_ref + t. Units: undistorted pixels, t/d.
 #pragma once
@@ -8,11 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "heel/camera_model.h"
 #include "heel/flow.h"
 #include "heel/homography.h"
 #include "heel/motion.h"
-#include "heel/shirt_template.h"
 #include "heel/vision_config.h"
 #include "vision/matching/feature_grid.h"
 #include "vision/matching/template_matcher.h"
@@ -39,11 +38,13 @@ struct FrameContent {
 
 class BackPoseSelector {
  public:
-  /// `reference` must outlive this. If its distance is unknown, the curvature in units of the distance is
-  /// unknown, too: then the back is modelled as a plane, and sigmas include the noise of pixels only. Memory
-  /// is taken once.
-  BackPoseSelector(const ShirtTemplate& shirt, const ReferenceView& reference, const CameraModel& camera,
-                   const VisionConfig& config);
+  /// `reference` and `patch_refiner` must outlive this. If the template's distance is unknown, the curvature
+  /// in units of the distance is unknown, too: then the back is modelled as a plane, and sigmas include the
+  /// noise of pixels only. Memory is taken once.
+  BackPoseSelector(const ReferenceView& reference, const Eigen::Matrix3d& K_cur, const VisionConfig& config,
+                   SurfacePoseRefiner& patch_refiner);
+
+  const BackSurface& curved_surface() const { return curved_; }
 
   BackPoseSelector(const BackPoseSelector&) = delete;
   BackPoseSelector& operator=(const BackPoseSelector&) = delete;
@@ -53,15 +54,12 @@ class BackPoseSelector {
                        int patch_rounds);
 
  private:
-  FrontalPose refined(const BackSurface& surface, std::span<const PointPair> pairs, const FrontalPose& pose,
-                      const FrameView& frame, int patch_rounds);
-
   Eigen::Matrix3d K_ref_, K_cur_;
   Eigen::Vector2d centre_px_;
   BackSurface flat_, curved_;
   FrontalPoseEstimator frontal_estimator_;
   CurvedSurfaceRefiner surface_refiner_;
-  SurfacePoseRefiner patch_refiner_;
+  SurfacePoseRefiner& patch_refiner_;
 };
 
 }  // namespace heel

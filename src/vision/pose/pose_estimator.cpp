@@ -1,5 +1,5 @@
 // One frame's way through vision, in the order of M. Burke and W. Brink, "Estimating Target Orientation with
-// a Single Camera for Use in a Human-Following Robot" (PRASA 2010): see PoseEstimator::Impl::steps.
+// a Single Camera for Use in a Human-Following Robot" (PRASA 2010): see PoseEstimator::Impl::estimate.
 #include "heel/pose_estimator.h"
 
 #include <Eigen/Geometry>
@@ -10,9 +10,11 @@
 #include "heel/motion.h"
 #include "vision/matching/template_matcher.h"
 #include "vision/pose/back_pose_selector.h"
+#include "vision/pose/frame_features.h"
 #include "vision/pose/plane_fitter.h"
 #include "vision/pose/pose_workspace.h"
 #include "vision/pose/view_predictor.h"
+#include "vision/pose/view_search.h"
 #include "vision/template/reference_view.h"
 
 namespace heel {
@@ -66,17 +68,29 @@ PoseEstimate with_back_pose(PoseEstimate pose, const FrontalPose& back, const Re
   return pose;
 }
 
+/// Unchanged where no view has shown the back, but for the reason of a candidate that only patches refused.
+PoseEstimate with_view(PoseEstimate pose, const ViewDetection& seen, const ReferenceView& reference) {
+  if (seen.reason == PoseReason::PatchesDisagree) pose.reason = seen.reason;
+  if (!seen.found()) return pose;
+  PoseEstimate with_back = with_back_pose(pose, seen.pose, reference);
+  if (!with_back.found()) return pose;
+  Eigen::Map<RowMajor3d>(with_back.H_cur_from_ref.data()) = seen.H_cur_from_ref;
+  with_back.template_features = seen.view_features;
+  with_back.inliers = seen.inliers;
+  with_back.certainty = seen.certainty;
+  return with_back;
+}
+
 }  // namespace
 
 struct PoseEstimator::Impl {
   Impl(const ShirtTemplate& shirt, const CameraModel& current_camera, const VisionConfig& config);
 
   PoseEstimate estimate(const FrameView& frame, const ExpectedView& search);
-  PoseEstimate steps(const FrameView& frame, const ExpectedView& search, PoseWorkspace& work);
+  PoseEstimate steps(PoseEstimate pose, const FrameView& frame, const FeatureGrid& frame_grid,
+                     const ExpectedView& search, PoseWorkspace& work);
 
   bool fits_camera(const FrameView& frame) const;
-  const FeatureSet& extract_features(const FrameView& frame, const ExpectedView& search, PoseWorkspace& work);
-  const FeatureGrid& undistort(const FeatureSet& features, PoseWorkspace& work) const;
   PlaneMotions decompose(const PlaneFit& fit) const;
   std::optional<PlaneMotion> choose(const PlaneMotions& motions, const PlaneFit& fit,
                                     PoseWorkspace& work) const;
@@ -85,11 +99,13 @@ struct PoseEstimator::Impl {
   ReferenceView reference;
   Eigen::Matrix3d K_cur, K_cur_inverse;
   MagnificationRange range;
-  FeatureExtractor extractor;
+  FrameFeatures frame_features;
   ViewPredictor view_predictor;
   TemplateMatcher matcher;
   PlaneFitter plane_fitter;
+  SurfacePoseRefiner patch_refiner;
   BackPoseSelector back_pose_selector;
+  ViewSearch view_search;
   PoseWorkspace workspace;
 };
 
@@ -100,40 +116,41 @@ PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current
       K_cur(camera.K()),
       K_cur_inverse(K_cur.inverse()),
       range(magnification_range(shirt, camera, config)),
-      extractor(camera.width_px, camera.height_px,
-                frame_feature_settings(shirt, reference.set, range, config)),
-      view_predictor(reference, camera, config, extractor.settings()),
+      frame_features(camera, frame_feature_settings(shirt, reference.set, range, config)),
+      view_predictor(reference, camera, config, frame_features.settings()),
       matcher(reference.set, config.max_features, static_cast<float>(config.match_ratio)),
       plane_fitter(reference, frame_shape_limits(range), config),
-      back_pose_selector(shirt, reference, camera, config),
-      workspace(static_cast<std::size_t>(config.max_features), reference.px.size()) {}
+      patch_refiner(shirt, camera),
+      back_pose_selector(reference, K_cur, config, patch_refiner),
+      view_search(shirt, reference, camera, config, back_pose_selector.curved_surface(),
+                  frame_shape_limits(range), view_predictor, frame_features, patch_refiner),
+      workspace(reference.px.size()) {}
 
+/// The paper's steps, in its order; where they fail, views of the template.
 PoseEstimate PoseEstimator::Impl::estimate(const FrameView& frame, const ExpectedView& search) {
-  const PoseEstimate pose = steps(frame, search, workspace);
-  mark(workspace.times, VisionStage::Motion);
-  return pose;
-}
-
-/// The paper's steps, in its order.
-PoseEstimate PoseEstimator::Impl::steps(const FrameView& frame, const ExpectedView& search,
-                                        PoseWorkspace& work) {
   PoseEstimate pose;
   pose.frame_sequence = frame.header.sequence;
   pose.t_capture_ns = frame.header.t_capture_ns;
   pose.template_features = static_cast<std::uint32_t>(reference.px.size());
   if (!fits_camera(frame)) return with_reason(pose, PoseReason::WrongFrameSize);
+  const FeatureGrid& features = frame_features.find(frame, search);
+  pose.frame_features = static_cast<std::uint32_t>(features.features().features.size());
+  if (pose.frame_features < kHomographyPairs) return with_reason(pose, PoseReason::TooFewFeatures);
 
-  const FeatureSet& features = extract_features(frame, search, work);
-  pose.frame_features = static_cast<std::uint32_t>(features.features.size());
-  if (features.features.size() < kHomographyPairs) return with_reason(pose, PoseReason::TooFewFeatures);
+  pose = steps(pose, frame, features, search, workspace);
+  if (!pose.found()) pose = with_view(pose, view_search.search(frame, features), reference);
+  mark(workspace.times, VisionStage::Motion);
+  return pose;
+}
 
-  const std::span<const Match> matches = matcher.match_everywhere(features);
+PoseEstimate PoseEstimator::Impl::steps(PoseEstimate pose, const FrameView& frame,
+                                        const FeatureGrid& frame_grid, const ExpectedView& search,
+                                        PoseWorkspace& work) {
+  const std::span<const Match> matches = matcher.match_everywhere(frame_grid.features());
   mark(work.times, VisionStage::Matching);
   pose.matches = static_cast<std::uint32_t>(matches.size());
   if (matches.size() < kHomographyPairs) return with_reason(pose, PoseReason::TooFewMatches);
 
-  const FeatureGrid& frame_grid = undistort(features, work);
-  mark(work.times, VisionStage::Undistortion);
   PlaneFit fit = plane_fitter.fit(matches, frame_grid, work);
   if (fit.found()) fit = plane_fitter.fit_guided(fit, matcher, frame_grid, work);
   pose = with_homography(pose, fit);  // and the certainty
@@ -151,26 +168,6 @@ PoseEstimate PoseEstimator::Impl::steps(const FrameView& frame, const ExpectedVi
 bool PoseEstimator::Impl::fits_camera(const FrameView& frame) const {
   return frame.header.width_px == static_cast<std::uint32_t>(camera.width_px) &&
          frame.header.height_px == static_cast<std::uint32_t>(camera.height_px);
-}
-
-const FeatureSet& PoseEstimator::Impl::extract_features(const FrameView& frame, const ExpectedView& search,
-                                                        PoseWorkspace& work) {
-  FeatureSettings settings = extractor.settings();
-  settings.sigma_min_px = static_cast<float>(search.sigma_min_px);
-  settings.sigma_max_px = static_cast<float>(search.sigma_max_px);
-  settings.upsample = search.upsample;
-  extractor.set_settings(settings);
-  extractor.extract(frame, search.region, work.frame_features);
-  return work.frame_features;
-}
-
-const FeatureGrid& PoseEstimator::Impl::undistort(const FeatureSet& features, PoseWorkspace& work) const {
-  work.frame_px.clear();
-  for (const Feature& feature : features.features)
-    work.frame_px.push_back(
-        camera.undistort_px({static_cast<double>(feature.x_px), static_cast<double>(feature.y_px)}));
-  work.frame_grid.assign(features, work.frame_px);
-  return work.frame_grid;
 }
 
 PlaneMotions PoseEstimator::Impl::decompose(const PlaneFit& fit) const {
@@ -214,7 +211,7 @@ bool PoseEstimator::needs_upsampled_pass(const PoseEstimate& pose) const {
 
 void PoseEstimator::measure(StageTimes* times) {
   impl_->workspace.times = times;
-  impl_->extractor.measure(times);
+  impl_->frame_features.measure(times);
 }
 
 }  // namespace heel

@@ -6,21 +6,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "heel/features.h"
 #include "heel/homography.h"
 #include "heel/matching.h"
 #include "heel/stage_times.h"
-#include "vision/matching/feature_grid.h"
 #include "vision/matching/guided_matcher.h"
 
 namespace heel {
 
 struct PoseWorkspace {
-  PoseWorkspace(std::size_t max_frame_features, std::size_t template_features)
-      : frame_grid(static_cast<int>(max_frame_features), GuidedMatchSettings{}.radius_px) {
-    frame_features.features.reserve(max_frame_features);
-    frame_features.descriptors.reserve(max_frame_features);
-    frame_px.reserve(max_frame_features);
+  explicit PoseWorkspace(std::size_t template_features) {
     pairs.reserve(template_features);
     inlier_mask.reserve(template_features);
     inlier_matches.reserve(template_features);
@@ -30,10 +24,6 @@ struct PoseWorkspace {
     inliers_ref_normalised.reserve(template_features);
   }
 
-  // Features and undistortion.
-  FeatureSet frame_features;
-  std::vector<Eigen::Vector2d> frame_px;
-  FeatureGrid frame_grid;
   // Homography.
   std::vector<PointPair> pairs;
   std::vector<std::uint8_t> inlier_mask;

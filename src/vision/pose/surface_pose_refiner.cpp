@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "heel/motion.h"
+
 namespace heel {
 namespace {
 
@@ -31,6 +33,16 @@ double median(std::array<double, Size>& values, std::size_t count) {
 }
 
 }  // namespace
+
+FrontalPose frontal_pose(const SurfacePose& pose) {
+  FrontalPose frontal;
+  frontal.motion = frontal.other = pose.motion;
+  frontal.covariance = pose.covariance;
+  frontal.yaw_rad = yaw_of_rotation(pose.motion.R_cur_from_ref);
+  frontal.yaw_sigma_rad = yaw_sigma_rad(pose.motion.R_cur_from_ref, pose.covariance);
+  frontal.t_over_d_sigma = pose.covariance.diagonal().tail<3>().cwiseSqrt();
+  return frontal;
+}
 
 SurfacePoseRefiner::SurfacePoseRefiner(const ShirtTemplate& shirt, const CameraModel& current_camera)
     : camera_(current_camera),

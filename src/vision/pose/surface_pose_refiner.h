@@ -30,6 +30,9 @@ struct SurfacePose {
   double score = 0.0;  ///< patches less the robust cost's share: what poses of one frame are compared by
 };
 
+/// The same as a pose without alternatives.
+FrontalPose frontal_pose(const SurfacePose& pose);
+
 class SurfacePoseRefiner {
  public:
   /// Memory is taken once.

@@ -10,6 +10,15 @@
 
 namespace heel::test {
 
+/// `px` must lie inside of the picture.
+inline float bilinear(const cv::Mat& grey, const Eigen::Vector2d& px) {
+  const int x = static_cast<int>(px.x()), y = static_cast<int>(px.y());
+  const float fx = static_cast<float>(px.x() - x), fy = static_cast<float>(px.y() - y);
+  const std::uint8_t *upper = grey.ptr(y) + x, *lower = grey.ptr(y + 1) + x;
+  return (1.f - fy) * ((1.f - fx) * static_cast<float>(upper[0]) + fx * static_cast<float>(upper[1])) +
+         fy * ((1.f - fx) * static_cast<float>(lower[0]) + fx * static_cast<float>(lower[1]));
+}
+
 /// The frame of robot_camera(). No part of the surface may cover another.
 inline cv::Mat render_back(const heel::ShirtTemplate& shirt, const BackSurface& surface,
                            const Eigen::Matrix3d& R, const Eigen::Vector3d& t_over_d,
@@ -31,10 +40,7 @@ inline cv::Mat render_back(const heel::ShirtTemplate& shirt, const BackSurface& 
       const Eigen::Vector2d px = camera.distort_px((KR * surface.point(ray) + Kt).hnormalized());
       const int x = static_cast<int>(std::lround(px.x())), y = static_cast<int>(std::lround(px.y()));
       if (x < 0 || y < 0 || x >= frame.cols || y >= frame.rows) continue;
-      cv::Mat sample;
-      cv::getRectSubPix(reference, {1, 1}, {static_cast<float>(ref_px.x()), static_cast<float>(ref_px.y())},
-                        sample, CV_32F);
-      sum.at<float>(y, x) += sample.at<float>(0, 0);
+      sum.at<float>(y, x) += bilinear(reference, ref_px);
       count.at<float>(y, x) += 1.f;
     }
   }

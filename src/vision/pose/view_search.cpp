@@ -1,0 +1,112 @@
+#include "vision/pose/view_search.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "heel/motion.h"
+#include "vision/features/upsampled_region.h"
+
+namespace heel {
+namespace {
+
+// Far from frontal a candidate's mirror image in the line of sight may fit its few features as well: the
+// patches decide.
+constexpr double kMirrored_rad = 0.25;
+constexpr int kViewPatchRounds = 3;
+// Matches near a candidate are matches with any print that looks alike; so more of them must fit than of
+// those that are distinct in the whole frame.
+constexpr double kMinViewCertainty = 0.1;
+// Of backs that are there a fifth of the visible patches or more agree, in all but one of a hundred; of
+// candidates that are none, a tenth at most.
+constexpr double kMinAgreement = 0.2;
+constexpr std::size_t kMinPatches = 8;
+// A candidate is as uncertain as a pose of a tenth of a second ago.
+constexpr double kCandidateAge_s = 0.1;
+constexpr double kSmallerFeatures = 0.8;
+
+std::vector<TemplateView> views_of(const ShirtTemplate& shirt, const BackSurface& surface) {
+  return surface.flat() ? std::vector<TemplateView>{} : make_views(shirt, surface);
+}
+
+Eigen::Matrix3d plane_homography(const Eigen::Matrix3d& K_cur, const FrontalMotion& motion,
+                                 const Eigen::Matrix3d& K_ref_inverse) {
+  const Eigen::Matrix3d H =
+      K_cur * (motion.R_cur_from_ref + motion.t_over_d * Eigen::RowVector3d::Unit(2)) * K_ref_inverse;
+  return H / H(2, 2);
+}
+
+}  // namespace
+
+ViewSearch::ViewSearch(const ShirtTemplate& shirt, const ReferenceView& reference, const CameraModel& camera,
+                       const VisionConfig& config, const BackSurface& surface,
+                       const ShapeLimits& shape_limits, const ViewPredictor& predictor,
+                       FrameFeatures& features, SurfacePoseRefiner& patch_refiner)
+    : reference_(reference),
+      predictor_(predictor),
+      features_(features),
+      patch_refiner_(patch_refiner),
+      surface_(surface),
+      shape_limits_(shape_limits),
+      K_cur_(camera.K()),
+      min_inliers_(static_cast<std::uint32_t>(config.min_inliers)),
+      min_certainty_(std::max(kMinViewCertainty, config.min_certainty)),
+      views_(views_of(shirt, surface)),
+      voter_(views_, surface, shirt.camera, camera, config.max_features),
+      confirmer_(views_, surface, shirt.camera, camera, config.max_features) {}
+
+ViewDetection ViewSearch::search(const FrameView& frame, const FeatureGrid& found_features) {
+  ViewDetection detection;
+  if (views_.empty()) return detection;
+  for (const FrontalMotion& candidate : voter_.candidates(found_features)) {
+    detection = confirm(frame, candidate);
+    if (detection.found()) break;
+  }
+  return detection;
+}
+
+bool ViewSearch::plausible(const Eigen::Matrix3d& H_cur_from_ref) const {
+  return H_cur_from_ref.allFinite() && plausible_shape(H_cur_from_ref, reference_.outline_px, shape_limits_);
+}
+
+ViewDetection ViewSearch::confirm(const FrameView& frame, const FrontalMotion& candidate) {
+  ViewDetection detection;
+  const Eigen::Matrix3d H_candidate = plane_homography(K_cur_, candidate, reference_.K_inverse);
+  detection.reason = PoseReason::ImplausibleShape;
+  if (!plausible(H_candidate)) return detection;
+
+  ExpectedView near = predictor_.near(H_candidate, kCandidateAge_s);
+  near.sigma_min_px = std::max(predictor_.whole_frame().sigma_min_px, kSmallerFeatures * near.sigma_min_px);
+  const FeatureGrid& features = features_.find(frame, near);
+  const std::optional<ConfirmedView> confirmed =
+      confirmer_.confirm(candidate, features, near.upsample ? UpsampledRegion::kFactor : 1.0);
+  detection.reason = PoseReason::TooFewInliers;
+  if (!confirmed) return detection;
+  detection.inliers = static_cast<std::uint32_t>(confirmed->pairs.size());
+  detection.view_features = static_cast<std::uint32_t>(confirmed->view_features);
+  detection.certainty = static_cast<double>(detection.inliers) / detection.view_features;
+  if (detection.inliers < min_inliers_ || detection.certainty < min_certainty_) return detection;
+
+  std::optional<SurfacePose> pose =
+      patch_refiner_.refine(frame, surface_, confirmed->pairs, confirmed->motion, kViewPatchRounds);
+  detection.reason = PoseReason::PatchesDisagree;
+  if (!pose) return detection;
+  if (std::abs(yaw_of_rotation(pose->motion.R_cur_from_ref)) > kMirrored_rad) {
+    const FrontalProblem problem{confirmed->pairs, reference_.K,         K_cur_,
+                                 H_candidate,      reference_.centre_px, surface_};
+    const PlaneMotion mirrored = mirrored_motion(problem, pose->motion);
+    const std::optional<SurfacePose> other = patch_refiner_.refine(
+        frame, surface_, {}, {.R_cur_from_ref = mirrored.R_cur_from_ref, .t_over_d = mirrored.t_over_d},
+        kViewPatchRounds);
+    if (other && other->score > pose->score) pose = other;
+  }
+  if (pose->agreement < kMinAgreement || pose->patches < kMinPatches) return detection;
+
+  detection.H_cur_from_ref = plane_homography(K_cur_, pose->motion, reference_.K_inverse);
+  detection.pose = frontal_pose(*pose);
+  detection.reason = plausible(detection.H_cur_from_ref) ? PoseReason::Found : PoseReason::ImplausibleShape;
+  return detection;
+}
+
+}  // namespace heel
