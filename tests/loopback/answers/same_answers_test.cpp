@@ -18,10 +18,15 @@
 #include "support/temporary_folder.h"
 #include "tools/heel/printed_shirt.h"
 
-namespace heel::test {
+namespace heel {
 namespace {
 
 using nlohmann::json;
+using test::kHeight_px;
+using test::kWidth_px;
+using test::Outcome;
+using test::Process;
+using test::run_program;
 
 constexpr int kFrames = 24;
 constexpr int kFirstHidden = 10, kLastHidden = 12;  // the shirt is not in these frames
@@ -70,11 +75,11 @@ std::map<std::string, double> numbers_of(const json& line) {
 class SameAnswers : public ::testing::Test {
  protected:
   void SetUp() override {
-    write_camera_model(shirt_camera(), path("camera.yaml"));
+    write_camera_model(test::shirt_camera(), path("camera.yaml"));
     ShirtTemplate shirt;
-    const cv::Mat reference = printed_plane();
+    const cv::Mat reference = test::printed_plane();
     shirt.grey.assign(reference.datastart, reference.dataend);
-    shirt.camera = shirt_camera();
+    shirt.camera = test::shirt_camera();
     shirt.roi = {240, 140, 160, 200};
     shirt.distance_m = 1.4;
     write_template(shirt, path("shirt.heel"));
@@ -82,13 +87,13 @@ class SameAnswers : public ::testing::Test {
     for (int i = 0; i < kFrames; ++i)
       cv::imwrite(path("frames/" + std::to_string(i) + ".png"), picture(reference, i));
     // Values other than the defaults: a program that does not read the file gives other answers.
-    write_text(path("heel.toml"),
-               "[camera]\nsource = \"file:frames\"\ninfo = \"camera.yaml\"\nrate_hz = 5\n"
-               "[target]\nshirt = \"shirt.heel\"\ndistance_m = 1.5\n"
-               "[vision]\nmax_features = 700\nmatch_ratio = 0.75\nback_curvature_1_m = 0.2\n"
-               "[robot]\naddress = \"pty:robot\"\nsync_retry_s = 0.2\n"
-               "[runtime]\nrealtime = false\n"
-               "[telemetry]\ndirectory = \"run\"\n");
+    test::write_text(path("heel.toml"),
+                     "[camera]\nsource = \"file:frames\"\ninfo = \"camera.yaml\"\nrate_hz = 5\n"
+                     "[target]\nshirt = \"shirt.heel\"\ndistance_m = 1.5\n"
+                     "[vision]\nmax_features = 700\nmatch_ratio = 0.75\nback_curvature_1_m = 0.2\n"
+                     "[robot]\naddress = \"pty:robot\"\nsync_retry_s = 0.2\n"
+                     "[runtime]\nrealtime = false\n"
+                     "[telemetry]\ndirectory = \"run\"\n");
   }
   std::string path(const std::string& name) const { return folder_.file(name); }
 
@@ -97,7 +102,7 @@ class SameAnswers : public ::testing::Test {
     if (frame >= kFirstHidden && frame <= kLastHidden)
       return cv::Mat(kHeight_px, kWidth_px, CV_8UC1, cv::Scalar(120));
     const double side = frame > kLastHidden ? 0.2 : -0.1;
-    return TrueMotion{0.4 * std::sin(0.5 * frame), {side, 0.01 * frame, 0.5 - 0.02 * frame}}.picture(
+    return test::TrueMotion{0.4 * std::sin(0.5 * frame), {side, 0.01 * frame, 0.5 - 0.02 * frame}}.picture(
         reference);
   }
 
@@ -114,9 +119,9 @@ class SameAnswers : public ::testing::Test {
   }
 
   std::vector<PoseColumns> poses_of_lock_step() const {
-    write_text(path("scenario.toml"),
-               "duration_s = 10\nvision_latency_ms = 10\n"
-               "[camera]\nsource = \"file:frames\"\ninfo = \"camera.yaml\"\nrate_hz = 5\n");
+    test::write_text(path("scenario.toml"),
+                     "duration_s = 10\nvision_latency_ms = 10\n"
+                     "[camera]\nsource = \"file:frames\"\ninfo = \"camera.yaml\"\nrate_hz = 5\n");
     const Outcome outcome =
         run_program({HEEL_PROGRAM, "simulate", path("scenario.toml"), "--config", path("heel.toml"),
                      "--template", path("shirt.heel"), "--out", path("lockstep")});
@@ -141,7 +146,7 @@ class SameAnswers : public ::testing::Test {
     return rows;
   }
 
-  TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(SameAnswers, HeelPoseLockStepAndDaemon) {
@@ -151,7 +156,7 @@ TEST_F(SameAnswers, HeelPoseLockStepAndDaemon) {
   const std::vector<json> posed = poses_of_heel_pose();
   ASSERT_EQ(lock_step.size(), kFrames);
   ASSERT_EQ(daemon.size(), kFrames) << "heeld dropped a frame in each of five runs\n"
-                                    << read_text(path("heeld.log"));
+                                    << test::read_text(path("heeld.log"));
   ASSERT_EQ(posed.size(), kFrames);
 
   int found = 0, tracked = 0;
@@ -187,4 +192,4 @@ TEST_F(SameAnswers, IndependentPicturesAreEachAnsweredAsASinglePicture) {
 }
 
 }  // namespace
-}  // namespace heel::test
+}  // namespace heel
