@@ -1,4 +1,5 @@
-// heel experiment, heel simulate and heel report together: the paper's figures, and those on pictures of others.
+// heel experiment, heel simulate and heel report together: the paper's figures, and those on pictures of
+// others.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
