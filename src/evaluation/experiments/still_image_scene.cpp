@@ -20,15 +20,6 @@ constexpr double kSmallestDepth = 0.75, kLargestDepth = 1.3;
 // Longer than PoseTracker keeps a pose, so that it searches the whole frame in the next case.
 constexpr double kBetweenCases_s = 1.0;
 
-/// R_cur_from_ref by yaw alone: the person stands upright, the camera may be tilted.
-Eigen::Matrix3d true_rotation(const sim::Truth& truth, double heading_rad) {
-  // Camera axes of the reference view: level, square to the back of a person with this heading.
-  Eigen::Matrix3d world_from_ref;
-  const double c = std::cos(heading_rad), s = std::sin(heading_rad);
-  world_from_ref << s, 0, c, -c, 0, s, 0, -1, 0;
-  return truth.world_from_camera.linear().transpose() * world_from_ref;
-}
-
 }  // namespace
 
 sim::Scenario still_image_scenario(const sim::Scenario& base, const StillImageWorld& world) {
@@ -50,12 +41,13 @@ sim::Scenario still_image_scenario(const sim::Scenario& base, const StillImageWo
   return scenario;
 }
 
-sim::RobotMotion robot_for(const sim::ScenarioCamera& camera, const Eigen::Vector3d& back_m,
+sim::RobotMotion robot_for(const sim::ScenarioCamera& camera, const sim::Truth& person,
                            const StillImageView& view) {
-  const double heading = view.yaw_rad;  // from a camera turned to the left, the person faces to the right
+  // From a camera turned to the left, the person faces to the right.
+  const double heading = person.back_yaw_rad + view.yaw_rad;
   const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
   const Eigen::Vector2d left(-ahead.y(), ahead.x());
-  const Eigen::Vector2d camera_m = back_m.head<2>() - view.z_m * ahead + view.x_m * left;
+  const Eigen::Vector2d camera_m = person.back_m.head<2>() - view.z_m * ahead + view.x_m * left;
   const Eigen::Vector2d robot_m = camera_m - camera.mount_x_m * ahead - camera.mount_y_m * left;
   sim::RobotMotion robot;
   robot.x_m = robot_m.x();
@@ -104,8 +96,7 @@ StillImageRow StillImageScene::estimate(const std::string& name, const StillImag
 /// Draws the next picture and returns its truth.
 sim::Truth StillImageScene::render(const StillImageView& view) {
   const sim::ScenarioCamera& camera = world_.scenario().camera;
-  const Eigen::Vector3d back_m = world_.truth({}, t_s_).back_m;
-  const sim::RobotMotion robot = robot_for(camera, back_m, view);
+  const sim::RobotMotion robot = robot_for(camera, world_.truth({}, t_s_), view);
   sim::Truth truth = world_.truth(robot, t_s_);
   world_.render(robot, t_s_, ++frame_, grey_);
   if (view.occluded != 0.0)
@@ -120,9 +111,10 @@ void StillImageScene::set_truth(const sim::Truth& truth, StillImageRow& row) con
   row.true_z_m = truth.back_in_camera_m.z();
   row.true_yaw_rad = truth.yaw_rad;
   // The middle of the back in the reference view: straight ahead, apart from the camera's height.
-  const double back_below_camera_m = world_.scenario().camera.mount_z_m - truth.back_m.z();
+  const double back_below_camera_m =
+      world_.scenario().camera.mount_z_m - world_.back_m(world_.taught_pose()).z();
   const Eigen::Vector3d back_ref_m(0.0, back_below_camera_m, shirt_.distance_m);
-  row.true_t_m = truth.back_in_camera_m - true_rotation(truth, truth.back_yaw_rad) * back_ref_m;
+  row.true_t_m = truth.back_in_camera_m - truth.R_cur_from_ref * back_ref_m;
 }
 
 /// What follows from the estimated pose.

@@ -83,9 +83,9 @@ class StillImageScene {
 /// `base` with the person standing in an open space.
 sim::Scenario still_image_scenario(const sim::Scenario& base, const StillImageWorld& world);
 
-/// The robot whose camera has the back at `view`; the person stands at the origin and faces +x. `back_m` is
-/// the middle of the back in the world.
-sim::RobotMotion robot_for(const sim::ScenarioCamera& camera, const Eigen::Vector3d& back_m,
+/// The robot whose camera has the back at `view`; of the truth about the person, the place and heading of the
+/// back are used.
+sim::RobotMotion robot_for(const sim::ScenarioCamera& camera, const sim::Truth& person,
                            const StillImageView& view);
 
 }  // namespace heel::evaluation

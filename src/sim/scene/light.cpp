@@ -23,7 +23,8 @@ float Light::at(const Eigen::Vector3f& position_m, const Eigen::Vector3f& normal
                                 std::sin(0.4f * position_m.y() + phase_y_);
   const float above = 0.5f + 0.5f * normal.z();
   const float window = std::max(0.f, normal.dot(window_));
-  return static_cast<float>(settings_.level) * place * (0.7f + 0.4f * above + 0.55f * window);
+  return static_cast<float>(settings_.level) * place *
+         (0.7f + 0.4f * above + static_cast<float>(settings_.window_share) * window);
 }
 
 }  // namespace heel::sim

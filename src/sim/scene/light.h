@@ -10,8 +10,9 @@
 namespace heel::sim {
 
 struct LightSettings {
-  double level = 1.0;        ///< brightness; the noise does not change, so that a lower level is noisier
-  double unevenness = 0.35;  ///< 0: the same light everywhere; 0.5: from half the light to 1.5 times
+  double level = 1.0;          ///< brightness; the noise does not change, so that a lower level is noisier
+  double unevenness = 0.35;    ///< 0: the same light everywhere; 0.5: from half the light to 1.5 times
+  double window_share = 0.55;  ///< light from the windows, or from the sun
   double window_azimuth_rad = 0.9;   ///< direction of the windows from the middle of the room
   std::vector<LightChange> changes;  ///< lamps switched off or on, for the whole room; in order of time
 };

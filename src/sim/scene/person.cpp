@@ -20,6 +20,9 @@ constexpr double kKnee_rad = 0.75;        ///< bend of the knee that swings forw
 constexpr double kSeatedThigh_rad = 1.5;  ///< nearly level
 constexpr double kRisingLean_rad = 0.45;  ///< when half seated
 constexpr double kBreathRate_hz = 0.25;
+constexpr double kPullPerBend_m_rad = 0.19;
+constexpr double kDragPerFold = 0.45;      ///< of the cloth along the surface and along the normal
+constexpr double kClothFollowsHips = 0.3;  ///< share of the hips' turn at the hem
 
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
@@ -50,7 +53,7 @@ void set_leg(PersonPose& pose, const Isometry3d& hips, bool left, double phase, 
 }  // namespace
 
 Person::Person(const PersonSettings& settings, std::uint64_t seed, std::uint64_t shirt_seed, WorldUse use)
-    : settings_(settings), torso_(settings.depth) {
+    : settings_(settings), torso_(settings.torso, settings.depth, derived_seed(seed, 0x56)) {
   if (use == WorldUse::TruthOnly) return;
   const PersonGreys greys = random_greys(derived_seed(seed, 0x50));
   const Canvas shirt = draw_shirt(settings.shirt, shirt_seed);
@@ -71,6 +74,7 @@ Person::Person(const PersonSettings& settings, std::uint64_t seed, std::uint64_t
     mesh.texels_per_m = 300.f;
     meshes_[static_cast<std::size_t>(part)] = std::move(mesh);
   };
+  if (settings.torso == TorsoShape::Board) return;
   set(kHead, head_mesh(), head);
   set(kHair, hair_mesh(settings.hair), hair);
   set(kLeftArm, arm_mesh(), arm);
@@ -81,7 +85,7 @@ Person::Person(const PersonSettings& settings, std::uint64_t seed, std::uint64_t
   set(kRightShin, shin_mesh(), legs);
 }
 
-PersonPose Person::pose(const WalkState& walk, double clock_s) const {
+PersonPose Person::pose(const WalkState& walk, double clock_s, const Posture& posture) const {
   // The gait grows with the speed, so that a standing person does not move.
   const double gait = std::clamp(walk.speed_m_s / 0.35, 0.0, 1.0);
   const double ahead = gait * std::cos(walk.travel_rad);
@@ -89,17 +93,26 @@ PersonPose Person::pose(const WalkState& walk, double clock_s) const {
   const double stride = walk.stride_rad;
   const double side_m = gait * settings_.sway_side_m * std::sin(stride);
   const double bob_m = gait * settings_.bob_m * std::cos(2.0 * stride);
-  const double yaw = walk.heading_rad + gait * settings_.sway_yaw_rad * std::sin(stride + 0.6);
-  const double roll = gait * settings_.sway_roll_rad * std::cos(stride);
+  const double sway = std::sin(stride + 0.6);
+  const double chest_rad = gait * settings_.sway_yaw_rad * sway + posture.turn_rad;
+  const double hips_rad = posture.turn_rad + posture.twist_rad - gait * settings_.hips_yaw_rad * sway;
+  const double roll = gait * settings_.sway_roll_rad * std::cos(stride) + posture.roll_rad;
   const double lean = ahead * settings_.lean_rad * (1.0 + 0.3 * std::sin(2.0 * stride)) +
-                      kRisingLean_rad * std::sin(std::numbers::pi * walk.seat);
+                      kRisingLean_rad * std::sin(std::numbers::pi * walk.seat) + posture.lean_rad;
   const double swing = ahead * kSwing_rad * std::sin(stride);
   const double breathing = 2.0 * std::numbers::pi * kBreathRate_hz * clock_s;
 
   PersonPose pose;
   pose.walk = walk;
-  pose.cloth.ripple_m = settings_.cloth_ripple_m;
-  pose.cloth.ripple_rad = stride + breathing;
+  pose.cloth.settling = posture.settling;
+  // A body that leans or twists pulls the whole shirt.
+  const double bent_m =
+      kPullPerBend_m_rad * std::hypot(posture.lean_rad, posture.roll_rad, posture.twist_rad);
+  pose.cloth.pull_m = std::hypot(gait * settings_.cloth_pull_walking_m, bent_m);
+  pose.cloth.fold_m = std::lerp(settings_.cloth_fold_m, settings_.cloth_fold_walking_m, gait);
+  pose.cloth.drag_m = kDragPerFold * pose.cloth.fold_m;
+  pose.cloth.stride_rad = stride;
+  pose.cloth.twist_rad = kClothFollowsHips * (hips_rad - chest_rad);
   pose.cloth.breath_m = settings_.breath_m * (0.5 - 0.5 * std::cos(breathing));
   pose.cloth.slide_around_m = gait * settings_.cloth_slide_m * std::sin(stride - 0.4);
   pose.cloth.slide_up_m = 0.6 * gait * settings_.cloth_slide_m * std::cos(2.0 * stride);
@@ -109,11 +122,14 @@ PersonPose Person::pose(const WalkState& walk, double clock_s) const {
   const double s = std::sin(walk.heading_rad);
   const Vector3d hips(walk.x_m - side_m * s - back_m * c, walk.y_m + side_m * c - back_m * s,
                       kHipHeight_m + bob_m + walk.seat * (kSeatedHipHeight_m - kHipHeight_m));
-  const Isometry3d upright = Eigen::Translation3d(hips) * AngleAxisd(yaw, Vector3d::UnitZ());
-  const Isometry3d torso =
-      upright * AngleAxisd(lean, Vector3d::UnitY()) * AngleAxisd(roll, Vector3d::UnitX());
+  const Isometry3d pelvis =
+      Eigen::Translation3d(hips) * AngleAxisd(walk.heading_rad + hips_rad, Vector3d::UnitZ());
+  const Isometry3d torso = Eigen::Translation3d(hips) *
+                           AngleAxisd(walk.heading_rad + chest_rad, Vector3d::UnitZ()) *
+                           AngleAxisd(lean, Vector3d::UnitY()) * AngleAxisd(roll, Vector3d::UnitX());
   pose.world_from_part[kTorso] = torso;
   pose.world_from_part[kHead] = torso;
+  pose.hips_forwards = pelvis.linear().col(0);
   // The hair hangs from the back of the head and follows the sway with a delay.
   pose.world_from_part[kHair] = hanging(torso, 0.0, kHairRootZ_m, 0.0, 0.12 * gait * std::sin(stride - 0.5));
   const double rest = 0.7 * walk.seat;  // hands on the knees
@@ -121,8 +137,8 @@ PersonPose Person::pose(const WalkState& walk, double clock_s) const {
   pose.world_from_part[kRightArm] = hanging(torso, -kArmPivotY_m, kShoulderZ_m, rest - swing, -0.07);
   // The left leg is foremost when the left arm is rearmost.
   const double phase = stride - 0.5 * std::numbers::pi;
-  set_leg(pose, upright, true, phase + std::numbers::pi, ahead, aside);
-  set_leg(pose, upright, false, phase, ahead, aside);
+  set_leg(pose, pelvis, true, phase + std::numbers::pi, ahead, aside);
+  set_leg(pose, pelvis, false, phase, ahead, aside);
   return pose;
 }
 

@@ -19,14 +19,19 @@ struct PersonSettings {
   Hair hair = Hair::Short;
   double depth =
       1.0;  ///< from chest to back, relative to the average body: 0.75 has a flat back, 1.3 a round one
-  double sway_yaw_rad = 0.09;  ///< the back turns this far to each side with each stride (paper: within 10°)
+  TorsoShape torso = TorsoShape::Body;
+  double sway_yaw_rad = 0.044;  ///< the chest turns this far to each side with each stride
+  double hips_yaw_rad = 0.157;  ///< and the hips this far, the other way
   double sway_side_m = 0.02;
-  double sway_roll_rad = 0.025;
+  double sway_roll_rad = 0.1;
   double bob_m = 0.012;
-  double lean_rad = 0.03;         ///< forwards while walking
-  double cloth_ripple_m = 0.003;  ///< height of the folds that move over the shirt with the gait
-  double cloth_slide_m = 0.003;   ///< how far the cloth slides over the back with each stride
-  double breath_m = 0.002;        ///< how far the back moves outwards with each breath
+  double lean_rad = 0.03;       ///< forwards while walking
+  double cloth_fold_m = 0.005;  ///< standard deviation of the shirt's folds while the person stands
+  double cloth_fold_walking_m = 0.0115;
+  double cloth_pull_walking_m =
+      0.018;                     ///< and of the whole shirt's slow displacements, at the corners of the back
+  double cloth_slide_m = 0.003;  ///< how far the cloth slides over the back with each stride
+  double breath_m = 0.002;       ///< how far the back moves outwards with each breath
 };
 
 /// The parts are rigid bodies, except for the cloth of the torso.
@@ -43,10 +48,23 @@ enum PersonPart : int {
   kPersonParts
 };
 
+/// How a standing person differs from the upright one.
+struct Posture {
+  std::uint64_t settling = 1;  ///< of the cloth
+  double lean_rad = 0.0;       ///< forwards
+  double roll_rad = 0.0;       ///< to the person's right
+  double turn_rad = 0.0;       ///< of the chest against the walking direction, to the left
+  double twist_rad = 0.0;      ///< of the hips against the chest, to the left
+};
+
+/// The posture of the reference view: nobody's cloth settles in the same way twice.
+inline constexpr Posture kTaughtPosture{.settling = 0};
+
 struct PersonPose {
   WalkState walk;
   std::array<Eigen::Isometry3d, kPersonParts> world_from_part;
   ClothState cloth;
+  Eigen::Vector3d hips_forwards{1, 0, 0};  ///< world frame
 };
 
 class Person {
@@ -59,13 +77,13 @@ class Person {
   Person(Person&&) = default;
 
   /// `clock_s` is the world's time, for breathing.
-  PersonPose pose(const WalkState& walk, double clock_s) const;
+  PersonPose pose(const WalkState& walk, double clock_s, const Posture& posture = {}) const;
 
   /// A part's surface in its own frame; the torso's with its cloth at rest.
   const Mesh& mesh(PersonPart part) const { return meshes_[static_cast<std::size_t>(part)]; }
   const Torso& torso() const { return torso_; }
 
-  /// Middle of the back on the surface without cloth, torso frame: the point whose place is the truth.
+  /// Middle of the back on the surface without cloth, torso frame.
   Eigen::Vector3d back_centre_m() const { return torso_.back_centre_m(); }
   /// The point of the shirt at texture coordinates (s, t), on the triangles of the surface, torso frame.
   Eigen::Vector3d shirt_point_m(double s_texel, double t_texel, const ClothState& cloth = {}) const {

@@ -57,12 +57,11 @@ void Renderer::draw(const RobotMotion& robot, double t_s, std::uint64_t frame,
 }
 
 void Renderer::draw_still(const PersonPose& target, const Eigen::Isometry3d& view_from_world,
-                          std::vector<std::uint8_t>& grey) {
+                          std::uint64_t frame, std::vector<std::uint8_t>& grey) {
   const Moment still{view_from_world, {target}};
   Exposure exposure;
   exposure.exposure_ms = world_.scenario().camera.sensor.exposure_ms;
-  // A frame number that no run reaches, so that no frame has the same noise as the reference view.
-  draw({still, still, still, still, still}, exposure, std::numeric_limits<std::uint32_t>::max(), grey);
+  draw({still, still, still, still, still}, exposure, frame, grey);
 }
 
 void Renderer::draw(const Moments& moments, const Exposure& exposure, std::uint64_t frame,

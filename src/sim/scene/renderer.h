@@ -24,7 +24,7 @@ class Renderer {
 
   void draw(const RobotMotion& robot, double t_s, std::uint64_t frame, std::vector<std::uint8_t>& grey);
   /// The target alone in the room, without any motion, with a global shutter and in full light.
-  void draw_still(const PersonPose& target, const Eigen::Isometry3d& view_from_world,
+  void draw_still(const PersonPose& target, const Eigen::Isometry3d& view_from_world, std::uint64_t frame,
                   std::vector<std::uint8_t>& grey);
 
   const RayTable& rays() const { return rays_; }

@@ -74,12 +74,15 @@ void read_body(TomlSection& person, PersonSettings& p) {
     person.fail("hair", error.what());
   }
   p.sway_yaw_rad = kRadPerDeg * person.number("sway_yaw_deg", p.sway_yaw_rad / kRadPerDeg, {0, 30, "deg"});
+  p.hips_yaw_rad = kRadPerDeg * person.number("hips_yaw_deg", p.hips_yaw_rad / kRadPerDeg, {0, 30, "deg"});
   p.sway_side_m = person.number("sway_side_m", p.sway_side_m, {0, 0.2, "m"});
   p.sway_roll_rad = kRadPerDeg * person.number("sway_roll_deg", p.sway_roll_rad / kRadPerDeg, {0, 20, "deg"});
   p.bob_m = person.number("bob_m", p.bob_m, {0, 0.1, "m"});
   p.lean_rad = kRadPerDeg * person.number("lean_deg", p.lean_rad / kRadPerDeg, {-20, 30, "deg"});
   p.depth = person.number("depth", p.depth, {0.6, 1.6, ""});
-  p.cloth_ripple_m = person.number("cloth_ripple_m", p.cloth_ripple_m, {0, 0.02, "m"});
+  p.cloth_fold_m = person.number("cloth_fold_m", p.cloth_fold_m, {0, 0.02, "m"});
+  p.cloth_fold_walking_m = person.number("cloth_fold_walking_m", p.cloth_fold_walking_m, {0, 0.03, "m"});
+  p.cloth_pull_walking_m = person.number("cloth_pull_walking_m", p.cloth_pull_walking_m, {0, 0.03, "m"});
   p.cloth_slide_m = person.number("cloth_slide_m", p.cloth_slide_m, {0, 0.05, "m"});
   p.breath_m = person.number("breath_m", p.breath_m, {0, 0.02, "m"});
 }

@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "heel/error.h"
 #include "sim/scene/paint.h"
+#include "sim/scene/prints.h"
 
 namespace heel::sim {
 namespace {
@@ -173,22 +174,52 @@ void draw_marks(Canvas& canvas) {
   }
 }
 
+struct DesignName {
+  const char* name;
+  ShirtDesign design;
+};
+constexpr DesignName kDesignNames[] = {{"bold", ShirtDesign::Bold},
+                                       {"mosaic", ShirtDesign::Mosaic},
+                                       {"blobs", ShirtDesign::Blobs},
+                                       {"shapes", ShirtDesign::Shapes},
+                                       {"emblem", ShirtDesign::Emblem},
+                                       {"photo", ShirtDesign::Photo},
+                                       {"text", ShirtDesign::Text},
+                                       {"jersey", ShirtDesign::Jersey},
+                                       {"dotted", ShirtDesign::Dotted},
+                                       {"striped", ShirtDesign::Striped},
+                                       {"fine_check", ShirtDesign::FineCheck},
+                                       {"plain", ShirtDesign::Plain},
+                                       {"marked", ShirtDesign::Marked}};
+
+/// Grey level of the cloth below the print.
+float cloth_grey(ShirtDesign design, Random& random) {
+  switch (design) {
+    case ShirtDesign::Marked:
+    case ShirtDesign::Jersey:
+      return 60.f;
+    case ShirtDesign::Shapes:
+      return 215.f;
+    case ShirtDesign::Emblem:
+      return static_cast<float>(random.uniform(55, 85));
+    case ShirtDesign::Photo:
+      return 28.f;
+    case ShirtDesign::Text:
+      return random.uniform() < 0.5 ? 45.f : 205.f;
+    default:
+      return 120.f;
+  }
+}
+
 }  // namespace
 
 ShirtDesign shirt_design(const std::string& name) {
-  if (name == "bold") return ShirtDesign::Bold;
-  if (name == "mosaic") return ShirtDesign::Mosaic;
-  if (name == "blobs") return ShirtDesign::Blobs;
-  if (name == "jersey") return ShirtDesign::Jersey;
-  if (name == "dotted") return ShirtDesign::Dotted;
-  if (name == "striped") return ShirtDesign::Striped;
-  if (name == "fine_check") return ShirtDesign::FineCheck;
-  if (name == "plain") return ShirtDesign::Plain;
-  if (name == "marked") return ShirtDesign::Marked;
-  throw Error(
-      "'" + name +
-      "' (expected a shirt design: bold, mosaic, blobs, jersey, dotted, striped, fine_check, plain or "
-      "marked)");
+  std::string known;
+  for (const auto& [design_name, design] : kDesignNames) {
+    if (name == design_name) return design;
+    known += (known.empty() ? "" : ", ") + std::string(design_name);
+  }
+  throw Error("'" + name + "' (expected a shirt design: " + known + ")");
 }
 
 ShirtMark shirt_mark(int index) {
@@ -199,8 +230,7 @@ ShirtMark shirt_mark(int index) {
 
 Canvas draw_shirt(ShirtDesign design, std::uint64_t seed) {
   Random random(seed);
-  const bool dark = design == ShirtDesign::Marked || design == ShirtDesign::Jersey;
-  Canvas canvas(kShirtWidthTexels, kShirtHeightTexels, dark ? 60.f : 120.f);
+  Canvas canvas(kShirtWidthTexels, kShirtHeightTexels, cloth_grey(design, random));
   switch (design) {
     case ShirtDesign::Bold:
       draw_bold(canvas, random);
@@ -222,6 +252,18 @@ Canvas draw_shirt(ShirtDesign design, std::uint64_t seed) {
       break;
     case ShirtDesign::FineCheck:
       draw_fine_check(canvas);
+      break;
+    case ShirtDesign::Shapes:
+      draw_shapes(canvas, random);
+      break;
+    case ShirtDesign::Emblem:
+      draw_emblem(canvas, random);
+      break;
+    case ShirtDesign::Photo:
+      draw_photo(canvas, random);
+      break;
+    case ShirtDesign::Text:
+      draw_text(canvas, random);
       break;
     case ShirtDesign::Plain:
       break;

@@ -16,6 +16,10 @@ enum class ShirtDesign : std::uint8_t {
   Dotted,     ///< the same dot in every cell of a grid
   Striped,    ///< horizontal stripes, all alike
   FineCheck,  ///< squares of a centimetre, too small for a camera a few metres away
+  Shapes,     ///< separate shapes of many kinds on light cloth
+  Emblem,     ///< a small emblem on plain cloth
+  Photo,      ///< a photograph: soft above, small lights below
+  Text,       ///< lines of words
   Plain,      ///< plain cloth
   Marked,     ///< plain, with white dots at shirt_mark(): for tests of the geometry
 };

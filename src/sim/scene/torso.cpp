@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/random.h"
 #include "sim/scene/shirts.h"
 
 namespace heel::sim {
@@ -23,10 +24,17 @@ constexpr int kProfileCount = static_cast<int>(std::size(kProfile));
 constexpr double kTop_m = kProfile[0].z_m;
 constexpr double kBottom_m = kProfile[kProfileCount - 1].z_m;
 constexpr double kBackCentreZ_m = 0.28;
-constexpr int kRings = 26;
-constexpr int kSegments = 48;
-/// A back is flatter than an ellipse: |x/a|^n + |y/b|^n = 1.
+constexpr int kRings = 44;
+constexpr int kSegments = 96;
+/// A body is flatter than an ellipse: |x/a|^n + |y/b|^n = 1.
 constexpr double kExponent = 2.3;
+/// Distance of the middle of the back from the body's axis.
+constexpr double kBackX_m = 0.124;
+/// The relief of the back fades out towards the sides, by x relative to the half depth.
+constexpr double kReliefNone = 0.2, kReliefWhole = 0.5;
+constexpr double kReliefTop = -1.35;  ///< and towards the collar, by v
+
+constexpr double kBoardHalfWidth_m = 0.21;
 
 /// Catmull–Rom interpolation of four values at equal steps, between the second and the third.
 double between(double p0, double p1, double p2, double p3, double f) {
@@ -45,28 +53,41 @@ Profile profile_at(double z_m) {
           between(a.half_depth_m, b.half_depth_m, c.half_depth_m, d.half_depth_m, f)};
 }
 
-/// A point of the surface. `around` goes from the middle of the chest (0) over the person's left to the
-/// middle of the back (0.5), and over the right to 1.
-Eigen::Vector3d surface_point(double around, double z_m, double depth) {
+double smooth_step(double share) {
+  const double f = std::clamp(share, 0.0, 1.0);
+  return f * f * (3.0 - 2.0 * f);
+}
+
+/// A point of the body. `around` goes from the middle of the chest (0) over the person's left to the middle
+/// of the back (0.5), and over the right to 1.
+Eigen::Vector3d body_point(double around, double z_m, double depth, const BackShape& back) {
   const Profile profile = profile_at(z_m);
   const double angle = 2.0 * std::numbers::pi * around;
   const auto power = [](double value) {
     return std::copysign(std::pow(std::abs(value), 2.0 / kExponent), value);
   };
-  return {depth * profile.half_depth_m * power(std::cos(angle)),
-          profile.half_width_m * power(std::sin(angle)), z_m};
+  const double ahead = power(std::cos(angle));
+  Eigen::Vector3d point(depth * profile.half_depth_m * ahead, profile.half_width_m * power(std::sin(angle)),
+                        z_m);
+  const double v = (kBackMiddleZ_m - z_m) / kBackHalfHeight_m;
+  const double relief = smooth_step((-ahead - kReliefNone) / (kReliefWhole - kReliefNone)) *
+                        smooth_step((v - kReliefTop) / (-1.0 - kReliefTop));
+  if (relief > 0.0)
+    point.x() += relief * (back.depth_m(-point.y() / kBackHalfWidth_m, v) - depth * kBackX_m - point.x());
+  return point;
 }
 
 /// `around` of the segments' edges at equal steps along the outline, so that the print is not stretched at
 /// the sides.
-std::vector<double> equal_steps_around(double depth) {
+std::vector<double> equal_steps_around(double depth, const BackShape& back) {
   constexpr int kFine = 4096;
   std::vector<double> length{0.0};
-  for (int i = 1; i <= kFine; ++i)
-    length.push_back(length.back() +
-                     (surface_point(static_cast<double>(i) / kFine, kBackCentreZ_m, depth) -
-                      surface_point(static_cast<double>(i - 1) / kFine, kBackCentreZ_m, depth))
-                         .norm());
+  Eigen::Vector3d before = body_point(0.0, kBackCentreZ_m, depth, back);
+  for (int i = 1; i <= kFine; ++i) {
+    const Eigen::Vector3d here = body_point(static_cast<double>(i) / kFine, kBackCentreZ_m, depth, back);
+    length.push_back(length.back() + (here - before).norm());
+    before = here;
+  }
   std::vector<double> around;
   std::size_t at = 0;
   for (int j = 0; j <= kSegments; ++j) {
@@ -77,28 +98,27 @@ std::vector<double> equal_steps_around(double depth) {
   return around;
 }
 
-/// How freely the cloth moves: 0 at the collar, which holds it, 1 from the shoulder blades down.
-float cloth_freedom(float z_m) {
-  return std::clamp((0.60f - z_m) / 0.15f, 0.f, 1.f);
+/// Of the mesh's columns and rows.
+ClothGrid grid_of_mesh() {
+  ClothGrid grid;
+  for (int j = 0; j <= kSegments; ++j)
+    grid.s_m.push_back(kShirtWidthTexels / kShirtTexelsPerM * (static_cast<double>(j) / kSegments - 0.5));
+  for (int k = 0; k < kRings; ++k) grid.z_m.push_back(kTop_m + (kBottom_m - kTop_m) * k / (kRings - 1));
+  return grid;
 }
 
-void deform(MeshVertex& vertex, const ClothState& cloth) {
-  const float z = vertex.position_m.z();
-  const float y = vertex.position_m.y();
-  const float free = cloth_freedom(z);
-  const auto ripple = static_cast<float>(cloth.ripple_m) * free;
-  const auto phase = static_cast<float>(cloth.ripple_rad);
-  // The folds are diagonal.
-  const float fold =
-      std::sin(22.f * z + 9.f * y + phase) + 0.6f * std::sin(14.f * z - 17.f * y - 0.7f * phase);
-  const float slope = std::cos(22.f * z + 9.f * y + phase);
-  const float from_ribs = (z - 0.36f) / 0.14f;
-  const float breath = static_cast<float>(cloth.breath_m) * std::exp(-from_ribs * from_ribs);
-  vertex.position_m += vertex.normal * (ripple * fold + breath);
-  vertex.normal.z() -= 22.f * ripple * slope;
-  vertex.normal.normalize();
-  vertex.s_texel -= static_cast<float>(kShirtTexelsPerM * cloth.slide_around_m) * free;
-  vertex.t_texel += static_cast<float>(kShirtTexelsPerM * cloth.slide_up_m) * free;
+/// How freely the cloth moves: 0 at the collar, which holds it, and in the middle of the chest, 1 from the
+/// shoulder blades down.
+float cloth_freedom(float s_texel, float z_m) {
+  const float from_chest_m =
+      0.5f * static_cast<float>(kShirtWidthTexels / kShirtTexelsPerM) -
+      std::abs(s_texel - 0.5f * kShirtWidthTexels) / static_cast<float>(kShirtTexelsPerM);
+  return std::clamp((0.60f - z_m) / 0.15f, 0.f, 1.f) * std::clamp(from_chest_m / 0.15f, 0.f, 1.f);
+}
+
+/// The share of the hem's turn: none at the shoulder blades.
+float twist_share(float z_m) {
+  return std::clamp((0.45f - z_m) / 0.5f, 0.f, 1.f);
 }
 
 /// A point of a mesh: three vertices and their weights.
@@ -124,57 +144,121 @@ MeshPoint mesh_point_at(double column, double row) {
 
 }  // namespace
 
-Torso::Torso(double depth) : depth_(depth) {
-  const std::vector<double> around = equal_steps_around(depth);
+Torso::Torso(TorsoShape shape, double depth, std::uint64_t seed)
+    : shape_(shape),
+      depth_(depth),
+      back_(depth, derived_seed(seed, 1)),
+      around_(equal_steps_around(depth, back_)),
+      cloth_(derived_seed(seed, 2), grid_of_mesh()) {
   mesh_ = tube(kRings, kSegments, [&](int k, int j) {
-    MeshVertex vertex;
     const double z = kTop_m + (kBottom_m - kTop_m) * k / (kRings - 1);
-    const double a = around[static_cast<std::size_t>(j)];
-    vertex.position_m = surface_point(a, z, depth).cast<float>();
-    const Eigen::Vector3d along = surface_point(a + 1e-3, z, depth) - surface_point(a - 1e-3, z, depth);
-    const Eigen::Vector3d up = surface_point(a, z + 1e-3, depth) - surface_point(a, z - 1e-3, depth);
-    vertex.normal = along.cross(up).normalized().cast<float>();
-    vertex.s_texel = static_cast<float>(kShirtWidthTexels) * static_cast<float>(j) / kSegments;
-    vertex.t_texel = static_cast<float>((kTop_m - z) * kShirtTexelsPerM);
-    return vertex;
+    return rest_vertex(around_[static_cast<std::size_t>(j)],
+                       static_cast<double>(kShirtWidthTexels) * j / kSegments, z);
   });
   mesh_.texels_per_m = static_cast<float>(kShirtTexelsPerM);
 }
 
-Mesh Torso::mesh(const ClothState& cloth) const {
+MeshVertex Torso::rest_vertex(double around, double s_texel, double z_m) const {
+  MeshVertex vertex;
+  vertex.s_texel = static_cast<float>(s_texel);
+  vertex.t_texel = static_cast<float>((kTop_m - z_m) * kShirtTexelsPerM);
+  if (shape_ == TorsoShape::Board) {
+    // What is beside the board has no area.
+    const double right_m = (s_texel - 0.5 * kShirtWidthTexels) / kShirtTexelsPerM;
+    vertex.position_m =
+        Eigen::Vector3d(-kBackX_m, -std::clamp(right_m, -kBoardHalfWidth_m, kBoardHalfWidth_m), z_m)
+            .cast<float>();
+    vertex.normal = -Eigen::Vector3f::UnitX();
+    return vertex;
+  }
+  const auto at = [&](double a, double z) { return body_point(a, z, depth_, back_); };
+  vertex.position_m = at(around, z_m).cast<float>();
+  const Eigen::Vector3d along = at(around + 1e-3, z_m) - at(around - 1e-3, z_m);
+  const Eigen::Vector3d up = at(around, z_m + 1e-3) - at(around, z_m - 1e-3);
+  vertex.normal = along.cross(up).normalized().cast<float>();
+  return vertex;
+}
+
+/// A vertex moved by the cloth, by the ribs below it, and by the twist of the body.
+MeshVertex Torso::shifted(const MeshVertex& rest, const ClothShift& shift, const ClothState& state) const {
+  if (shape_ == TorsoShape::Board) return rest;
+  MeshVertex out = rest;
+  const float z = rest.position_m.z();
+  const float free = cloth_freedom(rest.s_texel, z);
+  const float from_ribs = (z - 0.36f) / 0.14f;
+  const float breath = static_cast<float>(state.breath_m) * std::exp(-from_ribs * from_ribs);
+  const Eigen::Vector3f around = Eigen::Vector3f::UnitZ().cross(rest.normal).normalized();
+  const Eigen::Vector3f up = rest.normal.cross(around);
+  out.position_m += (free * shift.normal_m + breath) * rest.normal +
+                    free * (shift.around_m + static_cast<float>(state.slide_around_m)) * around +
+                    free * (shift.up_m + static_cast<float>(state.slide_up_m)) * up;
+  out.normal = (rest.normal - free * (shift.slope_around * around + shift.slope_up * up)).normalized();
+  if (state.twist_rad != 0.0) {
+    const float angle = static_cast<float>(state.twist_rad) * twist_share(z);
+    const float c = std::cos(angle), s = std::sin(angle);
+    const auto turn = [&](Eigen::Vector3f& v) { v = {c * v.x() - s * v.y(), s * v.x() + c * v.y(), v.z()}; };
+    turn(out.position_m);
+    turn(out.normal);
+  }
+  return out;
+}
+
+Mesh Torso::mesh(const ClothState& state) const {
   Mesh out = mesh_;
-  for (MeshVertex& vertex : out.vertices) deform(vertex, cloth);
+  const Cloth::Shifts shifts(cloth_, state);
+  std::vector<ClothShift> row;
+  for (std::size_t k = 0; k < kRings; ++k) {
+    shifts.row(k, row);
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      MeshVertex& vertex = out.vertices[k * row.size() + j];
+      vertex = shifted(vertex, row[j], state);
+    }
+  }
   return out;
 }
 
 Eigen::Vector3d Torso::back_centre_m() const {
-  return surface_point(0.5, kBackCentreZ_m, depth_);
+  if (shape_ == TorsoShape::Board) return {-kBackX_m, 0.0, kBackCentreZ_m};
+  return body_point(0.5, kBackCentreZ_m, depth_, back_);
 }
 
-Eigen::Vector3d Torso::shirt_point_m(double s_texel, double t_texel, const ClothState& cloth) const {
-  const double columns_per_texel = static_cast<double>(kSegments) / kShirtWidthTexels;
-  const double rows_per_texel = (kRings - 1) / ((kTop_m - kBottom_m) * kShirtTexelsPerM);
-  double column = s_texel * columns_per_texel;
-  double row = t_texel * rows_per_texel;
+Eigen::Vector3d Torso::back_centre_m(const ClothState& state) const {
+  const MeshVertex rest = rest_vertex(0.5, 0.5 * kShirtWidthTexels, kBackCentreZ_m);
+  const MeshVertex now = shifted(rest, Cloth::Shifts(cloth_, state).at(0.0, kBackCentreZ_m), state);
+  return back_centre_m() + (now.position_m - rest.position_m).cast<double>();
+}
+
+Eigen::Vector3d Torso::shirt_point_m(double s_texel, double t_texel, const ClothState& state) const {
+  const Cloth::Shifts shifts(cloth_, state);
+  const ClothGrid& grid = cloth_.grid();
+  const MeshPoint at = mesh_point_at(s_texel * kSegments / kShirtWidthTexels,
+                                     t_texel * (kRings - 1) / ((kTop_m - kBottom_m) * kShirtTexelsPerM));
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  // Searches the place where the moved cloth has this texel: the movement is small and smooth, so that a few
-  // steps are exact.
-  for (int i = 0; i < 8; ++i) {
-    const MeshPoint at = mesh_point_at(column, row);
-    double s = 0.0;
-    double t = 0.0;
-    point.setZero();
-    for (std::size_t n = 0; n < 3; ++n) {
-      MeshVertex vertex = mesh_.vertices[at.vertices[n]];
-      deform(vertex, cloth);
-      point += at.weights[n] * vertex.position_m.cast<double>();
-      s += at.weights[n] * static_cast<double>(vertex.s_texel);
-      t += at.weights[n] * static_cast<double>(vertex.t_texel);
-    }
-    column += (s_texel - s) * columns_per_texel;
-    row += (t_texel - t) * rows_per_texel;
+  for (std::size_t n = 0; n < 3; ++n) {
+    const std::size_t row = at.vertices[n] / (kSegments + 1), column = at.vertices[n] % (kSegments + 1);
+    const ClothShift shift = shifts.at(grid.s_m[column], grid.z_m[row]);
+    point += at.weights[n] * shifted(mesh_.vertices[at.vertices[n]], shift, state).position_m.cast<double>();
   }
   return point;
+}
+
+std::vector<Eigen::Vector3d> Torso::back_points_m(const ClothState& state) const {
+  constexpr std::size_t kRowStep = 4, kColumnStep = 3;
+  constexpr double kHalfAround_m =
+      0.161;  // a little more than half the width: the cloth goes round the sides
+  const Cloth::Shifts shifts(cloth_, state);
+  const ClothGrid& grid = cloth_.grid();
+  std::vector<Eigen::Vector3d> points;
+  std::vector<ClothShift> row;
+  for (std::size_t k = 0; k < kRings; k += kRowStep) {
+    if (std::abs(grid.z_m[k] - kBackMiddleZ_m) > kBackHalfHeight_m) continue;
+    shifts.row(k, row);
+    for (std::size_t j = 0; j <= kSegments; j += kColumnStep)
+      if (std::abs(grid.s_m[j]) <= kHalfAround_m)
+        points.push_back(
+            shifted(mesh_.vertices[k * row.size() + j], row[j], state).position_m.cast<double>());
+  }
+  return points;
 }
 
 }  // namespace heel::sim

@@ -12,6 +12,7 @@
 #include "core/random.h"
 #include "heel/error.h"
 #include "sim/scene/renderer.h"
+#include "sim/scene/rigid_fit.h"
 
 namespace heel::sim {
 namespace {
@@ -57,6 +58,12 @@ Eigen::Matrix3d robot_from_level_camera() {
   return R;
 }
 
+/// The axes of a level camera that looks along `heading_rad`.
+Eigen::Matrix3d world_from_level_camera(double heading_rad) {
+  return Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix() *
+         robot_from_level_camera();
+}
+
 }  // namespace
 
 RobotMotion moved(const RobotMotion& robot, double dt_s) {
@@ -71,6 +78,7 @@ RobotMotion moved(const RobotMotion& robot, double dt_s) {
 World::World(const Scenario& scenario, int threads, WorldUse use)
     : scenario_(scenario),
       people_(people_of(scenario, use)),
+      taught_back_m_(back_points_m(taught_pose())),
       light_(scenario.light, scenario.seed),
       room_(scenario.room, plan_of(scenario, people_), light_, scenario.light.window_azimuth_rad,
             derived_seed(scenario.seed, 0x20), use),
@@ -133,27 +141,34 @@ bool World::pixel_of_moving_point(const RobotMotion& robot, double t_s,
   return true;
 }
 
+std::vector<Eigen::Vector3d> World::back_points_m(const PersonPose& pose) const {
+  std::vector<Eigen::Vector3d> points = person().torso().back_points_m(pose.cloth);
+  for (Eigen::Vector3d& point : points) point = pose.world_from_part[kTorso] * point;
+  return points;
+}
+
 Truth World::truth(const RobotMotion& robot, double t_s) const {
   const PersonPose person = person_pose(t_s);
-  const Eigen::Isometry3d& world_from_torso = person.world_from_part[kTorso];
   Truth truth;
   truth.person = person.walk;
-  const Eigen::Vector3d forwards = world_from_torso.linear().col(0);
+  const Eigen::Matrix3d world_from_ref = fit_rigid(taught_back_m_, back_points_m(person)).R *
+                                         world_from_level_camera(scenario_.person_start.heading_rad);
+  const Eigen::Vector3d forwards = world_from_ref.col(2);
   truth.back_yaw_rad = person.walk.heading_rad +
                        std::remainder(std::atan2(forwards.y(), forwards.x()) - person.walk.heading_rad,
                                       2.0 * std::numbers::pi);
-  const Eigen::Vector3d back_in_torso = this->person().back_centre_m();
-  truth.back_m = world_from_torso * back_in_torso;
+  truth.back_m = back_m(person);
   truth.world_from_camera = world_from_camera(robot);
   truth.ground_pose = ground_.pose_at(robot.x_m, robot.y_m, robot.heading_rad);
   truth.exposure = exposure_.at(t_s);
   const Eigen::Isometry3d camera_from_world = truth.world_from_camera.inverse();
   truth.back_in_camera_m = camera_from_world * truth.back_m;
-  const Eigen::Vector3d direction = camera_from_world.linear() * forwards;
+  truth.R_cur_from_ref = camera_from_world.linear() * world_from_ref;
+  const Eigen::Vector3d direction = truth.R_cur_from_ref.col(2);
   truth.yaw_rad = std::atan2(direction.x(), direction.z());
   truth.occluded = occluded(truth.world_from_camera.translation(), truth.back_m, t_s);
   const auto back_at = [&](double at_s) -> Eigen::Vector3d {
-    return at_s == t_s ? truth.back_m : person_pose(at_s).world_from_part[kTorso] * back_in_torso;
+    return at_s == t_s ? truth.back_m : back_m(person_pose(at_s));
   };
   Eigen::Vector2d px;
   if (pixel_of_moving_point(robot, t_s, back_at, px)) {
@@ -205,11 +220,12 @@ bool World::occluded(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& point_
 
 /// The part of the back to make a template of: between the outer edges of the shoulder blades, from below the
 /// collar to the waist.
-World::PixelBox World::back_region_px(const Eigen::Isometry3d& view_from_torso) const {
+World::PixelBox World::back_region_px(const Eigen::Isometry3d& view_from_torso,
+                                      const ClothState& cloth) const {
   PixelBox box{Eigen::Vector2d(1e9, 1e9), Eigen::Vector2d(-1e9, -1e9)};
   for (const double s : {-160.0, 0.0, 160.0})
     for (const double t : {110.0, 340.0, 600.0}) {
-      const Eigen::Vector3d point = person().shirt_point_m(0.5 * kShirtWidthTexels + s, t);
+      const Eigen::Vector3d point = person().shirt_point_m(0.5 * kShirtWidthTexels + s, t, cloth);
       const Eigen::Vector2d px = project_px(view_from_torso * point);
       box.low = box.low.cwiseMin(px);
       box.high = box.high.cwiseMax(px);
@@ -217,18 +233,22 @@ World::PixelBox World::back_region_px(const Eigen::Isometry3d& view_from_torso) 
   return box;
 }
 
-ReferenceView World::reference_view(double distance_m) {
-  const PersonPose still = person().pose(scenario_.person_start, 0.0);
-  const Eigen::Isometry3d& world_from_torso = still.world_from_part[kTorso];
+Eigen::Isometry3d World::reference_view_from_world(double distance_m) const {
   const double heading = scenario_.person_start.heading_rad;
-  const Eigen::Vector3d forwards(std::cos(heading), std::sin(heading), 0.0);
   Eigen::Isometry3d world_from_view = Eigen::Isometry3d::Identity();
-  world_from_view.linear() = Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) * robot_from_level_camera();
-  world_from_view.translation() = world_from_torso * person().back_centre_m() - distance_m * forwards;
+  world_from_view.linear() = world_from_level_camera(heading);
+  world_from_view.translation() =
+      back_m(taught_pose()) - distance_m * Eigen::Vector3d(std::cos(heading), std::sin(heading), 0.0);
   world_from_view.translation().z() = scenario_.camera.mount_z_m;
-  const Eigen::Isometry3d view_from_world = world_from_view.inverse();
+  return world_from_view.inverse();
+}
 
-  const PixelBox back = back_region_px(view_from_world * world_from_torso);
+ReferenceView World::reference_view(double distance_m) {
+  const PersonPose still = taught_pose();
+  const Eigen::Isometry3d& world_from_torso = still.world_from_part[kTorso];
+  const Eigen::Isometry3d view_from_world = reference_view_from_world(distance_m);
+
+  const PixelBox back = back_region_px(view_from_world * world_from_torso, still.cloth);
   const CameraModel& model = scenario_.camera.model;
   if (distance_m < 0.3 || back.low.x() < 0 || back.low.y() < 0 || back.high.x() > model.width_px - 1 ||
       back.high.y() > model.height_px - 1)
@@ -242,13 +262,19 @@ ReferenceView World::reference_view(double distance_m) {
   view.roi.width_px = static_cast<int>(std::floor(back.high.x())) - view.roi.x_px + 1;
   view.roi.height_px = static_cast<int>(std::floor(back.high.y())) - view.roi.y_px + 1;
   view.distance_m = distance_m;
-  renderer_->draw_still(still, view_from_world, view.grey);
+  // A frame number that no run reaches, so that no frame has the same noise as the reference view.
+  draw_still(still, view_from_world, std::numeric_limits<std::uint32_t>::max(), view.grey);
   return view;
 }
 
 void World::render(const RobotMotion& robot, double t_s, std::uint64_t frame,
                    std::vector<std::uint8_t>& grey) {
   renderer_->draw(robot, t_s, frame, grey);
+}
+
+void World::draw_still(const PersonPose& target, const Eigen::Isometry3d& view_from_world,
+                       std::uint64_t frame, std::vector<std::uint8_t>& grey) {
+  renderer_->draw_still(target, view_from_world, frame, grey);
 }
 
 }  // namespace heel::sim

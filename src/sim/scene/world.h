@@ -37,12 +37,17 @@ RobotMotion moved(const RobotMotion& robot, double dt_s);
 
 /// The truth at one moment. Values in the camera frame are those that a perfect vision stage would report.
 struct Truth {
-  WalkState person;                 ///< of the target, between the feet, world frame
-  double back_yaw_rad = 0.0;        ///< heading of the torso with the sway of the gait, world frame
-  Eigen::Vector3d back_m{0, 0, 0};  ///< middle of the back, world frame
+  WalkState person;  ///< of the target, between the feet, world frame
+  /// Heading of the back, world frame: the taught one, turned by the best rigid motion from the cloth of the
+  /// reference view to the cloth now.
+  double back_yaw_rad = 0.0;
+  Eigen::Vector3d back_m{0, 0, 0};  ///< cloth in the middle of the back, world frame
   Eigen::Isometry3d world_from_camera = Eigen::Isometry3d::Identity();
   Eigen::Vector3d back_in_camera_m{0, 0, 0};
-  double yaw_rad = 0.0;  ///< as PoseEstimate::yaw_rad
+  /// The best rigid motion from the cloth of the reference view to the cloth now, as
+  /// PoseEstimate::R_cur_from_ref, and its yaw, as PoseEstimate::yaw_rad.
+  Eigen::Matrix3d R_cur_from_ref = Eigen::Matrix3d::Identity();
+  double yaw_rad = 0.0;
   Eigen::Vector2d back_px{
       0, 0};               ///< the middle of the back in the picture; valid when it is in front of the camera
   bool in_view = false;    ///< the middle of the back is in the picture and the back faces the camera
@@ -89,15 +94,30 @@ class World {
   /// Needs WorldUse::Rendering. Throws heel::Error when the back does not fit into the picture.
   ReferenceView reference_view(double distance_m);
 
+  /// The target alone in the room, in any pose and view, without motion and in full light. `frame` determines
+  /// the noise. Needs WorldUse::Rendering.
+  void draw_still(const PersonPose& target, const Eigen::Isometry3d& view_from_world, std::uint64_t frame,
+                  std::vector<std::uint8_t>& grey);
+
   Eigen::Isometry3d world_from_camera(const RobotMotion& robot) const;
   /// Shutter time and gain of the picture at `t_s`.
   Exposure exposure(double t_s) const { return exposure_.at(t_s); }
   PersonPose person_pose(double t_s) const { return pose_of(0, t_s); }
+  /// The target in the reference view.
+  PersonPose taught_pose() const { return person().pose(scenario_.person_start, 0.0, kTaughtPosture); }
   const Person& person() const { return people_.front().person; }
   /// The target first, then the passers-by in the scenario's order.
   const std::deque<WalkingPerson>& people() const { return people_; }
   /// The pose of people()[index].
   PersonPose pose_of(std::size_t index, double t_s) const;
+  /// Cloth in the middle of the back, world frame.
+  Eigen::Vector3d back_m(const PersonPose& pose) const {
+    return pose.world_from_part[kTorso] * person().torso().back_centre_m(pose.cloth);
+  }
+  /// The level camera of the reference view, square to the back.
+  Eigen::Isometry3d reference_view_from_world(double distance_m) const;
+  /// Points spread over the cloth of the target's back, world frame; the same points for every pose.
+  std::vector<Eigen::Vector3d> back_points_m(const PersonPose& pose) const;
   const Room& room() const { return room_; }
   const Light& light() const { return light_; }
 
@@ -124,11 +144,12 @@ class World {
   struct PixelBox {
     Eigen::Vector2d low, high;
   };
-  PixelBox back_region_px(const Eigen::Isometry3d& view_from_torso) const;
+  PixelBox back_region_px(const Eigen::Isometry3d& view_from_torso, const ClothState& cloth) const;
   bool occluded(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& point_m, double t_s) const;
 
   Scenario scenario_;
   std::deque<WalkingPerson> people_;
+  std::vector<Eigen::Vector3d> taught_back_m_;  ///< points of the target's cloth in the reference view, world
   Light light_;
   Room room_;
   Ground ground_;

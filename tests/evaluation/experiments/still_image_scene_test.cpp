@@ -26,11 +26,11 @@ TEST(StillImageScene, TheRobotIsPlacedSoThatTheBackIsInTheCommandedPose) {
   sim::Scenario base = small_base();
   base.camera.mount_y_m = 0.07;
   sim::World world(still_image_scenario(base, {}));
-  const Eigen::Vector3d back_m = world.truth({}, 0.0).back_m;
+  const sim::Truth person = world.truth({}, 0.0);
   for (const StillImageView& view :
        {StillImageView{.x_m = 0.0, .z_m = 2.0}, StillImageView{.x_m = -0.7, .z_m = 1.4, .yaw_rad = 0.9},
         StillImageView{.x_m = 0.4, .z_m = 5.0, .yaw_rad = -1.3}}) {
-    const sim::Truth truth = world.truth(robot_for(base.camera, back_m, view), 0.0);
+    const sim::Truth truth = world.truth(robot_for(base.camera, person, view), 0.0);
     EXPECT_NEAR(truth.back_in_camera_m.x(), view.x_m, 1e-9);
     EXPECT_NEAR(truth.back_in_camera_m.z(), view.z_m, 1e-9);
     EXPECT_NEAR(truth.yaw_rad, view.yaw_rad, 1e-9);
@@ -39,7 +39,7 @@ TEST(StillImageScene, TheRobotIsPlacedSoThatTheBackIsInTheCommandedPose) {
 
 TEST(StillImageScene, BlurIsTheCommandedLengthInTheMiddleOfThePicture) {
   const sim::Scenario base = small_base();
-  const sim::RobotMotion robot = robot_for(base.camera, {0, 0, 1.2}, {.z_m = 2.0, .blur_px = 6.0});
+  const sim::RobotMotion robot = robot_for(base.camera, {}, {.z_m = 2.0, .blur_px = 6.0});
   const double turned_rad = robot.yaw_rate_rad_s * 1e-3 * base.camera.sensor.exposure_ms;
   EXPECT_NEAR(base.camera.model.fx * turned_rad, 6.0, 1e-9);
 }

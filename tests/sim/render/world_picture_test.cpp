@@ -37,6 +37,7 @@ TEST(WorldTruth, UnderStrongDistortionAndTilt) {
 
 TEST(WorldTruth, BackDirectionAndPositionInTheCamera) {
   Scenario scenario = marked_scenario();
+  scenario.person.cloth_fold_m = 0.0;
   World world(scenario);
   // Person at the origin facing +x; the camera 2 m behind, 0.15 m ahead of the robot.
   const Truth straight = world.truth({-2.0 - 0.15, 0, 0, 0, 0}, 0.0);
@@ -108,6 +109,7 @@ TEST(WorldPicture, MotionBlursAlongTheMotion) {
 
 TEST(ReferenceView, IsSquareToTheBack) {
   Scenario scenario = marked_scenario();
+  scenario.person.cloth_fold_m = 0.0;
   World world(scenario);
   const ReferenceView view = world.reference_view(1.5);
   EXPECT_EQ(view.grey.size(), 640U * 480U);

@@ -74,6 +74,35 @@ TEST(Person, SwayStaysWithinTheSetting) {
   EXPECT_LT(most, 0.1746);  // the paper's 10 degrees
 }
 
+TEST(Person, HipsTurnAgainstTheChest) {
+  const Person person = someone();
+  double most = 0;
+  for (double stride = 0; stride < 6.3; stride += 0.05) {
+    WalkState walk;
+    walk.speed_m_s = 0.6;
+    walk.stride_rad = stride;
+    const PersonPose pose = person.pose(walk, 0.0);
+    const Eigen::Vector3d chest = pose.world_from_part[kTorso].linear().col(0);
+    const double hips_rad = std::atan2(pose.hips_forwards.y(), pose.hips_forwards.x());
+    EXPECT_LE(hips_rad * std::atan2(chest.y(), chest.x()), 1e-6) << stride;
+    most = std::max(most, std::abs(hips_rad));
+  }
+  EXPECT_NEAR(most, PersonSettings{}.hips_yaw_rad, 0.005);
+}
+
+TEST(Person, APostureLeansTurnsAndFoldsTheShirt) {
+  const Person person = someone();
+  Posture bent;
+  bent.lean_rad = 0.1;
+  bent.turn_rad = 0.05;
+  const PersonPose upright = person.pose({}, 0.0), pose = person.pose({}, 0.0, bent);
+  const Eigen::Vector3d forwards = pose.world_from_part[kTorso].linear().col(0);
+  EXPECT_NEAR(std::atan2(forwards.y(), forwards.x()), 0.05, 1e-9);
+  EXPECT_NEAR(-forwards.z(), std::sin(0.1), 1e-9);
+  EXPECT_GT(pose.cloth.pull_m, upright.cloth.pull_m + 0.005);
+  EXPECT_NE(upright.cloth.settling, person.pose({}, 0.0, kTaughtPosture).cloth.settling);
+}
+
 TEST(Person, SeatedHipsAreOverTheStool) {
   const Person person = someone();
   WalkState walk;
@@ -87,7 +116,7 @@ TEST(Person, SeatedHipsAreOverTheStool) {
 
 TEST(Person, BreathMovesTheBackAndNothingElse) {
   PersonSettings settings;
-  settings.cloth_ripple_m = 0.0;
+  settings.cloth_fold_m = 0.0;
   settings.breath_m = 0.005;
   const Person person = someone(settings);
   const PersonPose out = person.pose({}, 0.0);

@@ -149,6 +149,40 @@ TEST(Scene, PassersByWearWhatTheScenarioSays) {
   EXPECT_NEAR(means[0], means[1], 12);
 }
 
+TEST(Scene, EveryPrintHasInkOnTheBackAndAnotherSeedAnotherPrint) {
+  for (const ShirtDesign design :
+       {ShirtDesign::Shapes, ShirtDesign::Emblem, ShirtDesign::Photo, ShirtDesign::Text}) {
+    const Canvas one = draw_shirt(design, 1), other = draw_shirt(design, 2), again = draw_shirt(design, 1);
+    int inked = 0, differ = 0;
+    bool same = true;
+    for (int y = 110; y < 600; ++y)
+      for (int x = 352; x < 672; ++x) {
+        inked += std::abs(one.at(x, y) - one.at(600, 5)) > 25.f;
+        differ += std::abs(one.at(x, y) - other.at(x, y)) > 10.f;
+        same = same && one.at(x, y) == again.at(x, y);
+      }
+    const double texels = 490.0 * 320.0;
+    EXPECT_GT(inked / texels, 0.08) << static_cast<int>(design);
+    EXPECT_GT(differ / texels, 0.05) << static_cast<int>(design);
+    EXPECT_TRUE(same) << static_cast<int>(design);
+  }
+}
+
+TEST(Scene, TruthIsTheBestRigidFitOfTheCloth) {
+  Scenario scenario = empty_room();
+  const World folded(scenario, 1, WorldUse::TruthOnly);
+  scenario.person.cloth_fold_m = 0.0;
+  const World rigid(scenario, 1, WorldUse::TruthOnly);
+  const RobotMotion robot{-2.15, 0, 0.1, 0, 0};
+  EXPECT_NEAR(rigid.truth(robot, 0.0).yaw_rad, 0.1, 1e-9);
+  // Folds turn the cloth of the back by a little.
+  const Truth truth = folded.truth(robot, 0.0);
+  EXPECT_GT(std::abs(truth.yaw_rad - 0.1), 1e-4);
+  EXPECT_LT(std::abs(truth.yaw_rad - 0.1), 0.15);
+  EXPECT_NEAR(std::atan2(truth.R_cur_from_ref(0, 2), truth.R_cur_from_ref(2, 2)), truth.yaw_rad, 1e-12);
+  EXPECT_NEAR(truth.back_yaw_rad, 0.1 - truth.yaw_rad, 1e-9);
+}
+
 TEST(Scene, PassersByWalkAfterTheTargetAndHideThem) {
   Scenario scenario = empty_room();
   PasserbySettings crossing;
