@@ -12,6 +12,7 @@
 
 #include "commands.h"
 #include "config/config_load.h"
+#include "evaluation/experiments/back_set.h"
 #include "evaluation/experiments/false_detections.h"
 #include "evaluation/experiments/foreign_answers.h"
 #include "evaluation/experiments/planar_matching.h"
@@ -30,6 +31,7 @@ constexpr const char* kForeign = "foreign";
 constexpr const char* kPlanar = "foreign-planar";
 constexpr const char* kFalse = "foreign-false";
 constexpr const char* kOtherPeople = "/person/one-by-one.mp4";
+constexpr const char* kStills = "stills";
 constexpr int kVideoStep = 3;  ///< ten frames a second show how certainty rises and falls
 
 struct ExperimentOptions {
@@ -39,6 +41,7 @@ struct ExperimentOptions {
   std::string config_file;
   double teach_distance_m = 1.5;
   int repeats = 0;
+  std::uint64_t seed = 1;
   std::string data;
   std::string foreign_set;
 
@@ -168,8 +171,20 @@ void run_foreign_experiments(const ExperimentOptions& options) {
   std::fflush(stdout);
 }
 
+/// A test set of pictures with truth, in the layout of the set that others' programs made.
+void write_stills(const ExperimentOptions& options) {
+  const std::string folder = options.out + "/" + kStills;
+  const std::size_t pictures = evaluation::write_back_set(folder, options.seed, [](std::size_t done) {
+    fmt::print(stderr, "\r{:<10} {:5} pictures", kStills, done);
+  });
+  fmt::print(stderr, "\r");
+  fmt::print("{:<10} {} pictures with truth: {}\n", kStills, pictures, folder);
+  std::fflush(stdout);
+}
+
 void run_experiments(const ExperimentOptions& options) {
   std::filesystem::create_directories(options.out);
+  if (options.wants(kStills)) write_stills(options);
   if (options.wants(kReal)) run_real_image_experiment(options);
   if (options.wants(kForeign) || options.wants(kPlanar) || options.wants(kFalse))
     run_foreign_experiments(options);
@@ -191,6 +206,9 @@ void add_experiment_command(CLI::App& app) {
     names.emplace_back(known.name);
     help += std::string("\n  ") + known.name + ": " + known.what;
   }
+  names.emplace_back(kStills);
+  help += std::string("\n  ") + kStills +
+          ": writes pictures of backs with truth: images/, truth.csv, camera.yaml";
   names.emplace_back(kReal);
   help += std::string("\n  ") + kReal + ": homography error on real pairs, certainty over a real video";
   names.insert(names.end(), {kForeign, kPlanar, kFalse});
@@ -204,6 +222,8 @@ void add_experiment_command(CLI::App& app) {
       ->add_option("--repeats", options->repeats,
                    "of each pose, in up to eight worlds; of `errors`: thousands of poses")
       ->check(CLI::Range(1, 1000));
+  command->add_option("--seed", options->seed, "of `stills`: other persons, prints, folds and rooms")
+      ->capture_default_str();
   command->add_option("--data", options->data,
                       "folder of the real pictures (default: HEEL_TEST_DATA, else ../shared/data)");
   command->add_option(
