@@ -43,6 +43,11 @@ class PoseEstimator {
   /// Searches only where the shirt is expected.
   PoseEstimate estimate(const FrameView& frame, const ExpectedView& expected);
 
+  /// Searches one of the overlapping parts of the frame, upsampled, with views of the template: for what is
+  /// small or pale and is not found in the whole frame. `part`: 0…parts() − 1, the middle first.
+  PoseEstimate estimate_part(const FrameView& frame, int part);
+  static int parts();
+
   /// Where the shirt can be at `t_ns` if it crosses the view no faster than
   /// VisionConfig::tracking_rate_rad_s. `last`: found, by the same camera, not later than `t_ns`.
   ExpectedView expected_view(const PoseEstimate& last, TimeNs t_ns) const;

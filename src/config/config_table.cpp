@@ -74,7 +74,7 @@ const ConfigKey kKeys[] = {
     number(HEEL_KEY(target, distance_m), "m", {0, 10}, No, "Distance at which the template was taken; 0 uses the distance stored in the template."),
 
     number(HEEL_KEY(vision, octaves), "", {1, 4}, No, "Octaves of scale in which features are searched."),
-    number(HEEL_KEY(vision, max_features), "", {50, 5000}, No, "Largest number of features kept in a frame; the strongest are kept."),
+    number(HEEL_KEY(vision, max_features), "", {50, 5000}, No, "Largest number of features kept in a frame 640 pixels wide, in proportion in a wider one; the strongest are kept."),
     number(HEEL_KEY(vision, match_ratio), "", {0.3, 1}, No, "Largest ratio of the nearest to the second nearest descriptor distance of an accepted match."),
     number(HEEL_KEY(vision, inlier_px), "px", {0.1, 20}, No, "Largest transfer error of an inlier of the homography."),
     number(HEEL_KEY(vision, min_inliers), "", {4, 500}, No, "Smallest number of inliers of a detection; wrong homographies reach four or five."),

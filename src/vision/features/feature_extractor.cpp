@@ -21,8 +21,6 @@ namespace {
 // Keypoints kept during detection for each one wanted: enough to leave some in weakly textured corners of the
 // image.
 constexpr int kCandidatesPerFeature = 4;
-// Border of the frame that is upsampled with a region, since descriptors extend beyond the region.
-constexpr int kUpsampledBorder_px = 16;
 
 Region clipped(const Region& region, int width_px, int height_px) {
   if (region.width_px == 0 && region.height_px == 0) return {0, 0, width_px, height_px};
@@ -33,8 +31,9 @@ Region clipped(const Region& region, int width_px, int height_px) {
 }
 
 Region with_border(const Region& region, int width_px, int height_px) {
-  return clipped({region.x_px - kUpsampledBorder_px, region.y_px - kUpsampledBorder_px,
-                  region.width_px + 2 * kUpsampledBorder_px, region.height_px + 2 * kUpsampledBorder_px},
+  constexpr int kBorder_px = UpsampledRegion::kBorder_px;
+  return clipped({region.x_px - kBorder_px, region.y_px - kBorder_px, region.width_px + 2 * kBorder_px,
+                  region.height_px + 2 * kBorder_px},
                  width_px, height_px);
 }
 

@@ -15,6 +15,8 @@ namespace heel {
 class UpsampledRegion {
  public:
   static constexpr int kFactor = 2;
+  /// Border of the frame that is upsampled with a region, since descriptors extend beyond the region.
+  static constexpr int kBorder_px = 16;
 
   /// Takes memory once, for an enlarged picture of at most this width and this many pixels. With the width
   /// and area of a frame a search costs no more than a frame, and the picture may be taller than a frame, as

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -11,10 +12,13 @@
 namespace heel {
 namespace {
 
-// The plane is selected if it explains the frame this many times better than the curved surface.
+// Cloth that hangs otherwise than when it was taught has a second minimum about so far away.
+constexpr std::array kTurns_rad{-0.25, 0.25};
+
+// The plane may be selected if it explains the frame this many times better than the curved surface.
 constexpr double kPlaneAdvantage = 1.25;
 // Of a plane that is one, so many times more patches are in place than of the curved surface.
-constexpr double kPlanePatchAdvantage = 1.1;
+constexpr double kPlanePatchAdvantage = 1.05;
 // Without patches the odds of the curved surface are the advantage to the power −4: 2 to 5 at 1.25 times, 1
 // to 16 at twice.
 constexpr double kAdvantageExponent = 4.0;
@@ -38,27 +42,30 @@ BackPoseSelector::BackPoseSelector(const ReferenceView& reference, const Eigen::
       surface_refiner_(reference.px, reference.K_inverse, frontal_estimator_),
       patch_refiner_(patch_refiner) {}
 
-FrontalPose BackPoseSelector::estimate(const PlaneSolution& plane, TemplateMatcher& matcher,
-                                       const FrameContent& frame, int patch_rounds) {
+BackPose BackPoseSelector::estimate(const PlaneSolution& plane, TemplateMatcher& matcher,
+                                    const FrameContent& frame, int patch_rounds) {
   FrontalProblem problem{plane.inliers, K_ref_, K_cur_, plane.H_cur_from_ref, centre_px_, flat_};
   FrontalPose of_plane = frontal_estimator_.estimate(problem, plane.motion);
-  if (curved_.flat()) return of_plane;
+  if (curved_.flat()) return {of_plane, plane.inliers.size()};
   problem.surface = curved_;
   const CurvedSurfacePose of_curve = surface_refiner_.refine(
       problem, frontal_estimator_.estimate(problem, plane.motion), matcher, frame.features);
-  const std::optional<SurfacePose> curve =
+  std::optional<SurfacePose> curve =
       patch_refiner_.refine(frame.view, curved_, of_curve.pairs, of_curve.pose.motion, patch_rounds);
+  if (curve) curve = patch_refiner_.refine_turned(frame.view, curved_, *curve, kTurns_rad, patch_rounds);
   const double advantage =
       explanation(plane.inliers.size(), of_plane) / explanation(of_curve.pairs.size(), of_curve.pose);
-  if (!(advantage >= kPlaneAdvantage)) return curve ? frontal_pose(*curve) : of_curve.pose;
+  if (!(advantage >= kPlaneAdvantage))
+    return {curve ? frontal_pose(*curve) : of_curve.pose, of_curve.pairs.size()};
 
   const std::optional<SurfacePose> flat =
       patch_refiner_.refine(frame.view, flat_, plane.inliers, of_plane.motion, patch_rounds);
-  if (curve && !(flat && flat->score > kPlanePatchAdvantage * curve->score)) return frontal_pose(*curve);
-  if (flat) return frontal_pose(*flat);
+  if (curve && !(flat && flat->score > kPlanePatchAdvantage * curve->score))
+    return {frontal_pose(*curve), of_curve.pairs.size()};
+  if (flat) return {frontal_pose(*flat), plane.inliers.size()};
   const AlternativeHypothesis curved{of_curve.pose.motion, std::pow(advantage, -kAdvantageExponent)};
   inflate_covariance({&curved, 1}, of_plane);
-  return of_plane;
+  return {of_plane, plane.inliers.size()};
 }
 
 }  // namespace heel

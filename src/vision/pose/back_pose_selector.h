@@ -36,6 +36,11 @@ struct FrameContent {
   const FeatureGrid& features;
 };
 
+struct BackPose {
+  FrontalPose pose;
+  std::size_t pairs = 0;  ///< features that fit it
+};
+
 class BackPoseSelector {
  public:
   /// `reference` and `patch_refiner` must outlive this. If the template's distance is unknown, the curvature
@@ -50,8 +55,8 @@ class BackPoseSelector {
   BackPoseSelector& operator=(const BackPoseSelector&) = delete;
 
   /// `patch_rounds`: see SurfacePoseRefiner::refine; one is enough where the last frame was like this one.
-  FrontalPose estimate(const PlaneSolution& plane, TemplateMatcher& matcher, const FrameContent& frame,
-                       int patch_rounds);
+  BackPose estimate(const PlaneSolution& plane, TemplateMatcher& matcher, const FrameContent& frame,
+                    int patch_rounds);
 
  private:
   Eigen::Matrix3d K_ref_, K_cur_;

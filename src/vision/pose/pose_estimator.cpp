@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -33,6 +34,11 @@ Eigen::Matrix3d homography_of(const PoseEstimate& pose) {
   return Eigen::Map<const RowMajor3d>(pose.H_cur_from_ref.data());
 }
 
+VisionConfig with_feature_budget(const CameraModel& camera, VisionConfig config) {
+  config.max_features = frame_feature_budget(camera, config);
+  return config;
+}
+
 PoseEstimate with_reason(PoseEstimate pose, PoseReason reason) {
   pose.reason = reason;
   return pose;
@@ -44,6 +50,13 @@ PoseEstimate with_homography(PoseEstimate pose, const PlaneFit& fit) {
   Eigen::Map<RowMajor3d>(pose.H_cur_from_ref.data()) = fit.H_cur_from_ref;
   pose.inliers = static_cast<std::uint32_t>(fit.inliers.size());
   pose.certainty = fit.certainty;
+  return pose;
+}
+
+/// The inliers of the homography lie on one facet of a turned back; those of its surface count, too.
+PoseEstimate with_inliers_of_back(PoseEstimate pose, std::size_t pairs) {
+  pose.inliers = std::max(pose.inliers, static_cast<std::uint32_t>(pairs));
+  pose.certainty = static_cast<double>(pose.inliers) / pose.template_features;
   return pose;
 }
 
@@ -87,6 +100,8 @@ struct PoseEstimator::Impl {
   Impl(const ShirtTemplate& shirt, const CameraModel& current_camera, const VisionConfig& config);
 
   PoseEstimate estimate(const FrameView& frame, const ExpectedView& search);
+  PoseEstimate estimate_part(const FrameView& frame, int part);
+  PoseEstimate not_found_yet(const FrameView& frame) const;
   PoseEstimate steps(PoseEstimate pose, const FrameView& frame, const FeatureGrid& frame_grid,
                      const ExpectedView& search, PoseWorkspace& work);
 
@@ -126,12 +141,29 @@ PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current
                   frame_shape_limits(range), view_predictor, frame_features, patch_refiner),
       workspace(reference.px.size()) {}
 
-/// The paper's steps, in its order; where they fail, views of the template.
-PoseEstimate PoseEstimator::Impl::estimate(const FrameView& frame, const ExpectedView& search) {
+PoseEstimate PoseEstimator::Impl::not_found_yet(const FrameView& frame) const {
   PoseEstimate pose;
   pose.frame_sequence = frame.header.sequence;
   pose.t_capture_ns = frame.header.t_capture_ns;
   pose.template_features = static_cast<std::uint32_t>(reference.px.size());
+  return pose;
+}
+
+PoseEstimate PoseEstimator::Impl::estimate_part(const FrameView& frame, int part) {
+  PoseEstimate pose = not_found_yet(frame);
+  if (!fits_camera(frame)) return with_reason(pose, PoseReason::WrongFrameSize);
+  const FeatureGrid& features = frame_features.find(frame, view_predictor.part(part));
+  pose.frame_features = static_cast<std::uint32_t>(features.features().features.size());
+  if (pose.frame_features < kHomographyPairs) return with_reason(pose, PoseReason::TooFewFeatures);
+  pose =
+      with_view(with_reason(pose, PoseReason::NoHomography), view_search.search(frame, features), reference);
+  mark(workspace.times, VisionStage::Motion);
+  return pose;
+}
+
+/// The paper's steps, in its order; where they fail, views of the template.
+PoseEstimate PoseEstimator::Impl::estimate(const FrameView& frame, const ExpectedView& search) {
+  PoseEstimate pose = not_found_yet(frame);
   if (!fits_camera(frame)) return with_reason(pose, PoseReason::WrongFrameSize);
   const FeatureGrid& features = frame_features.find(frame, search);
   pose.frame_features = static_cast<std::uint32_t>(features.features().features.size());
@@ -159,10 +191,10 @@ PoseEstimate PoseEstimator::Impl::steps(PoseEstimate pose, const FrameView& fram
   const PlaneMotions motions = decompose(fit);
   const std::optional<PlaneMotion> motion = choose(motions, fit, work);
   if (!motion) return with_reason(pose, PoseReason::NoValidMotion);
-  const FrontalPose back =
+  const BackPose back =
       back_pose_selector.estimate({fit.inliers, fit.H_cur_from_ref, *motion}, matcher, {frame, frame_grid},
                                   search.tracking ? kTrackingPatchRounds : kSearchPatchRounds);
-  return with_back_pose(pose, back, reference);
+  return with_back_pose(with_inliers_of_back(pose, back.pairs), back.pose, reference);
 }
 
 bool PoseEstimator::Impl::fits_camera(const FrameView& frame) const {
@@ -186,7 +218,7 @@ std::optional<PlaneMotion> PoseEstimator::Impl::choose(const PlaneMotions& motio
 
 PoseEstimator::PoseEstimator(const ShirtTemplate& shirt, const CameraModel& camera,
                              const VisionConfig& config)
-    : impl_(std::make_unique<Impl>(shirt, camera, config)) {}
+    : impl_(std::make_unique<Impl>(shirt, camera, with_feature_budget(camera, config))) {}
 PoseEstimator::~PoseEstimator() = default;
 PoseEstimator::PoseEstimator(PoseEstimator&&) noexcept = default;
 PoseEstimator& PoseEstimator::operator=(PoseEstimator&&) noexcept = default;
@@ -197,6 +229,14 @@ PoseEstimate PoseEstimator::estimate(const FrameView& frame) {
 
 PoseEstimate PoseEstimator::estimate(const FrameView& frame, const ExpectedView& expected) {
   return impl_->estimate(frame, expected);
+}
+
+PoseEstimate PoseEstimator::estimate_part(const FrameView& frame, int part) {
+  return impl_->estimate_part(frame, part);
+}
+
+int PoseEstimator::parts() {
+  return ViewPredictor::kParts;
 }
 
 ExpectedView PoseEstimator::expected_view(const PoseEstimate& last, TimeNs t_ns) const {

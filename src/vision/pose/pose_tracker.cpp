@@ -25,6 +25,24 @@ PoseEstimate PoseTracker::search_whole_frame(const FrameView& frame) {
   return upsampled.found() ? upsampled : pose;
 }
 
+PoseEstimate PoseTracker::search_all_parts(const FrameView& frame, PoseEstimate pose) {
+  for (int part = 0; part < PoseEstimator::parts() && !pose.found(); ++part) {
+    const PoseEstimate of_part = estimator_.estimate_part(frame, part);
+    if (of_part.found()) pose = of_part;
+  }
+  return pose;
+}
+
+PoseEstimate PoseTracker::search(const FrameView& frame) {
+  if (!config_.tracking) return search_all_parts(frame, search_whole_frame(frame));
+  const bool whole = !part_is_next_;
+  part_is_next_ = whole;
+  if (whole) return search_whole_frame(frame);
+  const int part = next_part_;
+  next_part_ = (next_part_ + 1) % PoseEstimator::parts();
+  return estimator_.estimate_part(frame, part);
+}
+
 PoseEstimate PoseTracker::estimate(const FrameView& frame) {
   PoseEstimate pose;
   if (predicts_view_in(frame)) {
@@ -33,8 +51,11 @@ PoseEstimate PoseTracker::estimate(const FrameView& frame) {
     pose = estimator_.estimate(frame, expected);
     pose.tracked = pose.found();
   }
-  if (!pose.found()) pose = search_whole_frame(frame);
-  if (pose.found()) last_found_ = pose;
+  if (!pose.found()) pose = search(frame);
+  if (!pose.found()) return pose;
+  last_found_ = pose;
+  part_is_next_ = false;
+  next_part_ = 0;
   return pose;
 }
 

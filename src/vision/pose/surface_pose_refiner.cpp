@@ -21,6 +21,11 @@ constexpr double kFeatureNoise_px = 0.7, kMinPatchNoise_px = 0.1;
 // A patch about which the grey levels say nothing is known within 10 px.
 constexpr double kMinInformation_1_px2 = 0.01;
 
+// With so large a share of patches in place a pose is no other minimum.
+constexpr double kBeyondDoubt = 0.75;
+// The features speak for the first pose, so the patches must speak clearly for another.
+constexpr double kBetter = 1.1;
+
 // A patch that moves otherwise than the median of its neighbours by more than cloth does is mistaken.
 constexpr double kUnlike_m = 0.008, kUnlike_px = 1.6;
 constexpr std::size_t kMinNeighbours = 3;
@@ -89,14 +94,32 @@ std::optional<SurfacePose> SurfacePoseRefiner::refine(const FrameView& frame, co
     pose.motion = solver_.solve(surface, observations_, pose.motion,
                                 round < rounds ? kStepsPerRound : kStepsOfLastRound);
   }
-  for (std::size_t i = 0; i < aligned_.size(); ++i)
+  for (std::size_t i = 0; i < aligned_.size(); ++i) {
     if (solver_.weight(i) > kFits) ++pose.patches;
+    pose.score += 1.0 - solver_.cost(i) / SurfacePoseSolver::kMaxCost;
+  }
   const auto visible = std::count_if(predicted_.begin(), predicted_.end(),
                                      [](const PredictedPatch& patch) { return patch.visible(); });
   pose.agreement = static_cast<double>(pose.patches) / std::max(1.0, static_cast<double>(visible));
-  pose.score = static_cast<double>(pose.patches) - solver_.cost() / SurfacePoseSolver::kMaxCost;
   pose.covariance = solver_.covariance();
   return pose;
+}
+
+SurfacePose SurfacePoseRefiner::refine_turned(const FrameView& frame, const BackSurface& surface,
+                                              const SurfacePose& pose, std::span<const double> turns_rad,
+                                              int rounds) {
+  SurfacePose best = pose;
+  if (pose.agreement >= kBeyondDoubt) return best;
+  const Eigen::Vector3d middle(surface.axis_x, surface.axis_y, 1.0);
+  for (const double turn_rad : turns_rad) {
+    FrontalMotion start;
+    start.R_cur_from_ref =
+        Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()).toRotationMatrix() * pose.motion.R_cur_from_ref;
+    start.t_over_d = pose.motion.t_over_d + (pose.motion.R_cur_from_ref - start.R_cur_from_ref) * middle;
+    const std::optional<SurfacePose> other = refine(frame, surface, {}, start, rounds);
+    if (other && other->score > kBetter * best.score) best = *other;
+  }
+  return best;
 }
 
 void SurfacePoseRefiner::predict(const BackSurface& surface, const FrontalMotion& motion) {

@@ -27,7 +27,8 @@ struct SurfacePose {
   Matrix6d covariance = Matrix6d::Zero();  ///< as FrontalPose::covariance
   std::size_t patches = 0;                 ///< found where the pose puts them
   double agreement = 0.0;                  ///< their share of the patches in view
-  double score = 0.0;  ///< patches less the robust cost's share: what poses of one frame are compared by
+  /// Poses of one frame are compared by it: for each patch found, 1 less its share of the largest cost.
+  double score = 0.0;
 };
 
 /// The same as a pose without alternatives.
@@ -42,6 +43,11 @@ class SurfacePoseRefiner {
   /// solved for them and `pairs`, features that fit (undistorted). Nothing: too few patches are found.
   std::optional<SurfacePose> refine(const FrameView& frame, const BackSurface& surface,
                                     std::span<const PointPair> pairs, const FrontalMotion& start, int rounds);
+
+  /// The pose, or a better one that is found from `pose` turned to either side: where few patches agree, it
+  /// may be another minimum. Features are left out: those that fit the pose hold it where it is.
+  SurfacePose refine_turned(const FrameView& frame, const BackSurface& surface, const SurfacePose& pose,
+                            std::span<const double> turns_rad, int rounds);
 
  private:
   static constexpr std::size_t kNeighbours = 8;

@@ -90,10 +90,9 @@ SurfacePoseSolver::Matrix8d SurfacePoseSolver::nuisance_precision() const {
   return precision;
 }
 
-double SurfacePoseSolver::cost() const {
-  double sum = 0.0;
-  for (const LinearisedObservation& l : linearised_) sum += l.squared / (1.0 + l.squared / kMaxCost);
-  return sum;
+double SurfacePoseSolver::cost(std::size_t observation) const {
+  const double squared = linearised_[observation].squared;
+  return squared / (1.0 + squared / kMaxCost);
 }
 
 /// The first step is not robust: the start may be off by more than the robust cost reaches.

@@ -48,8 +48,8 @@ class SurfacePoseSolver {
   Matrix6d covariance() const;
   /// 1: the observation fits; 0: it is far off.
   double weight(std::size_t observation) const { return linearised_[observation].weight; }
-  /// Σ of the robust cost, in variances; at most kMaxCost for each observation.
-  double cost() const;
+  /// The robust cost of an observation, in variances; less than kMaxCost.
+  double cost(std::size_t observation) const;
 
   static constexpr double kMaxCost = 12.5;  // 2 · 2.5²
 

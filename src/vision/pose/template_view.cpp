@@ -17,6 +17,7 @@ namespace {
 constexpr int kViewMargin_px = 24;  // round the region: as far as descriptors reach
 constexpr double kRenderedPart =
     1.12;                              // of the region's half size: cloth just outside of it is rendered, too
+constexpr double kLeftPart = 1.5;      // a search that is as far outside does not come back
 constexpr int kOutlineSteps = 8;       // places of the region by which the view's size is found, to each side
 constexpr double kMinViewArea = 1e-3;  // view to reference: cloth turned away more is not visible
 constexpr int kNewtonSteps = 12;
@@ -57,7 +58,7 @@ class ViewGeometry {
     Eigen::Vector2d ref_px = start_px;
     for (int i = 0; i < kNewtonSteps; ++i) {
       const Eigen::Matrix2d D = derivative(ref_px);
-      if (!(D.determinant() > kMinViewArea)) return std::nullopt;
+      if (!(D.determinant() > kMinViewArea) || !in_region(ref_px, kLeftPart)) return std::nullopt;
       const Eigen::Vector2d step_px = D.inverse() * (view_px - project(ref_px));
       const double length_px = step_px.norm();
       ref_px += std::min(1.0, kLongestStep_px / std::max(length_px, kViewSettled_px)) * step_px;

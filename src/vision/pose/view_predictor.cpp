@@ -2,8 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include "vision/features/upsampled_region.h"
 
 namespace heel {
 namespace {
@@ -18,6 +21,9 @@ constexpr double kScaleMargin = 1.2;  // the template's distance is measured by 
 constexpr double kViewMargin = 0.1;
 constexpr double kViewScaleMargin = 1.3;
 constexpr double kApproach_1_s = 1.0;
+constexpr double kBudgetWidth_px = 640.0;
+// Larger features are found in the whole frame.
+constexpr double kLargestInPart_px = 3.0;
 // Below this magnification few of the template's features are as large as the smallest filter.
 constexpr double kSmallMagnification = 0.8;
 
@@ -32,6 +38,11 @@ MagnificationRange magnification_range(const ShirtTemplate& shirt, const CameraM
   const double farthest_ref_m = shirt.distance_m > 0.0 ? shirt.distance_m : config.distance_max_m;
   return {focal_ratio * nearest_ref_m / config.distance_max_m,
           focal_ratio * farthest_ref_m / config.distance_min_m};
+}
+
+int frame_feature_budget(const CameraModel& camera, const VisionConfig& config) {
+  const double width = std::max(1.0, static_cast<double>(camera.width_px) / kBudgetWidth_px);
+  return static_cast<int>(std::lround(config.max_features * width));
 }
 
 FeatureSettings frame_feature_settings(const ShirtTemplate& shirt, const FeatureSet& reference,
@@ -88,6 +99,25 @@ ExpectedView ViewPredictor::near(const Eigen::Matrix3d& H_cur_from_ref, double d
   view.sigma_min_px = std::max(whole_frame_.sigma_min_px, smallest_px / scale_margin);
   view.sigma_max_px = std::min(whole_frame_.sigma_max_px, largest_px * scale_margin);
   view.upsample = is_small(H_cur_from_ref);
+  return view;
+}
+
+ExpectedView ViewPredictor::part(int index) const {
+  // Row and column, 0…2.
+  constexpr std::array<std::array<int, 2>, kParts> kOrder{
+      {{1, 1}, {1, 0}, {1, 2}, {0, 1}, {2, 1}, {0, 0}, {0, 2}, {2, 0}, {2, 2}}};
+  const auto side_px = [](int frame_px) {
+    return frame_px / UpsampledRegion::kFactor - 2 * UpsampledRegion::kBorder_px;
+  };
+  const auto [row, column] = kOrder[static_cast<std::size_t>(index)];
+  const int width_px = side_px(camera_.width_px), height_px = side_px(camera_.height_px);
+  ExpectedView view;
+  view.region = {column * (camera_.width_px - width_px) / 2, row * (camera_.height_px - height_px) / 2,
+                 width_px, height_px};
+  view.sigma_min_px = whole_frame_.sigma_min_px;
+  view.sigma_max_px =
+      std::max(whole_frame_.sigma_min_px, std::min(whole_frame_.sigma_max_px, kLargestInPart_px));
+  view.upsample = true;
   return view;
 }
 

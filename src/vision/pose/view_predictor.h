@@ -24,6 +24,10 @@ struct MagnificationRange {
 MagnificationRange magnification_range(const ShirtTemplate& shirt, const CameraModel& camera,
                                        const VisionConfig& config);
 
+/// VisionConfig::max_features is meant for a picture 640 pixels wide: a wider one of the same scene shows
+/// more of its detail, and with as few features a small print would be crowded out.
+int frame_feature_budget(const CameraModel& camera, const VisionConfig& config);
+
 /// Settings that find every feature of the template within the range of magnification.
 FeatureSettings frame_feature_settings(const ShirtTemplate& shirt, const FeatureSet& reference,
                                        const MagnificationRange& range, const VisionConfig& config);
@@ -39,6 +43,12 @@ class ViewPredictor {
 
   /// The whole frame, every size at which the template can be followed.
   const ExpectedView& whole_frame() const { return whole_frame_; }
+
+  /// Overlapping parts of the frame, in the order in which they are searched, the middle first. Upsampled,
+  /// each has the size of a frame; so what is small or pale is found, which the whole frame's stronger
+  /// features crowd out.
+  static constexpr int kParts = 9;
+  ExpectedView part(int index) const;
 
   /// The bounding box of the outline and the sizes of the features under H, with a margin for what may have
   /// changed in `dt_s`.

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -14,6 +15,8 @@ namespace {
 // Far from frontal a candidate's mirror image in the line of sight may fit its few features as well: the
 // patches decide.
 constexpr double kMirrored_rad = 0.25;
+// The few features of a small back leave its yaw open.
+constexpr std::array kOtherTurns_rad{-0.6, -0.3, 0.3, 0.6};
 constexpr int kViewPatchRounds = 3;
 // Matches near a candidate are matches with any print that looks alike; so more of them must fit than of
 // those that are distinct in the whole frame.
@@ -79,8 +82,8 @@ ViewDetection ViewSearch::confirm(const FrameView& frame, const FrontalMotion& c
   ExpectedView near = predictor_.near(H_candidate, kCandidateAge_s);
   near.sigma_min_px = std::max(predictor_.whole_frame().sigma_min_px, kSmallerFeatures * near.sigma_min_px);
   const FeatureGrid& features = features_.find(frame, near);
-  const std::optional<ConfirmedView> confirmed =
-      confirmer_.confirm(candidate, features, near.upsample ? UpsampledRegion::kFactor : 1.0);
+  const double magnification = near.upsample ? UpsampledRegion::kFactor : 1.0;
+  const std::optional<ConfirmedView> confirmed = confirmer_.confirm(candidate, features, magnification);
   detection.reason = PoseReason::TooFewInliers;
   if (!confirmed) return detection;
   detection.inliers = static_cast<std::uint32_t>(confirmed->pairs.size());
@@ -92,14 +95,10 @@ ViewDetection ViewSearch::confirm(const FrameView& frame, const FrontalMotion& c
       patch_refiner_.refine(frame, surface_, confirmed->pairs, confirmed->motion, kViewPatchRounds);
   detection.reason = PoseReason::PatchesDisagree;
   if (!pose) return detection;
+  pose = patch_refiner_.refine_turned(frame, surface_, *pose, kOtherTurns_rad, kViewPatchRounds);
   if (std::abs(yaw_of_rotation(pose->motion.R_cur_from_ref)) > kMirrored_rad) {
-    const FrontalProblem problem{confirmed->pairs, reference_.K,         K_cur_,
-                                 H_candidate,      reference_.centre_px, surface_};
-    const PlaneMotion mirrored = mirrored_motion(problem, pose->motion);
-    const std::optional<SurfacePose> other = patch_refiner_.refine(
-        frame, surface_, {}, {.R_cur_from_ref = mirrored.R_cur_from_ref, .t_over_d = mirrored.t_over_d},
-        kViewPatchRounds);
-    if (other && other->score > pose->score) pose = other;
+    const std::optional<SurfacePose> mirrored = refine_mirrored(frame, features, magnification, *pose);
+    if (mirrored && mirrored->score > pose->score) pose = mirrored;
   }
   if (pose->agreement < kMinAgreement || pose->patches < kMinPatches) return detection;
 
@@ -107,6 +106,24 @@ ViewDetection ViewSearch::confirm(const FrameView& frame, const FrontalMotion& c
   detection.pose = frontal_pose(*pose);
   detection.reason = plausible(detection.H_cur_from_ref) ? PoseReason::Found : PoseReason::ImplausibleShape;
   return detection;
+}
+
+/// From the mirror image of `pose` in the line of sight, with its own pairs where there are any: those of the
+/// other pose hold it back.
+std::optional<SurfacePose> ViewSearch::refine_mirrored(const FrameView& frame, const FeatureGrid& features,
+                                                       double magnification, const SurfacePose& pose) {
+  const FrontalProblem problem{{}, reference_.K, K_cur_, {}, reference_.centre_px, surface_};
+  const PlaneMotion mirrored = mirrored_motion(problem, pose.motion);
+  FrontalMotion start;
+  start.R_cur_from_ref = mirrored.R_cur_from_ref;
+  start.t_over_d = mirrored.t_over_d;
+  const std::optional<ConfirmedView> confirmed = confirmer_.confirm(start, features, magnification);
+  const std::optional<SurfacePose> by_patches =
+      patch_refiner_.refine(frame, surface_, {}, start, kViewPatchRounds);
+  if (!confirmed) return by_patches;
+  const std::optional<SurfacePose> with_pairs =
+      patch_refiner_.refine(frame, surface_, confirmed->pairs, confirmed->motion, kViewPatchRounds);
+  return with_pairs && !(by_patches && by_patches->score > with_pairs->score) ? with_pairs : by_patches;
 }
 
 }  // namespace heel

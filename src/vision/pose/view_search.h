@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "heel/camera_model.h"
@@ -54,6 +55,8 @@ class ViewSearch {
 
  private:
   ViewDetection confirm(const FrameView& frame, const FrontalMotion& candidate);
+  std::optional<SurfacePose> refine_mirrored(const FrameView& frame, const FeatureGrid& features,
+                                             double magnification, const SurfacePose& pose);
   bool plausible(const Eigen::Matrix3d& H_cur_from_ref) const;
 
   const ReferenceView& reference_;

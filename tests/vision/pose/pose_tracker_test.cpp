@@ -8,7 +8,8 @@
 
 #include "support/allocation_count.h"
 #include "support/pose_bytes.h"
-#include "vision/pose/rendered_shirt.h"
+#include "vision/pose/average_back.h"
+#include "vision/pose/rendered_back.h"
 
 namespace heel {
 namespace {
@@ -140,6 +141,53 @@ TEST(PoseTracker, KeepsItsPersonWhenAnotherWearsTheSameShirt) {
       ASSERT_TRUE(pose.tracked);
       EXPECT_NEAR(pose.position_m[0], alone.position_m[0], 0.05);
     }
+  }
+}
+
+/// A back so small and pale that the clutter's features crowd its own out.
+cv::Mat small_and_pale(const ShirtTemplate& taught, double yaw_rad) {
+  const heel::BackSurface surface =
+      average_back(heel::ReferenceView(taught, heel::VisionConfig{}), heel::VisionConfig{});
+  const Eigen::Matrix3d R = heel::test::rotation(yaw_rad, 0.0, 0.0);
+  ShirtTemplate pale = taught;
+  for (std::uint8_t& grey : pale.grey) grey = static_cast<std::uint8_t>(128 + (grey - 128) / 3);
+  return heel::test::render_back(pale, surface, R, t_over_d_for(R, 0.25, 2.2), 5);
+}
+
+TEST(PoseTracker, FindsInAPartWhatTheWholeFrameHides) {
+  const ShirtTemplate taught = shirt();
+  const heel::VisionConfig config;
+  heel::VisionConfig independent = config;
+  independent.tracking = false;
+  PoseEstimator whole(taught, robot_camera(), config);
+  PoseTracker by_itself(taught, robot_camera(), independent);
+  for (const double yaw_rad : {0.0, 0.6}) {
+    const cv::Mat image = small_and_pale(taught, yaw_rad);
+    ASSERT_FALSE(whole.estimate(frame_at(image, 0)).found())
+        << "the whole frame is enough: this test tests nothing";
+    const PoseEstimate found = by_itself.estimate(frame_at(image, 0));
+    ASSERT_TRUE(found.found()) << yaw_rad;
+    EXPECT_NEAR(found.yaw_rad, yaw_rad, 0.03);
+
+    PoseTracker tracker(taught, robot_camera(), config);
+    int number = 0;
+    while (number < 2 * PoseEstimator::parts() && !tracker.estimate(frame_at(image, number)).found())
+      ++number;
+    EXPECT_GT(number, 0);
+    EXPECT_LT(number, 2 * PoseEstimator::parts());
+    EXPECT_TRUE(tracker.estimate(frame_at(image, number + 1)).tracked);
+  }
+}
+
+TEST(PoseTracker, FindsANearBackInTheSecondFrameAtTheLatest) {
+  const ShirtTemplate taught = shirt();
+  const cv::Mat clutter = texture(9, 640, 480), view = seen(taught, 0.1, 0.0, 1.2);
+  for (int empty = 0; empty < 4; ++empty) {
+    PoseTracker tracker(taught, robot_camera(), heel::VisionConfig{});
+    for (int number = 0; number < empty; ++number)
+      ASSERT_FALSE(tracker.estimate(frame_at(clutter, number)).found());
+    const bool at_once = tracker.estimate(frame_at(view, empty)).found();
+    EXPECT_TRUE(at_once || tracker.estimate(frame_at(view, empty + 1)).found()) << empty;
   }
 }
 
