@@ -68,8 +68,12 @@ struct PoseEstimate {
   std::uint32_t inliers = 0;
   double certainty = 0.0;  ///< inliers / template_features, 0…1
 
-  double yaw_rad = 0.0;  ///< R about camera y; positive turns the walking direction to the image's right
+  /// About camera y; positive turns the walking direction to the image's right. PoseTracker filters it over
+  /// the frames of a sequence.
+  double yaw_rad = 0.0;
   double yaw_sigma_rad = 0.0;              ///< one standard deviation
+  double frame_yaw_rad = 0.0;              ///< of this frame alone: that of R_cur_from_ref
+  double frame_yaw_sigma_rad = 0.0;        ///< one standard deviation
   std::array<double, 3> t_over_d{};        ///< camera frame, in units of the template distance
   std::array<double, 3> t_over_d_sigma{};  ///< one standard deviation each
   std::array<double, 9> R_cur_from_ref{};  ///< row-major

@@ -5,21 +5,29 @@
 /// - Convention, units, errors and source: those of heel/pose_estimator.h.
 #pragma once
 
+#include <memory>
+
 #include "heel/pose_estimator.h"
 
 namespace heel {
 
-/// Keeps the last estimate that was found, nothing else of earlier frames; the same frames in the same order
-/// give the same estimates. A frame in which the shirt is not where it was expected is searched as a whole:
-/// tracking may cost time but never a detection. While nothing is found in whole frames, every second frame
-/// is searched in one of its parts instead (PoseEstimator::estimate_part), in turn, which bounds the time of
-/// every frame: a shirt that only its part shows is found within 2 · parts() frames. Allocates nothing after
-/// construction.
+class YawFilter;
+
+/// Keeps the last estimate that was found, and the yaw over the frames; the same frames in the same order
+/// give the same estimates. With VisionConfig::tracking, `yaw_rad` is filtered over the frames: of a person
+/// who walks, cloth moves a single frame's yaw by several degrees. A frame in which the shirt is not where it
+/// was expected is searched as a whole: tracking may cost time but never a detection. While nothing is found
+/// in whole frames, every second frame is searched in one of its parts instead
+/// (PoseEstimator::estimate_part), in turn, which bounds the time of every frame: a shirt that only its part
+/// shows is found within 2 · parts() frames. Allocates nothing after construction.
 class PoseTracker {
  public:
   /// As PoseEstimator. Without VisionConfig::tracking every frame is searched by itself: as a whole, then in
   /// all of its parts.
   PoseTracker(const ShirtTemplate& shirt, const CameraModel& camera, const VisionConfig& config);
+  ~PoseTracker();
+  PoseTracker(PoseTracker&&) noexcept;
+  PoseTracker& operator=(PoseTracker&&) noexcept;
 
   PoseEstimate estimate(const FrameView& frame);
 
@@ -28,11 +36,13 @@ class PoseTracker {
 
  private:
   PoseEstimate search(const FrameView& frame);
+  PoseEstimate estimate_frame(const FrameView& frame);
   PoseEstimate search_whole_frame(const FrameView& frame);
   PoseEstimate search_all_parts(const FrameView& frame, PoseEstimate pose);
   bool predicts_view_in(const FrameView& frame) const;
 
   PoseEstimator estimator_;
+  std::unique_ptr<YawFilter> yaw_filter_;
   VisionConfig config_;
   PoseEstimate last_found_;
   bool part_is_next_ = false;

@@ -40,7 +40,7 @@ std::optional<TargetMeasurement> measurement_from_pose(const PoseEstimate& pose,
   TargetMeasurement measurement;
   measurement.position_m = position_robot_m.head<2>();
   measurement.yaw_rad = std::atan2(walking.y(), walking.x());
-  measurement.yaw_sigma_rad = pose.yaw_sigma_rad;
+  measurement.yaw_sigma_rad = pose.frame_yaw_sigma_rad;
   measurement.in_reference_view_m = {d_m, -centre_ref_m.x()};
 
   constexpr double kLeastHorizontalShare = 0.2;  // a back tilted by more than 78° shows no direction

@@ -127,6 +127,9 @@ std::vector<CsvColumn<PoseEstimate>> make_pose_columns() {
       {"template_features", [](L& l, const P& p, int) { l.integer(std::uint64_t{p.template_features}); }},
       {"yaw_rad", [](L& l, const P& p, int) { l.number(or_none(p.found(), p.yaw_rad)); }},
       {"yaw_sigma_rad", [](L& l, const P& p, int) { l.number(or_none(p.found(), p.yaw_sigma_rad)); }},
+      {"frame_yaw_rad", [](L& l, const P& p, int) { l.number(or_none(p.found(), p.frame_yaw_rad)); }},
+      {"frame_yaw_sigma_rad",
+       [](L& l, const P& p, int) { l.number(or_none(p.found(), p.frame_yaw_sigma_rad)); }},
   };
   add_array<P>(columns, "t_over_d", 3,
                [](L& l, const P& p, int i) { l.number(or_none(p.found(), p.t_over_d[i])); });

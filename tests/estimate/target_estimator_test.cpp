@@ -134,7 +134,7 @@ TEST(TargetEstimator, SmoothsNoiseWithoutBias) {
     const double wrong_rad = noise(random);
     pose = measured({2.5, 0.0, wrong_rad}, {}, mount_of(scene.config.camera), scene.reference);
     pose.t_capture_ns = scene.now_ns;
-    pose.yaw_sigma_rad = 0.08;
+    pose.frame_yaw_sigma_rad = 0.08;
   };
   double sum = 0.0, squares = 0.0;
   scene.run(1.0);

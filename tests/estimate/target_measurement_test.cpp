@@ -81,7 +81,7 @@ TEST(TargetMeasurement, RefusesPosesThatCannotBeUsed) {
   pose.position_m[1] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(measurement_from_pose(pose, mount).has_value());
   pose = good;
-  pose.yaw_sigma_rad = std::numeric_limits<double>::infinity();
+  pose.frame_yaw_sigma_rad = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(measurement_from_pose(pose, mount).has_value());
   pose = good;
   pose.R_cur_from_ref = {1, 0, 0, 0, 0, 1, 0, -1, 0};  // the back lies flat: no direction on the floor

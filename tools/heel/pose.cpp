@@ -169,9 +169,10 @@ void add_pose_command(CLI::App& app) {
       "runs: frames follow each other and the shirt is tracked, except with --independent and in a single\n"
       "picture.\n"
       "With --json one object a line: frame (from 0), t_s, found, reason, certainty (inliers / template\n"
-      "features), inliers, yaw_rad (positive: walking to the image's right), yaw_sigma_rad, t_over_d [3],\n"
+      "features), inliers, yaw_rad (positive: walking to the image's right; filtered over a sequence),\n"
+      "yaw_sigma_rad, frame_yaw_rad and frame_yaw_sigma_rad (of the frame alone), t_over_d [3],\n"
       "position_m [3] (null when the template's distance is not known), H_cur_from_ref [9] (row-major,\n"
-      "undistorted pixels), ms. In frames in which the shirt is not found the five values of the pose are "
+      "undistorted pixels), ms. In frames in which the shirt is not found the values of the pose are "
       "null.");
   command->add_option("inputs", options->inputs, "images, folders of images, videos")
       ->required()

@@ -15,11 +15,14 @@ std::string pose_json(const PoseRow& row) {
                                  {"found", pose.found()},       {"reason", to_string(pose.reason)},
                                  {"certainty", pose.certainty}, {"inliers", pose.inliers},
                                  {"yaw_rad", nullptr},          {"yaw_sigma_rad", nullptr},
+                                 {"frame_yaw_rad", nullptr},    {"frame_yaw_sigma_rad", nullptr},
                                  {"t_over_d", nullptr},         {"position_m", nullptr},
                                  {"H_cur_from_ref", nullptr},   {"ms", row.ms}};
   if (pose.found()) {
     json["yaw_rad"] = pose.yaw_rad;
     json["yaw_sigma_rad"] = pose.yaw_sigma_rad;
+    json["frame_yaw_rad"] = pose.frame_yaw_rad;
+    json["frame_yaw_sigma_rad"] = pose.frame_yaw_sigma_rad;
     json["t_over_d"] = pose.t_over_d;
     if (pose.has_distance) json["position_m"] = pose.position_m;
     json["H_cur_from_ref"] = pose.H_cur_from_ref;

@@ -36,8 +36,8 @@ PoseSample pose_sample(const PoseEstimate& pose, const sim::LockstepTruth& truth
   sample.found = pose.found();
   sample.reason = to_string(pose.reason);
   sample.certainty = pose.certainty;
-  sample.yaw_rad = pose.yaw_rad;
-  sample.yaw_sigma_rad = pose.yaw_sigma_rad;
+  sample.yaw_rad = pose.frame_yaw_rad;
+  sample.yaw_sigma_rad = pose.frame_yaw_sigma_rad;
   sample.x_m = pose.position_m[0];
   sample.y_m = pose.position_m[1];
   sample.z_m = pose.position_m[2];

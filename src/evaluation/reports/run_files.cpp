@@ -76,8 +76,8 @@ MetricsCollector read_run(const std::string& directory) {
     pose.found = poses.number(i, "found") != 0.0;
     pose.reason = poses.text(i, "reason");
     pose.certainty = poses.number(i, "certainty");
-    pose.yaw_rad = poses.number(i, "yaw_rad");
-    pose.yaw_sigma_rad = poses.number(i, "yaw_sigma_rad");
+    pose.yaw_rad = poses.number(i, "frame_yaw_rad");
+    pose.yaw_sigma_rad = poses.number(i, "frame_yaw_sigma_rad");
     pose.x_m = poses.number(i, "position_m_0");
     pose.y_m = poses.number(i, "position_m_1");
     pose.z_m = poses.number(i, "position_m_2");

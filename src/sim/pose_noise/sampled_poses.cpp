@@ -118,7 +118,7 @@ PoseEstimate SampledPoses::estimate(const FrameHeader& header, const RobotMotion
   pose.tracked = !now.whole_frame_search;
   pose.certainty = std::min(certainty, 1.0);
   pose.inliers = static_cast<std::uint32_t>(pose.certainty * kTemplateFeatures);
-  pose.yaw_sigma_rad = sigma_rad;
+  pose.yaw_sigma_rad = pose.frame_yaw_sigma_rad = sigma_rad;
   ever_found_ = true;
   t_last_found_ns_ = t_ns;
 
@@ -144,7 +144,7 @@ void SampledPoses::set_pose(const Truth& truth, double yaw_rad, double bearing_r
   Eigen::Matrix3d H = R;
   H.col(2) += t_over_d;
   H = (K * H * K.inverse()).eval();
-  pose.yaw_rad = yaw_rad;
+  pose.yaw_rad = pose.frame_yaw_rad = yaw_rad;
   Eigen::Map<Eigen::Vector3d>(pose.t_over_d.data()) = t_over_d;
   // t changes with the yaw by the lever of the template's distance.
   Eigen::Map<Eigen::Vector3d>(pose.t_over_d_sigma.data()) =

@@ -70,8 +70,8 @@ PoseEstimate with_back_pose(PoseEstimate pose, const FrontalPose& back, const Re
     return with_reason(pose, PoseReason::NoValidMotion);
 
   pose.reason = PoseReason::Found;
-  pose.yaw_rad = back.yaw_rad;
-  pose.yaw_sigma_rad = back.yaw_sigma_rad;
+  pose.yaw_rad = pose.frame_yaw_rad = back.yaw_rad;
+  pose.yaw_sigma_rad = pose.frame_yaw_sigma_rad = back.yaw_sigma_rad;
   Eigen::Map<Eigen::Vector3d>(pose.t_over_d.data()) = t_over_d;
   Eigen::Map<Eigen::Vector3d>(pose.t_over_d_sigma.data()) = back.t_over_d_sigma;
   Eigen::Map<RowMajor3d>(pose.R_cur_from_ref.data()) = R;

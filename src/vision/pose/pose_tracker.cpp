@@ -1,5 +1,7 @@
 #include "heel/pose_tracker.h"
 
+#include "vision/pose/yaw_filter.h"
+
 namespace heel {
 namespace {
 
@@ -9,7 +11,10 @@ constexpr TimeNs kMaxPredictionAge_ns = kNsPerS / 2;
 }  // namespace
 
 PoseTracker::PoseTracker(const ShirtTemplate& shirt, const CameraModel& camera, const VisionConfig& config)
-    : estimator_(shirt, camera, config), config_(config) {}
+    : estimator_(shirt, camera, config), yaw_filter_(std::make_unique<YawFilter>()), config_(config) {}
+PoseTracker::~PoseTracker() = default;
+PoseTracker::PoseTracker(PoseTracker&&) noexcept = default;
+PoseTracker& PoseTracker::operator=(PoseTracker&&) noexcept = default;
 
 /// A frame older than the last detection comes from a source that has started again.
 bool PoseTracker::predicts_view_in(const FrameView& frame) const {
@@ -44,6 +49,16 @@ PoseEstimate PoseTracker::search(const FrameView& frame) {
 }
 
 PoseEstimate PoseTracker::estimate(const FrameView& frame) {
+  PoseEstimate pose = estimate_frame(frame);
+  if (!config_.tracking || !pose.found()) return pose;
+  const FilteredYaw yaw =
+      yaw_filter_->update(pose.t_capture_ns, pose.frame_yaw_rad, pose.frame_yaw_sigma_rad);
+  pose.yaw_rad = yaw.yaw_rad;
+  pose.yaw_sigma_rad = yaw.sigma_rad;
+  return pose;
+}
+
+PoseEstimate PoseTracker::estimate_frame(const FrameView& frame) {
   PoseEstimate pose;
   if (predicts_view_in(frame)) {
     ExpectedView expected = estimator_.expected_view(last_found_, frame.header.t_capture_ns);

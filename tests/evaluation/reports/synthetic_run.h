@@ -55,7 +55,7 @@ inline std::string ticks_csv() {
 
 inline std::string poses_csv() {
   std::string text =
-      "t_s,frame,reason,found,certainty,yaw_rad,yaw_sigma_rad,position_m_0,position_m_1,position_m_2";
+      "t_s,frame,reason,found,certainty,frame_yaw_rad,frame_yaw_sigma_rad,position_m_0,position_m_1,position_m_2";
   for (int i = 0; i < 9; ++i) text += ",H_cur_from_ref_" + std::to_string(i);
   for (int k = 0; k < 100; ++k) {
     const double t_s = kClock_s + 0.1 * k + 0.05;

@@ -63,7 +63,8 @@ std::map<std::string, double> numbers_of(const json& line) {
                                            {"certainty", line["certainty"].get<double>()},
                                            {"inliers", line["inliers"].get<double>()}};
   if (!line["found"].get<bool>()) return numbers;
-  for (const char* name : {"yaw_rad", "yaw_sigma_rad"}) numbers[name] = line[name].get<double>();
+  for (const char* name : {"yaw_rad", "yaw_sigma_rad", "frame_yaw_rad", "frame_yaw_sigma_rad"})
+    numbers[name] = line[name].get<double>();
   for (const char* name : {"t_over_d", "position_m", "H_cur_from_ref"}) {
     const auto values = line[name].get<std::vector<double>>();
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -170,7 +171,8 @@ TEST_F(SameAnswers, HeelPoseLockStepAndDaemon) {
     tracked += daemon[i].at("tracked") == "1";
   }
   // The comparison means nothing where vision has nothing to say, or did not track.
-  EXPECT_EQ(found, kFrames - (kLastHidden - kFirstHidden + 1));
+  // While nothing is found, every second frame is searched in one of its parts only: one frame may be lost.
+  EXPECT_GE(found, kFrames - (kLastHidden - kFirstHidden + 1) - 1);
   EXPECT_GT(tracked, found / 2);
   EXPECT_LT(tracked, found);
 }

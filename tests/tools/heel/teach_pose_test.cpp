@@ -171,7 +171,8 @@ TEST_F(TeachAndPose, PoseFindsTheTruthAndGivesNoPoseForWhatItDoesNotFind) {
   EXPECT_FALSE(missed["found"].get<bool>());
   EXPECT_EQ(missed["reason"], "too few features");
   EXPECT_EQ(missed["certainty"], 0.0);
-  for (const char* key : {"yaw_rad", "yaw_sigma_rad", "t_over_d", "position_m", "H_cur_from_ref"}) {
+  for (const char* key : {"yaw_rad", "yaw_sigma_rad", "frame_yaw_rad", "frame_yaw_sigma_rad", "t_over_d",
+                          "position_m", "H_cur_from_ref"}) {
     EXPECT_TRUE(missed[key].is_null()) << key;
   }
 }
@@ -184,7 +185,8 @@ TEST_F(TeachAndPose, EveryLineHasExactlyTheDocumentedKeysInTheirOrder) {
   const auto line = nlohmann::ordered_json::parse(outcome.out);
   for (const auto& item : line.items()) keys.push_back(item.key());
   EXPECT_THAT(keys, ElementsAreArray({"frame", "t_s", "found", "reason", "certainty", "inliers", "yaw_rad",
-                                      "yaw_sigma_rad", "t_over_d", "position_m", "H_cur_from_ref", "ms"}));
+                                      "yaw_sigma_rad", "frame_yaw_rad", "frame_yaw_sigma_rad", "t_over_d",
+                                      "position_m", "H_cur_from_ref", "ms"}));
 }
 
 TEST_F(TeachAndPose, RepeatsToTheBitExceptForTimes) {

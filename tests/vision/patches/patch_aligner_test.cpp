@@ -9,15 +9,11 @@
 #include "support/allocation_count.h"
 #include "vision/features/test_image.h"
 
+namespace heel {
 namespace {
 
-using heel::AlignedPatch;
-using heel::PatchAligner;
-using heel::PatchSettings;
-using heel::PredictedPatch;
-using heel::ShirtTemplate;
-using heel::test::image_of;
-using heel::test::TestImage;
+using test::image_of;
+using test::TestImage;
 
 constexpr int kWidth_px = 320, kHeight_px = 240;
 
@@ -161,17 +157,18 @@ TEST(PatchAligner, ChoosesNoPlainPlaces) {
 }
 
 TEST(PatchAligner, AllocatesNothing) {
-  if (!heel::test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   const PatchAligner aligner(printed(), PatchSettings{});
   const AffineView view;
   const TestImage image = view.image();
   const std::vector<PredictedPatch> predicted = view.predicted(aligner, {0.5, 0.5});
   std::vector<AlignedPatch> found;
   found.reserve(predicted.size());
-  const std::uint64_t before = heel::test::allocations_of_this_thread();
+  const std::uint64_t before = test::allocations_of_this_thread();
   aligner.align(image.view(), predicted, found);
-  EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
+  EXPECT_EQ(test::allocations_of_this_thread() - before, 0u);
   EXPECT_FALSE(found.empty());
 }
 
 }  // namespace
+}  // namespace heel

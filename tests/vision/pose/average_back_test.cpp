@@ -5,16 +5,11 @@
 
 #include "vision/pose/rendered_shirt.h"
 
+namespace heel {
 namespace {
 
-using heel::average_back;
-using heel::BackSurface;
-using heel::ReferenceView;
-using heel::ShirtTemplate;
-using heel::VisionConfig;
-
 ReferenceView view_from(double distance_m) {
-  ShirtTemplate shirt = heel::test::shirt();
+  ShirtTemplate shirt = test::shirt();
   shirt.distance_m = distance_m;
   return ReferenceView(shirt, VisionConfig{});
 }
@@ -63,3 +58,4 @@ TEST(AverageBack, CoversTheRegionFromEdgeToEdge) {
 }
 
 }  // namespace
+}  // namespace heel

@@ -9,16 +9,14 @@
 #include "support/allocation_count.h"
 #include "vision/pose/curved_back.h"
 
+namespace heel {
 namespace {
 
-using namespace heel::test::curved;
-using heel::MotionPrior;
-using heel::SurfaceObservation;
-using heel::SurfacePoseSolver;
-using heel::test::plain_camera;
-using heel::test::Random;
-using heel::test::random_view;
-using heel::test::View;
+using namespace test::curved;
+using test::plain_camera;
+using test::Random;
+using test::random_view;
+using test::View;
 
 BackSurface shaped_back(double shape_sigma_m) {
   BackSurface surface = back(0.0, shape_sigma_m);
@@ -41,7 +39,7 @@ FrontalMotion true_motion(const View& view) {
 
 FrontalMotion start_off(const View& view, double turn_rad) {
   FrontalMotion motion = true_motion(view);
-  motion.R_cur_from_ref = heel::test::rotation(turn_rad, 0.05, 0.02) * view.R;
+  motion.R_cur_from_ref = test::rotation(turn_rad, 0.05, 0.02) * view.R;
   motion.t_over_d +=
       (view.R - motion.R_cur_from_ref) * Eigen::Vector3d::UnitZ() + Eigen::Vector3d(0.02, -0.02, 0.05);
   return motion;
@@ -193,19 +191,20 @@ TEST(SurfacePoseSolver, APriorKeepsWhatFewObservationsLeaveOpen) {
 }
 
 TEST(SurfacePoseSolver, AllocatesNothingAndIgnoresWhatIsTooMuch) {
-  if (!heel::test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
   const BackSurface surface = shaped_back(0.004);
   Random random(5);
   const View view = view_at(0.2, 1.2);
   const std::vector<SurfaceObservation> observations = observations_of(surface, random, view, 80, 0.2);
   SurfacePoseSolver solver(K, 50);
-  const std::uint64_t before = heel::test::allocations_of_this_thread();
+  const std::uint64_t before = test::allocations_of_this_thread();
   const FrontalMotion motion = solver.solve(surface, observations, true_motion(view), 8);
   solver.covariance();
-  EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
+  EXPECT_EQ(test::allocations_of_this_thread() - before, 0u);
   const FrontalMotion of_first_50 =
       SurfacePoseSolver(K, 50).solve(surface, std::span(observations).first(50), true_motion(view), 8);
   EXPECT_EQ(motion.t_over_d, of_first_50.t_over_d);
 }
 
 }  // namespace
+}  // namespace heel

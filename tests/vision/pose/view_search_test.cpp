@@ -8,26 +8,22 @@
 #include "vision/pose/average_back.h"
 #include "vision/pose/rendered_back.h"
 
+namespace heel {
 namespace {
 
-using heel::PoseEstimate;
-using heel::PoseEstimator;
-using heel::PoseReason;
-using heel::ShirtTemplate;
-using heel::VisionConfig;
-using heel::test::robot_camera;
-using heel::test::view_of;
+using test::robot_camera;
+using test::view_of;
 
 cv::Mat turned_back(const ShirtTemplate& shirt, double yaw_rad, double depth) {
-  const heel::BackSurface surface = average_back(heel::ReferenceView(shirt, VisionConfig{}), VisionConfig{});
-  const Eigen::Matrix3d R = heel::test::rotation(yaw_rad, 0.0, 0.0);
-  return heel::test::render_back(shirt, surface, R, heel::test::t_over_d_for(R, 0.0, depth), 5);
+  const BackSurface surface = average_back(ReferenceView(shirt, VisionConfig{}), VisionConfig{});
+  const Eigen::Matrix3d R = test::rotation(yaw_rad, 0.0, 0.0);
+  return test::render_back(shirt, surface, R, test::t_over_d_for(R, 0.0, depth), 5);
 }
 
 TEST(ViewSearch, FindsABackThatIsTurnedFar) {
-  const ShirtTemplate taught = heel::test::shirt();
+  const ShirtTemplate taught = test::shirt();
   PoseEstimator estimator(taught, robot_camera(), VisionConfig{});
-  VisionConfig plane = heel::test::flat_shirt_config();  // which has no views
+  VisionConfig plane = test::flat_shirt_config();  // which has no views
   PoseEstimator without_views(taught, robot_camera(), plane);
   int by_views = 0;
   for (const double yaw_rad : {-1.15, -1.05, 1.05, 1.15}) {
@@ -43,7 +39,7 @@ TEST(ViewSearch, FindsABackThatIsTurnedFar) {
 }
 
 TEST(ViewSearch, SameFrameSameEstimate) {
-  const ShirtTemplate taught = heel::test::shirt();
+  const ShirtTemplate taught = test::shirt();
   const cv::Mat image = turned_back(taught, 1.1, 1.2);
   PoseEstimator one(taught, robot_camera(), VisionConfig{}), two(taught, robot_camera(), VisionConfig{});
   two.estimate(view_of(turned_back(taught, -0.4, 1.5)));
@@ -54,10 +50,10 @@ TEST(ViewSearch, SameFrameSameEstimate) {
 }
 
 TEST(ViewSearch, NothingIsFoundInOtherPrints) {
-  PoseEstimator estimator(heel::test::shirt(), robot_camera(), VisionConfig{});
-  ShirtTemplate other = heel::test::shirt();
+  PoseEstimator estimator(test::shirt(), robot_camera(), VisionConfig{});
+  ShirtTemplate other = test::shirt();
   for (std::uint64_t seed = 100; seed < 112; ++seed) {
-    const cv::Mat print = heel::test::texture(seed, 640, 480);
+    const cv::Mat print = test::texture(seed, 640, 480);
     other.grey.assign(print.data, print.data + print.total());
     const PoseEstimate pose =
         estimator.estimate(view_of(turned_back(other, 0.1 * static_cast<double>(seed % 7), 1.3)));
@@ -66,14 +62,15 @@ TEST(ViewSearch, NothingIsFoundInOtherPrints) {
 }
 
 TEST(ViewSearch, AllocatesNothing) {
-  if (!heel::test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
-  const ShirtTemplate taught = heel::test::shirt();
+  if (!test::counts_allocations()) GTEST_SKIP() << "a sanitizer owns the allocator";
+  const ShirtTemplate taught = test::shirt();
   PoseEstimator estimator(taught, robot_camera(), VisionConfig{});
   const cv::Mat image = turned_back(taught, 1.1, 1.2);
-  const std::uint64_t before = heel::test::allocations_of_this_thread();
+  const std::uint64_t before = test::allocations_of_this_thread();
   const bool found = estimator.estimate(view_of(image)).found();
-  EXPECT_EQ(heel::test::allocations_of_this_thread() - before, 0u);
+  EXPECT_EQ(test::allocations_of_this_thread() - before, 0u);
   EXPECT_TRUE(found);
 }
 
 }  // namespace
+}  // namespace heel
