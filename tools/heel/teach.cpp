@@ -16,6 +16,7 @@
 #include "heel/error.h"
 #include "heel/shirt_template.h"
 #include "picture.h"
+#include "teach_reach.h"
 
 namespace heel::cli {
 namespace {
@@ -29,6 +30,8 @@ struct TeachOptions {
   std::vector<int> roi;
   double distance_m = 0.0;
   std::string camera_file;
+  std::string robot_camera_file;
+  double reach_time_s = 8.0;
   std::string output;
   std::string picture;
   bool oriented = false;
@@ -126,6 +129,8 @@ void run_teach(const TeachOptions& options) {
   }
   if (!options.picture.empty()) require_writable_image_name(options.picture);
   const ShirtTemplate shirt = make_template(options);
+  const CameraModel robot_camera =
+      options.robot_camera_file.empty() ? shirt.camera : read_camera_model(options.robot_camera_file);
   const TemplateVerdict verdict = judge_template(shirt);
   if (!options.picture.empty()) write_image(options.picture, draw_template(shirt, template_features(shirt)));
   if (verdict.usable) write_template(shirt, options.output);
@@ -134,6 +139,7 @@ void run_teach(const TeachOptions& options) {
     fmt::print("refused: {}\n", verdict.reason);
     throw CLI::RuntimeError(kExitNo);
   }
+  print_reach(shirt, robot_camera, options.reach_time_s);
   fmt::print("wrote {}\n", options.output);
 }
 
@@ -145,7 +151,8 @@ void add_teach_command(CLI::App& app) {
       "teach",
       "Makes a template from one view of the back of a shirt, with the camera square to the back, and says\n"
       "how well it can be followed. A shirt that cannot be followed is refused with the reason (exit status\n"
-      "1, nothing written).");
+      "1, nothing written). Of any other it measures, on pictures made from the view, how far and how far\n"
+      "turned the robot's camera will find it; a table has the pictures found of each distance and turn.");
   command->add_option("--image", options->image, "photograph or video of the back")->type_name("I");
   command
       ->add_option("--camera", options->camera_address,
@@ -170,6 +177,15 @@ void add_teach_command(CLI::App& app) {
       ->check(number_from(0.1, 100.0));
   command->add_option("--camera-info", options->camera_file, "the camera (heel calibrate makes this file)")
       ->required()
+      ->type_name("CAM.yaml");
+  command
+      ->add_option("--reach-time", options->reach_time_s,
+                   "longest time for measuring the reach, seconds; 0: it is not measured (default 8)")
+      ->type_name("S")
+      ->check(number_from(0.0, 3600.0));
+  command
+      ->add_option("--robot-camera-info", options->robot_camera_file,
+                   "the robot's camera, for which the reach is measured (default: that of --camera-info)")
       ->type_name("CAM.yaml");
   command->add_option("-o,--output", options->output, "template file to write")
       ->required()

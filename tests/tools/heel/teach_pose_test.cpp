@@ -24,8 +24,10 @@ using test::Outcome;
 using test::run_heel;
 using test::TrueMotion;
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// The mean distance of the region's corners from their true places.
 double mean_corner_error_px(const json& found, const cv::Matx33d& truth) {
@@ -40,6 +42,8 @@ double mean_corner_error_px(const json& found, const cv::Matx33d& truth) {
   }
   return sum_px / 4;
 }
+
+const std::vector<std::string> kNoHurry = {"--reach-time", "600"};  // complete also on a busy machine
 
 class TeachAndPose : public ::testing::Test {
  protected:
@@ -92,6 +96,45 @@ TEST_F(TeachAndPose, TeachReportsTheQualityAndKeepsTheOptions) {
   EXPECT_EQ(kept.max_features, 150);
   EXPECT_EQ(kept.camera.fx, 610.0);
   EXPECT_TRUE(std::equal(kept.grey.begin(), kept.grey.end(), reference.datastart, reference.dataend));
+}
+
+TEST_F(TeachAndPose, TeachSaysFromWhereTheShirtWillBeFoundAndWarnsWhenThatIsLittle) {
+  const Outcome bold = teach(kNoHurry);
+  ASSERT_EQ(bold.status, 0) << bold.err;
+  EXPECT_THAT(bold.out,
+              ContainsRegex("\nfound from [0-9.]+ to [3-6][0-9.]* m facing away, to [4-7][0-9]° at 2 m"));
+  EXPECT_THAT(bold.out, ContainsRegex("\n +0° +[0-4]/4"));
+  EXPECT_THAT(bold.out, Not(HasSubstr("warning")));
+
+  reference.convertTo(reference, -1, 0.1, 110.0);
+  cv::imwrite(image, reference);
+  const Outcome pale = teach(kNoHurry);
+  ASSERT_EQ(pale.status, 0) << pale.err;
+  EXPECT_THAT(pale.out, HasSubstr("\nwarning: the print is small or low in contrast: "));
+}
+
+TEST_F(TeachAndPose, TeachEndsItsMeasurementInTimeAndSaysSo) {
+  const Outcome hurried = teach({"--reach-time", "0.001"});
+  ASSERT_EQ(hurried.status, 0) << hurried.err;
+  EXPECT_THAT(hurried.out, HasSubstr(" (not measured further after 0.001 s: --reach-time)\n"));
+  EXPECT_THAT(hurried.out, Not(HasSubstr("warning")));
+  const Outcome none = teach({"--reach-time", "0"});
+  ASSERT_EQ(none.status, 0) << none.err;
+  EXPECT_THAT(none.out, AllOf(HasSubstr("wrote "), Not(HasSubstr("facing away"))));
+}
+
+TEST_F(TeachAndPose, TeachMeasuresForTheRobotsCamera) {
+  CameraModel small = test::shirt_camera();
+  small.width_px = 160;
+  small.height_px = 120;
+  for (double* value : {&small.fx, &small.fy, &small.cx, &small.cy}) *value /= 4.0;
+  const std::string robot = folder.file("robot.yaml");
+  write_camera_model(small, robot);
+  const Outcome outcome = teach({"--robot-camera-info", robot, kNoHurry[0], kNoHurry[1]});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              HasSubstr("\nwarning: the print is small or low in contrast: it is lost before 3 m"));
+  EXPECT_EQ(read_template(shirt).camera.width_px, test::kWidth_px);
 }
 
 TEST_F(TeachAndPose, TeachGivesTheSameTemplateThroughACameraAddress) {
