@@ -51,6 +51,7 @@ enum class PoseReason : std::uint8_t {
   NoValidMotion,     ///< no decomposition puts the shirt in front of both cameras, facing the camera
   WrongFrameSize,    ///< the frame is not of the size the camera was calibrated at
   PatchesDisagree,   ///< too few patches of the print are where the pose puts them
+  Ambiguous,         ///< the frame shows the shirt at a second place as well; the pose is that of one of them
 };
 
 /// The pose of the shirt in one frame. Conventions of the reference view: the plane z = d, normal (0,0,1);

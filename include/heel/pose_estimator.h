@@ -48,6 +48,10 @@ class PoseEstimator {
   PoseEstimate estimate_part(const FrameView& frame, int part);
   static int parts();
 
+  /// Whether the frame of the last estimate, `found` in it, shows the shirt at a second place as well, which
+  /// could be followed as well: a whole frame is searched once more, without what was found.
+  bool shows_second_place(const FrameView& frame, const PoseEstimate& found);
+
   /// Where the shirt can be at `t_ns` if it crosses the view no faster than
   /// VisionConfig::tracking_rate_rad_s. `last`: found, by the same camera, not later than `t_ns`.
   ExpectedView expected_view(const PoseEstimate& last, TimeNs t_ns) const;

@@ -19,7 +19,9 @@ class YawFilter;
 /// was expected is searched as a whole: tracking may cost time but never a detection. While nothing is found
 /// in whole frames, every second frame is searched in one of its parts instead
 /// (PoseEstimator::estimate_part), in turn, which bounds the time of every frame: a shirt that only its part
-/// shows is found within 2 · parts() frames. Allocates nothing after construction.
+/// shows is found within 2 · parts() frames. A search must find the shirt at one place only: a frame that
+/// shows it at two is refused as PoseReason::Ambiguous, and a pose that has moved far since the last frame is
+/// held to the same. Allocates nothing after construction.
 class PoseTracker {
  public:
   /// As PoseEstimator. Without VisionConfig::tracking every frame is searched by itself: as a whole, then in
@@ -40,6 +42,7 @@ class PoseTracker {
   PoseEstimate search_whole_frame(const FrameView& frame);
   PoseEstimate search_all_parts(const FrameView& frame, PoseEstimate pose);
   bool predicts_view_in(const FrameView& frame) const;
+  bool continues_last(const PoseEstimate& pose) const;
 
   PoseEstimator estimator_;
   std::unique_ptr<YawFilter> yaw_filter_;

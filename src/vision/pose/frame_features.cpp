@@ -5,28 +5,32 @@
 
 namespace heel {
 
+FrameFeatures::Found::Found(int max_features) : grid(max_features, GuidedMatchSettings{}.radius_px) {
+  undistorted_px.reserve(static_cast<std::size_t>(max_features));
+}
+
 FrameFeatures::FrameFeatures(const CameraModel& camera, const FeatureSettings& settings)
     : camera_(camera),
       extractor_(camera.width_px, camera.height_px, settings),
-      grid_(settings.max_features, GuidedMatchSettings{}.radius_px) {
-  extractor_.reserve(features_);
-  undistorted_px_.reserve(static_cast<std::size_t>(settings.max_features));
+      found_{Found(settings.max_features), Found(settings.max_features), Found(settings.max_features)} {
+  for (Found& found : found_) extractor_.reserve(found.features);
 }
 
-const FeatureGrid& FrameFeatures::find(const FrameView& frame, const ExpectedView& expected) {
+const FeatureGrid& FrameFeatures::find(const FrameView& frame, const ExpectedView& expected, Search search) {
   FeatureSettings settings = extractor_.settings();
   settings.sigma_min_px = static_cast<float>(expected.sigma_min_px);
   settings.sigma_max_px = static_cast<float>(expected.sigma_max_px);
   settings.upsample = expected.upsample;
   extractor_.set_settings(settings);
-  extractor_.extract(frame, expected.region, features_);
-  undistorted_px_.clear();
-  for (const Feature& feature : features_.features)
-    undistorted_px_.push_back(
+  Found& found = found_[static_cast<std::size_t>(search)];
+  extractor_.extract(frame, expected.region, found.features);
+  found.undistorted_px.clear();
+  for (const Feature& feature : found.features.features)
+    found.undistorted_px.push_back(
         camera_.undistort_px({static_cast<double>(feature.x_px), static_cast<double>(feature.y_px)}));
-  grid_.assign(features_, undistorted_px_);
+  found.grid.assign(found.features, found.undistorted_px);
   mark(times_, VisionStage::Undistortion);
-  return grid_;
+  return found.grid;
 }
 
 void FrameFeatures::measure(StageTimes* times) {

@@ -1,7 +1,10 @@
 // The features of a frame, where and at which sizes the shirt is expected, with their undistorted places.
+// Those of the whole frame are kept while parts of it are searched.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "heel/camera_model.h"
@@ -13,23 +16,37 @@ namespace heel {
 
 class FrameFeatures {
  public:
+  enum class Search : std::size_t { WholeFrame, ExpectedView, CloserLook };
+
   /// Memory is taken once, for frames of the camera's size and `settings.max_features`.
   FrameFeatures(const CameraModel& camera, const FeatureSettings& settings);
 
+  FrameFeatures(const FrameFeatures&) = delete;
+  FrameFeatures& operator=(const FrameFeatures&) = delete;
+
   const FeatureSettings& settings() const { return extractor_.settings(); }
 
-  /// Valid until the next call.
-  const FeatureGrid& find(const FrameView& frame, const ExpectedView& expected);
+  /// Valid until the next call with the same `search`.
+  const FeatureGrid& find(const FrameView& frame, const ExpectedView& expected, Search search);
+
+  /// The features that the last such search has found.
+  const FeatureGrid& last(Search search) const { return found_[static_cast<std::size_t>(search)].grid; }
 
   /// As PoseEstimator.
   void measure(StageTimes* times);
 
  private:
+  struct Found {
+    explicit Found(int max_features);
+
+    FeatureSet features;
+    std::vector<Eigen::Vector2d> undistorted_px;
+    FeatureGrid grid;
+  };
+
   CameraModel camera_;
   FeatureExtractor extractor_;
-  FeatureSet features_;
-  std::vector<Eigen::Vector2d> undistorted_px_;
-  FeatureGrid grid_;
+  std::array<Found, 3> found_;  // by Search
   StageTimes* times_ = nullptr;
 };
 

@@ -14,6 +14,7 @@
 #include "vision/pose/frame_features.h"
 #include "vision/pose/plane_fitter.h"
 #include "vision/pose/pose_workspace.h"
+#include "vision/pose/second_place_search.h"
 #include "vision/pose/view_predictor.h"
 #include "vision/pose/view_search.h"
 #include "vision/template/reference_view.h"
@@ -99,9 +100,10 @@ PoseEstimate with_view(PoseEstimate pose, const ViewDetection& seen, const Refer
 struct PoseEstimator::Impl {
   Impl(const ShirtTemplate& shirt, const CameraModel& current_camera, const VisionConfig& config);
 
-  PoseEstimate estimate(const FrameView& frame, const ExpectedView& search);
+  PoseEstimate estimate(const FrameView& frame, const ExpectedView& search, FrameFeatures::Search kind);
   PoseEstimate estimate_part(const FrameView& frame, int part);
   PoseEstimate not_found_yet(const FrameView& frame) const;
+  bool shows_second_place(const FrameView& frame, const PoseEstimate& found);
   PoseEstimate steps(PoseEstimate pose, const FrameView& frame, const FeatureGrid& frame_grid,
                      const ExpectedView& search, PoseWorkspace& work);
 
@@ -121,7 +123,9 @@ struct PoseEstimator::Impl {
   SurfacePoseRefiner patch_refiner;
   BackPoseSelector back_pose_selector;
   ViewSearch view_search;
+  SecondPlaceSearch second_place_search;
   PoseWorkspace workspace;
+  bool whole_frame_is_searched = false;  // the features of the last frame, not those of an earlier one
 };
 
 PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current_camera,
@@ -139,6 +143,7 @@ PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current
       back_pose_selector(reference, K_cur, config, patch_refiner),
       view_search(shirt, reference, camera, config, back_pose_selector.curved_surface(),
                   frame_shape_limits(range), view_predictor, frame_features, patch_refiner),
+      second_place_search(reference, matcher, plane_fitter, view_search, config.max_features),
       workspace(reference.px.size()) {}
 
 PoseEstimate PoseEstimator::Impl::not_found_yet(const FrameView& frame) const {
@@ -152,7 +157,8 @@ PoseEstimate PoseEstimator::Impl::not_found_yet(const FrameView& frame) const {
 PoseEstimate PoseEstimator::Impl::estimate_part(const FrameView& frame, int part) {
   PoseEstimate pose = not_found_yet(frame);
   if (!fits_camera(frame)) return with_reason(pose, PoseReason::WrongFrameSize);
-  const FeatureGrid& features = frame_features.find(frame, view_predictor.part(part));
+  const FeatureGrid& features =
+      frame_features.find(frame, view_predictor.part(part), FrameFeatures::Search::ExpectedView);
   pose.frame_features = static_cast<std::uint32_t>(features.features().features.size());
   if (pose.frame_features < kHomographyPairs) return with_reason(pose, PoseReason::TooFewFeatures);
   pose =
@@ -162,10 +168,11 @@ PoseEstimate PoseEstimator::Impl::estimate_part(const FrameView& frame, int part
 }
 
 /// The paper's steps, in its order; where they fail, views of the template.
-PoseEstimate PoseEstimator::Impl::estimate(const FrameView& frame, const ExpectedView& search) {
+PoseEstimate PoseEstimator::Impl::estimate(const FrameView& frame, const ExpectedView& search,
+                                           FrameFeatures::Search kind) {
   PoseEstimate pose = not_found_yet(frame);
   if (!fits_camera(frame)) return with_reason(pose, PoseReason::WrongFrameSize);
-  const FeatureGrid& features = frame_features.find(frame, search);
+  const FeatureGrid& features = frame_features.find(frame, search, kind);
   pose.frame_features = static_cast<std::uint32_t>(features.features().features.size());
   if (pose.frame_features < kHomographyPairs) return with_reason(pose, PoseReason::TooFewFeatures);
 
@@ -173,6 +180,16 @@ PoseEstimate PoseEstimator::Impl::estimate(const FrameView& frame, const Expecte
   if (!pose.found()) pose = with_view(pose, view_search.search(frame, features), reference);
   mark(workspace.times, VisionStage::Motion);
   return pose;
+}
+
+bool PoseEstimator::Impl::shows_second_place(const FrameView& frame, const PoseEstimate& found) {
+  constexpr auto kWholeFrame = FrameFeatures::Search::WholeFrame;
+  const FeatureGrid& features = whole_frame_is_searched
+                                    ? frame_features.last(kWholeFrame)
+                                    : frame_features.find(frame, view_predictor.whole_frame(), kWholeFrame);
+  const bool shown = second_place_search.shows_second_place(frame, features, found, workspace);
+  mark(workspace.times, VisionStage::Motion);
+  return shown;
 }
 
 PoseEstimate PoseEstimator::Impl::steps(PoseEstimate pose, const FrameView& frame,
@@ -224,14 +241,21 @@ PoseEstimator::PoseEstimator(PoseEstimator&&) noexcept = default;
 PoseEstimator& PoseEstimator::operator=(PoseEstimator&&) noexcept = default;
 
 PoseEstimate PoseEstimator::estimate(const FrameView& frame) {
-  return impl_->estimate(frame, impl_->view_predictor.whole_frame());
+  impl_->whole_frame_is_searched = true;
+  return impl_->estimate(frame, impl_->view_predictor.whole_frame(), FrameFeatures::Search::WholeFrame);
 }
 
 PoseEstimate PoseEstimator::estimate(const FrameView& frame, const ExpectedView& expected) {
-  return impl_->estimate(frame, expected);
+  if (expected.tracking) impl_->whole_frame_is_searched = false;
+  return impl_->estimate(frame, expected, FrameFeatures::Search::ExpectedView);
+}
+
+bool PoseEstimator::shows_second_place(const FrameView& frame, const PoseEstimate& found) {
+  return impl_->shows_second_place(frame, found);
 }
 
 PoseEstimate PoseEstimator::estimate_part(const FrameView& frame, int part) {
+  impl_->whole_frame_is_searched = false;
   return impl_->estimate_part(frame, part);
 }
 

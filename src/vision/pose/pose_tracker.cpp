@@ -1,5 +1,8 @@
 #include "heel/pose_tracker.h"
 
+#include <cmath>
+#include <utility>
+
 #include "vision/pose/yaw_filter.h"
 
 namespace heel {
@@ -7,6 +10,9 @@ namespace {
 
 // A detection older than this does not limit the search: the target may be anywhere by now.
 constexpr TimeNs kMaxPredictionAge_ns = kNsPerS / 2;
+
+// The same person moves less between two frames, as a share of the shirt's width.
+constexpr double kContinuedShare = 0.5;
 
 }  // namespace
 
@@ -48,6 +54,17 @@ PoseEstimate PoseTracker::search(const FrameView& frame) {
   return estimator_.estimate_part(frame, part);
 }
 
+/// Nearly where the last pose was.
+bool PoseTracker::continues_last(const PoseEstimate& pose) const {
+  const auto centre_px = [](const Region& region) {
+    return std::pair(region.x_px + 0.5 * region.width_px, region.y_px + 0.5 * region.height_px);
+  };
+  const Region last = estimator_.expected_view(last_found_, last_found_.t_capture_ns).region;
+  const auto [last_x_px, last_y_px] = centre_px(last);
+  const auto [x_px, y_px] = centre_px(estimator_.expected_view(pose, pose.t_capture_ns).region);
+  return std::hypot(x_px - last_x_px, y_px - last_y_px) < kContinuedShare * last.width_px;
+}
+
 PoseEstimate PoseTracker::estimate(const FrameView& frame) {
   PoseEstimate pose = estimate_frame(frame);
   if (!config_.tracking || !pose.found()) return pose;
@@ -60,7 +77,8 @@ PoseEstimate PoseTracker::estimate(const FrameView& frame) {
 
 PoseEstimate PoseTracker::estimate_frame(const FrameView& frame) {
   PoseEstimate pose;
-  if (predicts_view_in(frame)) {
+  const bool has_prediction = predicts_view_in(frame);
+  if (has_prediction) {
     ExpectedView expected = estimator_.expected_view(last_found_, frame.header.t_capture_ns);
     expected.tracking = true;
     pose = estimator_.estimate(frame, expected);
@@ -68,6 +86,10 @@ PoseEstimate PoseTracker::estimate_frame(const FrameView& frame) {
   }
   if (!pose.found()) pose = search(frame);
   if (!pose.found()) return pose;
+  if (!(has_prediction && continues_last(pose)) && estimator_.shows_second_place(frame, pose)) {
+    pose.reason = PoseReason::Ambiguous;
+    return pose;
+  }
   last_found_ = pose;
   part_is_next_ = false;
   next_part_ = 0;

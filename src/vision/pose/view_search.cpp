@@ -81,7 +81,7 @@ ViewDetection ViewSearch::confirm(const FrameView& frame, const FrontalMotion& c
 
   ExpectedView near = predictor_.near(H_candidate, kCandidateAge_s);
   near.sigma_min_px = std::max(predictor_.whole_frame().sigma_min_px, kSmallerFeatures * near.sigma_min_px);
-  const FeatureGrid& features = features_.find(frame, near);
+  const FeatureGrid& features = features_.find(frame, near, FrameFeatures::Search::CloserLook);
   const double magnification = near.upsample ? UpsampledRegion::kFactor : 1.0;
   const std::optional<ConfirmedView> confirmed = confirmer_.confirm(candidate, features, magnification);
   detection.reason = PoseReason::TooFewInliers;

@@ -50,7 +50,7 @@ class ViewSearch {
   ViewSearch(const ViewSearch&) = delete;
   ViewSearch& operator=(const ViewSearch&) = delete;
 
-  /// `found_features`: of `frame`; they are replaced by those of closer looks.
+  /// `found_features`: of `frame`; not those of a closer look, which are replaced.
   ViewDetection search(const FrameView& frame, const FeatureGrid& found_features);
 
  private:

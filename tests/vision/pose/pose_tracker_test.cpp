@@ -9,26 +9,21 @@
 #include "support/allocation_count.h"
 #include "support/pose_bytes.h"
 #include "vision/pose/average_back.h"
+#include "vision/pose/frame_sequence.h"
 #include "vision/pose/rendered_back.h"
 
 namespace heel {
 namespace {
 
 using test::flat_shirt_config;
+using test::frame_at;
 using test::homography;
+using test::kFramePeriod_ns;
 using test::render;
 using test::robot_camera;
 using test::shirt;
 using test::t_over_d_for;
 using test::texture;
-
-constexpr TimeNs kFramePeriod_ns = kNsPerS / 30;
-
-FrameView frame_at(const cv::Mat& image, int number) {
-  FrameView view = test::view_of(image);
-  view.header.t_capture_ns = number * kFramePeriod_ns;
-  return view;
-}
 
 /// A view of the back at `x` template distances to the side.
 cv::Mat seen(const ShirtTemplate& taught, double yaw_rad, double x, double depth, std::uint64_t clutter = 5) {
