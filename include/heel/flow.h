@@ -51,6 +51,7 @@ enum class PoseReason : std::uint8_t {
   NoValidMotion,     ///< no decomposition puts the shirt in front of both cameras, facing the camera
   WrongFrameSize,    ///< the frame is not of the size the camera was calibrated at
   PatchesDisagree,   ///< too few patches of the print are where the pose puts them
+  OutOfReach,        ///< found where the person who was tracked until now cannot have come to
   Ambiguous,         ///< the frame shows the shirt at a second place as well; the pose is that of one of them
 };
 

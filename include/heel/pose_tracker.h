@@ -21,7 +21,8 @@ class YawFilter;
 /// (PoseEstimator::estimate_part), in turn, which bounds the time of every frame: a shirt that only its part
 /// shows is found within 2 · parts() frames. A search must find the shirt at one place only: a frame that
 /// shows it at two is refused as PoseReason::Ambiguous, and a pose that has moved far since the last frame is
-/// held to the same. Allocates nothing after construction.
+/// held to the same. Beside a person who was tracked until half a second ago, nobody is found where that
+/// person cannot have come to: PoseReason::OutOfReach. Allocates nothing after construction.
 class PoseTracker {
  public:
   /// As PoseEstimator. Without VisionConfig::tracking every frame is searched by itself: as a whole, then in
@@ -42,7 +43,9 @@ class PoseTracker {
   PoseEstimate search_whole_frame(const FrameView& frame);
   PoseEstimate search_all_parts(const FrameView& frame, PoseEstimate pose);
   bool predicts_view_in(const FrameView& frame) const;
+  PoseReason verdict_on(const PoseEstimate& pose, const FrameView& frame);
   bool continues_last(const PoseEstimate& pose) const;
+  bool within_reach(const PoseEstimate& pose) const;
 
   PoseEstimator estimator_;
   std::unique_ptr<YawFilter> yaw_filter_;
@@ -50,6 +53,7 @@ class PoseTracker {
   PoseEstimate last_found_;
   bool part_is_next_ = false;
   int next_part_ = 0;
+  int frames_continued_ = 0;  // in a row, up to last_found_
 };
 
 }  // namespace heel

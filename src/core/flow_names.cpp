@@ -23,6 +23,8 @@ const char* to_string(PoseReason reason) {
       return "wrong frame size";
     case PoseReason::PatchesDisagree:
       return "patches disagree";
+    case PoseReason::OutOfReach:
+      return "out of reach";
     case PoseReason::Ambiguous:
       return "ambiguous";
   }

@@ -1,7 +1,6 @@
 #include "heel/pose_tracker.h"
 
 #include <cmath>
-#include <utility>
 
 #include "vision/pose/yaw_filter.h"
 
@@ -10,9 +9,18 @@ namespace {
 
 // A detection older than this does not limit the search: the target may be anywhere by now.
 constexpr TimeNs kMaxPredictionAge_ns = kNsPerS / 2;
-
 // The same person moves less between two frames, as a share of the shirt's width.
 constexpr double kContinuedShare = 0.5;
+// After as many frames a track is no mistake.
+constexpr int kFramesOfTrack = 3;
+
+struct Centre {
+  double x_px, y_px;
+};
+
+Centre centre_of(const Region& region) {
+  return {region.x_px + 0.5 * region.width_px, region.y_px + 0.5 * region.height_px};
+}
 
 }  // namespace
 
@@ -56,13 +64,32 @@ PoseEstimate PoseTracker::search(const FrameView& frame) {
 
 /// Nearly where the last pose was.
 bool PoseTracker::continues_last(const PoseEstimate& pose) const {
-  const auto centre_px = [](const Region& region) {
-    return std::pair(region.x_px + 0.5 * region.width_px, region.y_px + 0.5 * region.height_px);
-  };
   const Region last = estimator_.expected_view(last_found_, last_found_.t_capture_ns).region;
-  const auto [last_x_px, last_y_px] = centre_px(last);
-  const auto [x_px, y_px] = centre_px(estimator_.expected_view(pose, pose.t_capture_ns).region);
-  return std::hypot(x_px - last_x_px, y_px - last_y_px) < kContinuedShare * last.width_px;
+  const Centre before = centre_of(last),
+               now = centre_of(estimator_.expected_view(pose, pose.t_capture_ns).region);
+  return std::hypot(now.x_px - before.x_px, now.y_px - before.y_px) < kContinuedShare * last.width_px;
+}
+
+/// In the region in which the last pose predicts the shirt.
+bool PoseTracker::within_reach(const PoseEstimate& pose) const {
+  const Region region = estimator_.expected_view(last_found_, pose.t_capture_ns).region;
+  const Centre now = centre_of(estimator_.expected_view(pose, pose.t_capture_ns).region);
+  return now.x_px >= region.x_px && now.x_px < region.x_px + region.width_px && now.y_px >= region.y_px &&
+         now.y_px < region.y_px + region.height_px;
+}
+
+/// On a pose that was found: Found, or why it is not to be followed.
+PoseReason PoseTracker::verdict_on(const PoseEstimate& pose, const FrameView& frame) {
+  const bool has_prediction = predicts_view_in(frame);
+  if (has_prediction && continues_last(pose)) {
+    ++frames_continued_;
+    return PoseReason::Found;
+  }
+  if (has_prediction && frames_continued_ >= kFramesOfTrack && !within_reach(pose))
+    return PoseReason::OutOfReach;
+  if (estimator_.shows_second_place(frame, pose)) return PoseReason::Ambiguous;
+  frames_continued_ = 0;
+  return PoseReason::Found;
 }
 
 PoseEstimate PoseTracker::estimate(const FrameView& frame) {
@@ -77,8 +104,7 @@ PoseEstimate PoseTracker::estimate(const FrameView& frame) {
 
 PoseEstimate PoseTracker::estimate_frame(const FrameView& frame) {
   PoseEstimate pose;
-  const bool has_prediction = predicts_view_in(frame);
-  if (has_prediction) {
+  if (predicts_view_in(frame)) {
     ExpectedView expected = estimator_.expected_view(last_found_, frame.header.t_capture_ns);
     expected.tracking = true;
     pose = estimator_.estimate(frame, expected);
@@ -86,8 +112,9 @@ PoseEstimate PoseTracker::estimate_frame(const FrameView& frame) {
   }
   if (!pose.found()) pose = search(frame);
   if (!pose.found()) return pose;
-  if (!(has_prediction && continues_last(pose)) && estimator_.shows_second_place(frame, pose)) {
-    pose.reason = PoseReason::Ambiguous;
+  pose.reason = verdict_on(pose, frame);
+  if (!pose.found()) {
+    pose.tracked = false;
     return pose;
   }
   last_found_ = pose;

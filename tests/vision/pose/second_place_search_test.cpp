@@ -147,6 +147,20 @@ TEST(SecondPlaceSearch, TrackingKeepsOursBesideAnything) {
   }
 }
 
+TEST(SecondPlaceSearch, AnotherDoesNotTakeThePlaceOfOneWhoIsHidden) {
+  const ShirtTemplate taught = shirt();
+  const cv::Mat ours = back(taught, 0.2, kOurs_x, 1.6), other = back(taught, 0.0, kOther_x, 1.6);
+  PoseTracker tracker(taught, robot_camera(), VisionConfig{});
+  int number = 0;
+  for (; number < 5; ++number) ASSERT_TRUE(tracker.estimate(frame_at(ours, number)).found());
+  for (; number < 8; ++number)
+    EXPECT_EQ(tracker.estimate(frame_at(other, number)).reason, PoseReason::OutOfReach) << number;
+  const PoseEstimate again = tracker.estimate(frame_at(side_by_side(ours, other), number));
+  EXPECT_TRUE(again.found() && on_the_left(again)) << to_string(again.reason);
+  for (; number < 12; ++number) tracker.estimate(frame_at(other, number));
+  EXPECT_TRUE(tracker.estimate(frame_at(other, number + 15)).found()) << "ours is lost, and one is there";
+}
+
 TEST(SecondPlaceSearch, ABoardAloneIsFound) {
   const ShirtTemplate taught = shirt();
   PoseTracker tracker(taught, robot_camera(), VisionConfig{});
