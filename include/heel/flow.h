@@ -63,6 +63,7 @@ struct PoseEstimate {
   TimeNs t_done_ns = 0;     ///< when vision finished
   PoseReason reason = PoseReason::TooFewFeatures;
 
+  std::uint32_t template_index = 0;  ///< whose it is: 0 target.shirt, then target.more_shirts in their order
   bool tracked = false;  ///< found where the last pose predicted it; only that region was searched
   std::uint32_t frame_features = 0;
   std::uint32_t template_features = 0;
@@ -81,7 +82,7 @@ struct PoseEstimate {
   std::array<double, 9> R_cur_from_ref{};  ///< row-major
   bool has_distance = false;               ///< the template's distance is known: metres below are valid
   std::array<double, 3> position_m{};      ///< template centre in the current camera frame
-  std::array<double, 9> H_cur_from_ref{};  ///< row-major, undistorted pixels, H[8] = 1
+  std::array<double, 9> H_cur_from_ref{};  ///< row-major, undistorted pixels, H[8] = 1; of its own template
 
   bool found() const { return reason == PoseReason::Found; }
 };

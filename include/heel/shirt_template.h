@@ -27,6 +27,7 @@ struct ShirtTemplate {
   CameraModel camera;
   Region roi;               ///< the back of the shirt
   double distance_m = 0.0;  ///< camera to the back along z; 0: not known
+  double yaw_rad = 0.0;     ///< how far the person was turned: 0 from behind, ±π/2 a side, π the front
   bool oriented = false;    ///< use oriented descriptors (default upright)
   int max_features = 300;   ///< template features kept
 };

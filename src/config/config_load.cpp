@@ -31,6 +31,8 @@ std::string resolved_address(const std::string& address, const fs::path& folder)
 
 void resolve_paths(Config& config, const fs::path& folder) {
   for (const auto& key : config_keys()) {
+    if (auto* const* list = std::get_if<std::vector<std::string>* (*)(Config&)>(&key.field))
+      for (std::string& path : *(*list)(config)) path = resolved_path(path, folder);
     auto* const* field = std::get_if<std::string* (*)(Config&)>(&key.field);
     if (!field || key.text == ConfigText::Choice) continue;
     std::string& value = *(*field)(config);

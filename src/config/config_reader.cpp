@@ -64,6 +64,18 @@ class ValueSetter {
     *field(config_) = value->get();
     return true;
   }
+  bool operator()(std::vector<std::string>* (*field)(Config&)) const {
+    const auto* values = value_.as_array();
+    if (!values || !in_range(static_cast<double>(values->size()))) return false;
+    std::vector<std::string> texts;
+    for (const toml::node& value : *values) {
+      const auto* text = value.as_string();
+      if (!text || text->get().empty()) return false;
+      texts.push_back(text->get());
+    }
+    *field(config_) = std::move(texts);
+    return true;
+  }
 
  private:
   bool in_range(double value) const { return value >= key_.min && value <= key_.max; }  // false for NaN

@@ -33,6 +33,10 @@ constexpr ConfigKey choice(Name section, Name name, std::string* (*field)(Config
 constexpr ConfigKey path(Name section, Name name, std::string* (*field)(Config&), Name effect) {
   return {section, name, field, "", 0, 0, ConfigText::Path, "", No, effect};
 }
+constexpr ConfigKey paths(Name section, Name name, std::vector<std::string>* (*field)(Config&), double most,
+                          Name effect) {
+  return {section, name, field, "", 0, most, ConfigText::Path, "", No, effect};
+}
 constexpr ConfigKey address(Name section, Name name, std::string* (*field)(Config&), Name schemes,
                             Name effect) {
   return {section, name, field, "", 0, 0, ConfigText::Address, schemes, No, effect};
@@ -71,7 +75,8 @@ const ConfigKey kKeys[] = {
     number(HEEL_KEY(camera, mount_pitch_rad), "rad", {-0.8, 0.8}, No, "Tilt of the optical axis; positive looks up."),
 
     path(HEEL_KEY(target, shirt), "The template of the back of the shirt, made by `heel teach`."),
-    number(HEEL_KEY(target, distance_m), "m", {0, 10}, No, "Distance at which the template was taken; 0 uses the distance stored in the template."),
+    paths(HEEL_KEY(target, more_shirts), 7, "More templates of the same person: from the side or the front (`heel teach --yaw`), from another distance, in other light. In a frame in which the current template is not found, one other is searched."),
+    number(HEEL_KEY(target, distance_m), "m", {0, 10}, No, "Distance at which target.shirt was taken; 0 uses the distance stored in the template."),
 
     number(HEEL_KEY(vision, octaves), "", {1, 4}, No, "Octaves of scale in which features are searched."),
     number(HEEL_KEY(vision, max_features), "", {50, 5000}, No, "Largest number of features kept in a frame 640 pixels wide, in proportion in a wider one; the strongest are kept."),

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "core/config.h"
 
@@ -15,7 +16,8 @@ namespace heel {
 
 /// Where a key's value is stored; the alternative is also the type of the value.
 using ConfigField =
-    std::variant<bool* (*)(Config&), int* (*)(Config&), double* (*)(Config&), std::string* (*)(Config&)>;
+    std::variant<bool* (*)(Config&), int* (*)(Config&), double* (*)(Config&), std::string* (*)(Config&),
+                 std::vector<std::string>* (*)(Config&)>;  // the last one: paths
 
 /// What a text value holds.
 enum class ConfigText : std::uint8_t {
@@ -34,7 +36,7 @@ struct ConfigKey {
   std::string_view name;
   ConfigField field;
   std::string_view unit;  ///< empty: none
-  double min = 0.0;       ///< numbers: smallest and largest allowed
+  double min = 0.0;       ///< numbers: smallest and largest allowed; a list: its length
   double max = 0.0;
   ConfigText text = ConfigText::Choice;
   std::string_view choices;  ///< "a|b|c"

@@ -1,6 +1,7 @@
 #include "config/config_value.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace heel {
 namespace {
@@ -34,6 +35,11 @@ struct TomlWriter {
     return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
   }
   std::string operator()(std::string* (*field)(Config&)) const { return toml_string(*field(config)); }
+  std::string operator()(std::vector<std::string>* (*field)(Config&)) const {
+    std::vector<std::string> values;
+    for (const std::string& value : *field(config)) values.push_back(toml_string(value));
+    return fmt::format("[{}]", fmt::join(values, ", "));
+  }
 };
 
 }  // namespace
@@ -47,6 +53,7 @@ std::string expected_value(const ConfigKey& key) {
   const std::string_view type = type_name(key);
   if (type == "bool") return "true or false";
   if (type == "path") return "a path in quotes";
+  if (type == "paths") return fmt::format("at most {} paths in quotes, as [\"a\", \"b\"]", key.max);
   if (type == "address") return listed(key, ":…", " or ") + ", in quotes";
   if (type == "choice") return listed(key, "", " or ");
   return fmt::format("a {}number {}…{}{}{}", type == "int" ? "whole " : "", key.min, key.max,
@@ -57,6 +64,7 @@ std::string value_range(const ConfigKey& key) {
   const std::string_view type = type_name(key);
   if (type == "bool") return "true, false";
   if (type == "path") return "path";
+  if (type == "paths") return fmt::format("{}…{} paths", key.min, key.max);
   if (type == "address") return listed(key, ":…", ", ");
   if (type == "choice") return listed(key, "", ", ");
   return fmt::format("{}…{}{}", key.min, key.max, type == "int" ? ", whole" : "");
@@ -70,6 +78,8 @@ std::string_view type_name(const ConfigKey& key) {
       return "int";
     case 2:
       return "real";
+    case 4:
+      return "paths";
     default:
       break;
   }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "heel/vision_config.h"
 
@@ -29,8 +30,9 @@ struct CameraConfig {
 };
 
 struct TargetConfig {
-  std::string shirt = "shirt.heel";  ///< the template file
-  double distance_m = 0.0;           ///< in place of the template's distance; 0: the template's
+  std::string shirt = "shirt.heel";      ///< the template file
+  std::vector<std::string> more_shirts;  ///< further templates of the same person
+  double distance_m = 0.0;               ///< in place of the template's distance; 0: the template's
 };
 
 struct EstimateConfig {

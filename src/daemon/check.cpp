@@ -14,8 +14,7 @@ void check_configuration(const std::string& path) {
   const Inputs inputs = load_inputs(loaded.config);
   fmt::print("{}: {}×{} pixels, fx {:.1f}, fy {:.1f}\n", loaded.config.camera.info, inputs.camera.width_px,
              inputs.camera.height_px, inputs.camera.fx, inputs.camera.fy);
-  fmt::print("{}: taken at {:.2f} m; {}\n", loaded.config.target.shirt, inputs.shirt.distance_m,
-             verdict_text(inputs.verdict));
+  for (const std::string& line : template_lines(loaded.config, inputs)) fmt::print("{}\n", line);
   fmt::print("{}: valid\n", path);
 }
 

@@ -23,6 +23,7 @@
 #include "realtime/clock.h"
 #include "realtime/schedule.h"
 #include "telemetry/telemetry.h"
+#include "vision/pose/template_selector.h"
 
 namespace heel {
 namespace {
@@ -53,7 +54,7 @@ class Daemon {
   FrameTripleBuffer frames_;
   Mailbox<PoseEstimate> poses_;
   std::unique_ptr<FrameSource> source_;
-  PoseTracker tracker_;
+  TemplateSelector templates_;
   CaptureLoop capture_;
   VisionLoop vision_;
   ControlLoop control_;
@@ -93,10 +94,10 @@ Daemon::Daemon(LoadedConfig loaded, Signals& signals)
       frames_(static_cast<std::uint32_t>(inputs_.camera.width_px),
               static_cast<std::uint32_t>(inputs_.camera.height_px)),
       source_(make_frame_source(loaded_.config.camera)),
-      tracker_(inputs_.shirt, inputs_.camera, loaded_.config.vision),
+      templates_(inputs_.shirts, inputs_.camera, loaded_.config.vision),
       capture_(*source_, frames_, queues_.captures, queues_.capture_events,
                {.restart_at_end = loaded_.config.camera.at_end == "loop"}),
-      vision_(frames_, tracker_, poses_, queues_.poses),
+      vision_(frames_, templates_, poses_, queues_.poses),
       control_(loaded_.config, poses_, queues_),
       telemetry_(queues_, loaded_.config.telemetry) {}
 

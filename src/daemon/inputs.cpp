@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "capture/factory/source_address.h"
+#include "core/angles.h"
 #include "files/camera_info.h"
 #include "files/template_file.h"
 #include "heel/error.h"
@@ -28,6 +29,14 @@ void check_frame_size(const CameraConfig& config, const CameraModel& camera) {
                           config.info, camera.width_px, camera.height_px, config.width_px, config.height_px));
 }
 
+std::string verdict_text(const TemplateVerdict& verdict) {
+  return fmt::format(
+      "{} features over {:.0f} % of the region, {:.0f} % similar to others, {:.0f} % left at twice the "
+      "distance",
+      verdict.features, 100.0 * verdict.spread, 100.0 * verdict.self_similarity,
+      100.0 * verdict.coarse_share);
+}
+
 }  // namespace
 
 void check_against_camera(const Config& config, const CameraModel& camera) {
@@ -45,24 +54,31 @@ Inputs load_inputs(const Config& config) {
   check_frame_size(config.camera, inputs.camera);
   check_against_camera(config, inputs.camera);
 
-  inputs.shirt = read_template(config.target.shirt);
-  if (config.target.distance_m > 0.0) inputs.shirt.distance_m = config.target.distance_m;
-  if (inputs.shirt.distance_m <= 0.0) {
-    throw Error(config.target.shirt + ": has no distance (expected one, or target.distance_m)");
-  }
-  inputs.verdict = judge_template(inputs.shirt);
-  if (!inputs.verdict.usable) {
-    throw Error(config.target.shirt + ": cannot be followed: " + inputs.verdict.reason);
+  inputs.shirts = read_templates(config.target);
+  for (std::size_t i = 0; i < inputs.shirts.size(); ++i) {
+    const std::string& file = template_file(config.target, i);
+    if (inputs.shirts[i].distance_m <= 0.0) {
+      throw Error(file + ": has no distance (expected one" +
+                  (i == 0 ? ", or target.distance_m)" : ": teach it again with --distance)"));
+    }
+    inputs.verdicts.push_back(judge_template(inputs.shirts[i]));
+    if (!inputs.verdicts.back().usable) {
+      throw Error(file + ": cannot be followed: " + inputs.verdicts.back().reason);
+    }
   }
   return inputs;
 }
 
-std::string verdict_text(const TemplateVerdict& verdict) {
-  return fmt::format(
-      "{} features over {:.0f} % of the region, {:.0f} % similar to others, {:.0f} % left at twice the "
-      "distance",
-      verdict.features, 100.0 * verdict.spread, 100.0 * verdict.self_similarity,
-      100.0 * verdict.coarse_share);
+std::vector<std::string> template_lines(const Config& config, const Inputs& inputs) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < inputs.shirts.size(); ++i) {
+    const ShirtTemplate& shirt = inputs.shirts[i];
+    const std::string turned =
+        shirt.yaw_rad == 0.0 ? "" : fmt::format(", turned by {:.0f}°", shirt.yaw_rad * kDegPerRad);
+    lines.push_back(fmt::format("{}: taken at {:.2f} m{}; {}", template_file(config.target, i),
+                                shirt.distance_m, turned, verdict_text(inputs.verdicts[i])));
+  }
+  return lines;
 }
 
 void log_configuration(const LoadedConfig& loaded, const Inputs& inputs) {
@@ -70,8 +86,7 @@ void log_configuration(const LoadedConfig& loaded, const Inputs& inputs) {
   spdlog::info("configuration: {}", loaded.file);
   spdlog::info("camera: {}, calibration {}, {}×{} pixels", c.camera.source, c.camera.info,
                inputs.camera.width_px, inputs.camera.height_px);
-  spdlog::info("template: {}, taken at {:.2f} m; {}", c.target.shirt, inputs.shirt.distance_m,
-               verdict_text(inputs.verdict));
+  for (const std::string& line : template_lines(c, inputs)) spdlog::info("template: {}", line);
   spdlog::info("robot: {}", c.robot.address);
   spdlog::info(
       "limits: speed {:.2f} m/s, yaw rate {:.2f} rad/s, acceleration {:.2f} m/s², deceleration {:.2f} m/s²",

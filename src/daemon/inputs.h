@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "config/config_load.h"
 #include "core/config.h"
@@ -13,8 +14,8 @@ namespace heel {
 
 struct Inputs {
   CameraModel camera;
-  ShirtTemplate shirt;  ///< with target.distance_m applied
-  TemplateVerdict verdict;
+  std::vector<ShirtTemplate> shirts;      ///< read_templates()
+  std::vector<TemplateVerdict> verdicts;  ///< one for each
 };
 
 /// Throws heel::Error with one line that names the file and what is wrong with it.
@@ -23,8 +24,8 @@ Inputs load_inputs(const Config& config);
 /// Checks the values that depend on the camera, also those of a reload. Throws heel::Error.
 void check_against_camera(const Config& config, const CameraModel& camera);
 
-/// One line about the template: its features, their spread and their similarity.
-std::string verdict_text(const TemplateVerdict& verdict);
+/// One line about each template: its file, its distance, its features, their spread and their similarity.
+std::vector<std::string> template_lines(const Config& config, const Inputs& inputs);
 
 /// Logs the inputs and the limits that the daemon runs with.
 void log_configuration(const LoadedConfig& loaded, const Inputs& inputs);

@@ -8,16 +8,16 @@ namespace {
 constexpr TimeNs kLongestWait_ns = 100 * kNsPerMs;  // stop() takes effect within it
 }
 
-VisionLoop::VisionLoop(FrameTripleBuffer& frames, PoseTracker& tracker, Mailbox<PoseEstimate>& to_control,
-                       SpscQueue<PoseEstimate>& to_telemetry)
-    : frames_(frames), tracker_(tracker), to_control_(to_control), to_telemetry_(to_telemetry) {}
+VisionLoop::VisionLoop(FrameTripleBuffer& frames, TemplateSelector& templates,
+                       Mailbox<PoseEstimate>& to_control, SpscQueue<PoseEstimate>& to_telemetry)
+    : frames_(frames), templates_(templates), to_control_(to_control), to_telemetry_(to_telemetry) {}
 
 void VisionLoop::run() {
   while (!stop_.load(std::memory_order_relaxed)) {
     if (!frames_.wait(kLongestWait_ns)) continue;
     const FrameView* frame = frames_.take();
     if (frame == nullptr) continue;
-    PoseEstimate pose = tracker_.estimate(*frame);
+    PoseEstimate pose = templates_.estimate(*frame);
     pose.t_done_ns = monotonic_now_ns();
     to_control_.post(pose);
     to_telemetry_.push(pose);

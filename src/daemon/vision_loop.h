@@ -4,17 +4,18 @@
 
 #include <atomic>
 
-#include "heel/pose_tracker.h"
+#include "heel/flow.h"
 #include "realtime/frame_triple_buffer.h"
 #include "realtime/mailbox.h"
 #include "realtime/spsc_queue.h"
+#include "vision/pose/template_selector.h"
 
 namespace heel {
 
 class VisionLoop {
  public:
   /// Everything is borrowed and must outlive run().
-  VisionLoop(FrameTripleBuffer& frames, PoseTracker& tracker, Mailbox<PoseEstimate>& to_control,
+  VisionLoop(FrameTripleBuffer& frames, TemplateSelector& templates, Mailbox<PoseEstimate>& to_control,
              SpscQueue<PoseEstimate>& to_telemetry);
 
   /// Runs until stop(). Does not allocate, lock or format.
@@ -24,7 +25,7 @@ class VisionLoop {
 
  private:
   FrameTripleBuffer& frames_;
-  PoseTracker& tracker_;
+  TemplateSelector& templates_;
   Mailbox<PoseEstimate>& to_control_;
   SpscQueue<PoseEstimate>& to_telemetry_;
   std::atomic<bool> stop_{false};

@@ -37,6 +37,7 @@ constexpr std::size_t kMaxFirstLineBytes = 64;
 constexpr std::size_t kChecksumBytes = 4;
 constexpr int kMaxImageSide_px = 32768;
 constexpr int kMaxTemplateFeatures = 10000;
+constexpr double kHalfTurn_rad = 3.1416;  // as 180° is read from a file
 
 std::uint32_t crc32_of(std::string_view bytes) {
   return static_cast<std::uint32_t>(
@@ -75,6 +76,7 @@ void validate(const ShirtTemplate& shirt, const std::string& path) {
           fmt::format("a rectangle inside the {}x{} image", camera.width_px, camera.height_px));
   require(std::isfinite(shirt.distance_m) && shirt.distance_m >= 0, path, "distance_m",
           "metres above 0, or 0 when not known");
+  require(std::isfinite(shirt.yaw_rad) && std::abs(shirt.yaw_rad) <= kHalfTurn_rad, path, "yaw_rad", "-π…π");
   require(shirt.max_features >= 1 && shirt.max_features <= kMaxTemplateFeatures, path, "max_features",
           fmt::format("1…{}", kMaxTemplateFeatures));
   require(shirt.grey.size() ==
@@ -88,6 +90,7 @@ Json header_json(const ShirtTemplate& shirt) {
   return {
       {"region", {{"x_px", r.x_px}, {"y_px", r.y_px}, {"width_px", r.width_px}, {"height_px", r.height_px}}},
       {"distance_m", shirt.distance_m},
+      {"yaw_rad", shirt.yaw_rad},
       {"camera",
        {{"width_px", c.width_px},
         {"height_px", c.height_px},
@@ -112,6 +115,7 @@ void parse_header(std::string_view text, const std::string& path, ShirtTemplate&
     region.at("width_px").get_to(shirt.roi.width_px);
     region.at("height_px").get_to(shirt.roi.height_px);
     header.at("distance_m").get_to(shirt.distance_m);
+    shirt.yaw_rad = header.value("yaw_rad", 0.0);  // older files have none
     const Json& camera = header.at("camera");
     camera.at("width_px").get_to(shirt.camera.width_px);
     camera.at("height_px").get_to(shirt.camera.height_px);
@@ -229,6 +233,17 @@ ShirtTemplate read_template(const std::string& path) {
   decode_png(parts.image, path, shirt);
   validate(shirt, path);
   return shirt;
+}
+
+std::vector<ShirtTemplate> read_templates(const TargetConfig& config) {
+  std::vector<ShirtTemplate> shirts{read_template(config.shirt)};
+  if (config.distance_m > 0.0) shirts.front().distance_m = config.distance_m;
+  for (const std::string& path : config.more_shirts) shirts.push_back(read_template(path));
+  return shirts;
+}
+
+const std::string& template_file(const TargetConfig& config, std::size_t index) {
+  return index == 0 ? config.shirt : config.more_shirts[index - 1];
 }
 
 void write_template(const ShirtTemplate& shirt, const std::string& path) {

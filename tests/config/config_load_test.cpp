@@ -122,6 +122,21 @@ TEST(ConfigLoad, RelativePathsAreRelativeToTheFile) {
   EXPECT_EQ(config.telemetry.directory, "");
 }
 
+TEST(ConfigLoad, AListOfPathsIsRelativeToTheFile) {
+  const Config config =
+      parse_config("[target]\nmore_shirts = [\"side.heel\", \"/a/front.heel\"]\n", "/etc/heel/f.toml").config;
+  EXPECT_THAT(config.target.more_shirts, ElementsAre("/etc/heel/side.heel", "/a/front.heel"));
+}
+
+TEST(ConfigLoad, AListOfPathsHoldsTextAndNotTooMuchOfIt) {
+  for (const char* wrong :
+       {"\"side.heel\"", "[1]", "[\"\"]", "[\"a\",\"a\",\"a\",\"a\",\"a\",\"a\",\"a\",\"a\"]"}) {
+    EXPECT_THAT(complaints_about(std::string("[target]\nmore_shirts = ") + wrong + "\n"),
+                ElementsAre(HasSubstr("(expected at most 7 paths in quotes")))
+        << wrong;
+  }
+}
+
 TEST(ConfigLoad, PathsInAddressesAreRelativeToTheFile) {
   for (const char* scheme : {"serial", "pty"}) {
     const std::string text = std::string("[robot]\naddress = \"") + scheme + ":dev/robot\"\n";

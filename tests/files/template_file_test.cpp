@@ -38,6 +38,7 @@ ShirtTemplate small_template() {
                   .k3 = 0.07};
   shirt.roi = {.x_px = 3, .y_px = 2, .width_px = 18, .height_px = 12};
   shirt.distance_m = 1.6;
+  shirt.yaw_rad = -1.5;
   shirt.oriented = true;
   shirt.max_features = 123;
   std::mt19937 random(5);
@@ -84,6 +85,7 @@ TEST_F(TemplateFile, IsReadBackToTheBit) {
   EXPECT_EQ(read.roi.width_px, 18);
   EXPECT_EQ(read.roi.height_px, 12);
   EXPECT_EQ(read.distance_m, 1.6);
+  EXPECT_EQ(read.yaw_rad, -1.5);
   EXPECT_TRUE(read.oriented);
   EXPECT_EQ(read.max_features, 123);
   const CameraModel& a = written.camera;
@@ -99,6 +101,18 @@ TEST_F(TemplateFile, IsReadBackToTheBit) {
   EXPECT_EQ(a.p1, b.p1);
   EXPECT_EQ(a.p2, b.p2);
   EXPECT_EQ(a.k3, b.k3);
+}
+
+TEST_F(TemplateFile, AnOlderFileWithoutYawIsFromBehind) {
+  write_template(small_template(), path);
+  write_text(path, with_header(read_text(path), "\"yaw_rad\"", "\"not_read\""));
+  EXPECT_EQ(read_template(path).yaw_rad, 0.0);
+}
+
+TEST_F(TemplateFile, AYawBeyondHalfATurnIsRefused) {
+  ShirtTemplate shirt = small_template();
+  shirt.yaw_rad = 4.0;
+  EXPECT_THAT(test::complaint_of([&] { write_template(shirt, path); }), HasSubstr("yaw_rad: expected"));
 }
 
 TEST_F(TemplateFile, ReplacesAnOlderFileAndLeavesNoOtherFile) {

@@ -131,6 +131,7 @@ TEST(CsvColumns, APosesValuesAreUnderTheirColumnNames) {
   estimate.t_capture_ns = 1'000'000'000;
   estimate.t_done_ns = 1'020'000'000;
   estimate.tracked = true;
+  estimate.template_index = 2;
   estimate.certainty = 0.375;
   estimate.has_distance = true;
   for (std::size_t i = 0; i < 9; ++i) {
@@ -148,6 +149,7 @@ TEST(CsvColumns, APosesValuesAreUnderTheirColumnNames) {
   EXPECT_EQ(row.at("frame"), "99");
   EXPECT_EQ(row.at("found"), "1");
   EXPECT_EQ(row.at("tracked"), "1");
+  EXPECT_EQ(row.at("template"), "2");
   EXPECT_EQ(row.at("certainty"), "0.375");
   for (int i = 0; i < 9; ++i) {
     const std::string n = "_" + std::to_string(i);

@@ -19,9 +19,9 @@
 #include "files/image_file.h"
 #include "files/template_file.h"
 #include "heel/error.h"
-#include "heel/pose_tracker.h"
 #include "picture.h"
 #include "pose_output.h"
+#include "vision/pose/template_selector.h"
 
 namespace heel::cli {
 namespace {
@@ -31,7 +31,7 @@ constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 struct PoseOptions {
   std::vector<std::string> inputs;
   std::string config_file;
-  std::string template_file;
+  std::vector<std::string> template_files;
   std::string camera_file;
   bool json = false;
   bool oriented = false;
@@ -46,7 +46,8 @@ struct PoseOptions {
 
 /// What heeld would run with, by the configuration file and the options, which replace the file's values.
 struct Setup {
-  ShirtTemplate shirt;
+  TargetConfig target;
+  std::vector<ShirtTemplate> shirts;  ///< of target
   CameraModel camera;
   std::string camera_file;
   double image_rate_hz = 0.0;
@@ -57,13 +58,17 @@ Setup load_setup(const PoseOptions& options) {
   Config config;
   if (!options.config_file.empty()) {
     config = load_config(options.config_file).config;
-  } else if (options.template_file.empty() || options.camera_file.empty()) {
+  } else if (options.template_files.empty() || options.camera_file.empty()) {
     throw Error("expected --config, or both --template and --camera-info (see heel pose --help)");
   }
   Setup setup;
-  setup.shirt = read_template(options.template_file.empty() ? config.target.shirt : options.template_file);
-  if (config.target.distance_m > 0.0) setup.shirt.distance_m = config.target.distance_m;
-  if (options.oriented) setup.shirt.oriented = true;
+  setup.target = config.target;
+  if (!options.template_files.empty()) {
+    setup.target.shirt = options.template_files.front();
+    setup.target.more_shirts.assign(options.template_files.begin() + 1, options.template_files.end());
+  }
+  setup.shirts = read_templates(setup.target);
+  for (ShirtTemplate& shirt : setup.shirts) shirt.oriented = shirt.oriented || options.oriented;
   setup.camera_file = options.camera_file.empty() ? config.camera.info : options.camera_file;
   setup.camera = read_camera_model(setup.camera_file);
   setup.image_rate_hz = options.rate_hz.value_or(config.camera.rate_hz);
@@ -80,11 +85,12 @@ FrameView view_of(const InputFrame& frame) {
   return view;
 }
 
-PoseRow estimate(PoseTracker& tracker, const InputFrame& frame) {
+PoseRow estimate(TemplateSelector& templates, const InputFrame& frame, const TargetConfig& target) {
   const auto start = std::chrono::steady_clock::now();
-  const PoseEstimate pose = tracker.estimate(view_of(frame));
+  const PoseEstimate pose = templates.estimate(view_of(frame));
   const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
-  return {frame.number, frame.t_s, pose, elapsed.count()};
+  return {frame.number, frame.t_s, pose, elapsed.count(),
+          target.more_shirts.empty() ? "" : template_file(target, pose.template_index)};
 }
 
 void write_pose_picture(const std::string& folder, const InputFrame& frame, const PoseEstimate& pose,
@@ -130,7 +136,7 @@ void process_frames(const PoseOptions& options, Setup setup) {
   FrameInput input(options.inputs, setup.image_rate_hz);
   // A single picture has no frame before or after it that could share the work of a search.
   if (options.independent || input.stated_frame_count() == 1) setup.vision.tracking = false;
-  PoseTracker tracker(setup.shirt, setup.camera, setup.vision);
+  TemplateSelector templates(setup.shirts, setup.camera, setup.vision);
   const Progress progress(input.stated_frame_count());
   PoseSummary summary;
   InputFrame frame;
@@ -139,11 +145,12 @@ void process_frames(const PoseOptions& options, Setup setup) {
     throw Error(fmt::format("--first {}: the input ends before that frame", options.first));
   while (input.next(frame) && frame.number <= options.last) {
     require_size(frame, setup.camera, setup.camera_file);
-    const PoseRow row = estimate(tracker, frame);
+    const PoseRow row = estimate(templates, frame, setup.target);
     std::puts((options.json ? pose_json(row) : pose_table_row(row)).c_str());
     summary.add(row);
     if (!options.picture_dir.empty())
-      write_pose_picture(options.picture_dir, frame, row.pose, setup.shirt, setup.camera);
+      write_pose_picture(options.picture_dir, frame, row.pose, setup.shirts[row.pose.template_index],
+                         setup.camera);
     progress.show(frame.number);
   }
   std::fflush(stdout);
@@ -172,8 +179,8 @@ void add_pose_command(CLI::App& app) {
       "features), inliers, yaw_rad (positive: walking to the image's right; filtered over a sequence),\n"
       "yaw_sigma_rad, frame_yaw_rad and frame_yaw_sigma_rad (of the frame alone), t_over_d [3],\n"
       "position_m [3] (null when the template's distance is not known), H_cur_from_ref [9] (row-major,\n"
-      "undistorted pixels), ms. In frames in which the shirt is not found the values of the pose are "
-      "null.");
+      "undistorted pixels), ms; template, its file, if there are several. In frames in which the shirt is\n"
+      "not found the values of the pose are null.");
   command->add_option("inputs", options->inputs, "images, folders of images, videos")
       ->required()
       ->type_name("INPUT");
@@ -183,9 +190,11 @@ void add_pose_command(CLI::App& app) {
                    "default)")
       ->type_name("FILE");
   command
-      ->add_option("--template", options->template_file,
-                   "template file made by heel teach (default: target.shirt of --config)")
-      ->type_name("T.heel");
+      ->add_option("--template", options->template_files,
+                   "template file made by heel teach; given again: more templates of the same person\n"
+                   "(default: target.shirt and target.more_shirts of --config)")
+      ->type_name("T.heel")
+      ->allow_extra_args(false);
   command
       ->add_option("--camera-info", options->camera_file,
                    "the camera that took the input (default: camera.info of --config)")

@@ -27,6 +27,7 @@ std::string pose_json(const PoseRow& row) {
     if (pose.has_distance) json["position_m"] = pose.position_m;
     json["H_cur_from_ref"] = pose.H_cur_from_ref;
   }
+  if (!row.template_file.empty()) json["template"] = row.template_file;
   return json.dump();
 }
 

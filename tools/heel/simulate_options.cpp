@@ -18,6 +18,9 @@ sim::LockstepSettings settings_of(const SimulateOptions& options, const sim::Sce
   settings.scenario = scenario;
   if (!options.config_file.empty()) settings.config = load_config(options.config_file).config;
   sim::apply_scenario(settings.scenario, settings.config);
+  if (options.error_model_file.empty())
+    for (const std::string& file : settings.config.target.more_shirts)
+      settings.more_shirts.push_back(read_template(file));
   if (!options.error_model_file.empty()) {
     settings.errors = sim::read_error_model(options.error_model_file);
     settings.shirt.distance_m = options.teach_distance_m;

@@ -9,6 +9,7 @@
 #include "capture/factory/frame_source_factory.h"
 #include "capture/frame_source.h"
 #include "commands.h"
+#include "core/angles.h"
 #include "files/camera_info.h"
 #include "files/frame_input.h"
 #include "files/image_file.h"
@@ -29,6 +30,7 @@ struct TeachOptions {
   std::string camera_address;
   std::vector<int> roi;
   double distance_m = 0.0;
+  double yaw_deg = 0.0;
   std::string camera_file;
   std::string robot_camera_file;
   double reach_time_s = 8.0;
@@ -109,6 +111,7 @@ ShirtTemplate make_template(const TeachOptions& options) {
   }
   shirt.roi = parse_roi(options.roi, shirt.camera);
   shirt.distance_m = options.distance_m;
+  shirt.yaw_rad = options.yaw_deg / kDegPerRad;
   shirt.oriented = options.oriented;
   if (options.max_features > 0) shirt.max_features = options.max_features;
   return shirt;
@@ -175,6 +178,12 @@ void add_teach_command(CLI::App& app) {
       ->required()
       ->type_name("M")
       ->check(number_from(0.1, 100.0));
+  command
+      ->add_option("--yaw", options->yaw_deg,
+                   "how far the person is turned in the view: 0 from behind (default), 90 walking to the\n"
+                   "image's right, -90 to its left, 180 from the front; for target.more_shirts")
+      ->type_name("DEG")
+      ->check(number_from(-180.0, 180.0));
   command->add_option("--camera-info", options->camera_file, "the camera (heel calibrate makes this file)")
       ->required()
       ->type_name("CAM.yaml");

@@ -5,17 +5,18 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "control/control_stage.h"
 #include "core/random.h"
 #include "heel/error.h"
-#include "heel/pose_tracker.h"
 #include "robot/arcos_session.h"
 #include "robot/p3at_geometry.h"
 #include "sim/contact/contact.h"
 #include "sim/contact/robot_in_world.h"
 #include "sim/lockstep/frame_supply.h"
 #include "sim/pose_noise/sampled_poses.h"
+#include "vision/pose/template_selector.h"
 
 namespace heel::sim {
 namespace {
@@ -53,7 +54,7 @@ class Lockstep {
   LockstepObserver& observer_;
   std::unique_ptr<World> world_;  ///< none when frames come from a file
   std::unique_ptr<FrameSupply> frames_;
-  std::optional<PoseTracker> vision_;          ///< with pictures
+  std::optional<TemplateSelector> vision_;     ///< with pictures
   std::optional<SampledPoses> sampled_poses_;  ///< without
   ControlStage control_;
   ArcosSession session_;
@@ -85,7 +86,9 @@ Lockstep::Lockstep(const LockstepSettings& settings, LockstepObserver& observer)
                            derived_seed(scenario_.seed, 0xe0));
     return;
   }
-  vision_.emplace(settings.shirt, scenario_.camera.model, settings.config.vision);
+  std::vector<ShirtTemplate> shirts{settings.shirt};
+  shirts.insert(shirts.end(), settings.more_shirts.begin(), settings.more_shirts.end());
+  vision_.emplace(shirts, scenario_.camera.model, settings.config.vision);
   if (scenario_.camera.source == "sim") {
     world_ = std::make_unique<World>(scenario_);
     frames_ = make_world_supply(*world_);

@@ -1,10 +1,10 @@
 // The daemon's own stages in lock step with the simulated world, in virtual time:
 //
-//   World ─picture→ PoseTracker ─(modelled latency)→ ControlStage ─command→ ArcosSession ─bytes→ P3At
+//   World ─picture→ TemplateSelector ─(modelled latency)→ ControlStage ─command→ ArcosSession ─bytes→ P3At
 //     ↑                                                    ↑ RobotState ──────────┘    ←bytes─┘   │
 //     └──────────────────────────────── true pose of the robot ───────────────────────────────────┘
 //
-// With an error model, World renders nothing and SampledPoses takes PoseTracker's place; all else is the
+// With an error model, World renders nothing and SampledPoses takes TemplateSelector's place; all else is the
 // same. Nothing here reads a clock: the same scenario, configuration and template give the same run to the
 // bit.
 #pragma once
@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/config.h"
 #include "heel/flow.h"
@@ -26,7 +27,8 @@ namespace heel::sim {
 struct LockstepSettings {
   Scenario scenario;
   Config config;
-  ShirtTemplate shirt;  ///< with `errors` only its distance is used
+  ShirtTemplate shirt;                     ///< with `errors` only its distance is used
+  std::vector<ShirtTemplate> more_shirts;  ///< further templates of the person: target.more_shirts
   /// Poses are sampled from this model, without pictures: about a hundred times faster, for statistics.
   std::optional<ErrorModel> errors;
 };

@@ -232,6 +232,26 @@ TEST_F(TeachAndPose, EveryLineHasExactlyTheDocumentedKeysInTheirOrder) {
                                       "position_m", "H_cur_from_ref", "ms"}));
 }
 
+TEST_F(TeachAndPose, PosesOfSeveralTemplatesNameTheirOwn) {
+  ASSERT_EQ(teach().status, 0);
+  const std::string side = folder.file("side.heel"), side_image = folder.file("side.png");
+  cv::Mat print = reference.clone();  // another print of the same size
+  cv::flip(reference, print, 0);
+  cv::imwrite(side_image, print);
+  const Outcome taught = run_heel({"teach", "--image", side_image, "--roi", test::kRoi, "--distance", "1.5",
+                                   "--yaw", "-90", "--camera-info", camera, "-o", side});
+  ASSERT_EQ(taught.status, 0) << taught.err;
+  EXPECT_NEAR(read_template(side).yaw_rad, -CV_PI / 2.0, 1e-9);
+
+  const std::vector<json> lines =
+      lines_of(pose({"--template", side, image, side_image, "--independent", "--json"}).out);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0]["template"], shirt);
+  EXPECT_NEAR(lines[0]["yaw_rad"].get<double>(), 0.0, 0.02);
+  EXPECT_EQ(lines[1]["template"], side);
+  EXPECT_NEAR(lines[1]["yaw_rad"].get<double>(), -CV_PI / 2.0, 0.02);
+}
+
 TEST_F(TeachAndPose, RepeatsToTheBitExceptForTimes) {
   ASSERT_EQ(teach().status, 0);
   cv::imwrite(image, TrueMotion{0.3, {0.05, 0, 0.2}}.picture(reference));
