@@ -170,9 +170,13 @@ struct TargetState {
 
 /// What the estimator did with the newest pose in a tick.
 enum class MeasurementStatus : std::uint8_t {
-  None,      ///< no new frame
-  Accepted,  ///< the estimator used it
-  Rejected,  ///< not found, or an outlier
+  None,        ///< no new frame
+  Accepted,    ///< the estimator used it
+  NotFound,    ///< PoseEstimate::reason says why
+  Unusable,    ///< found, but without distance, or tilted so far that it shows no direction
+  NoOdometry,  ///< the robot's pose at the time of the frame is not known
+  OutOfOrder,  ///< not newer than the last frame that was used
+  Outlier,     ///< farther from the prediction than estimate.outlier_sigma
 };
 
 /// The conditions that keep the robot at rest, as bits of Conditions.

@@ -73,7 +73,7 @@ MeasurementStatus ControlStage::Impl::update_target(const ControlInput& input) {
   any_pose = true;
   last_frame_sequence = input.pose.frame_sequence;
   t_last_capture_ns = input.pose.t_capture_ns;
-  return estimator.update(input.pose) ? MeasurementStatus::Accepted : MeasurementStatus::Rejected;
+  return estimator.update(input.pose);
 }
 
 /// Camera to back when the person is ahead of the camera, otherwise infinite.

@@ -57,8 +57,16 @@ const char* to_string(MeasurementStatus status) {
       return "none";
     case MeasurementStatus::Accepted:
       return "accepted";
-    case MeasurementStatus::Rejected:
-      return "rejected";
+    case MeasurementStatus::NotFound:
+      return "not found";
+    case MeasurementStatus::Unusable:
+      return "unusable";
+    case MeasurementStatus::NoOdometry:
+      return "no odometry";
+    case MeasurementStatus::OutOfOrder:
+      return "out of order";
+    case MeasurementStatus::Outlier:
+      return "outlier";
   }
   return "?";
 }

@@ -66,11 +66,14 @@ void TargetEstimator::start(const BackMeasurement& back) {
   outliers_in_a_row_ = 0;
 }
 
-bool TargetEstimator::update(const PoseEstimate& pose) {
+MeasurementStatus TargetEstimator::update(const PoseEstimate& pose) {
+  if (!pose.found()) return MeasurementStatus::NotFound;
   const auto measurement = measurement_from_pose(pose, mount_);
   const auto robot = odometry_.pose_at(pose.t_capture_ns);
   const TimeNs gap_ns = pose.t_capture_ns - t_capture_ns_;
-  if (!measurement || !robot || (known_ && gap_ns <= 0)) return false;
+  if (!measurement) return MeasurementStatus::Unusable;
+  if (!robot) return MeasurementStatus::NoOdometry;
+  if (known_ && gap_ns <= 0) return MeasurementStatus::OutOfOrder;
 
   const Eigen::Vector2d line_of_sight_m = rotation(robot->heading_rad) * measurement->position_m;
   BackMeasurement back;
@@ -107,10 +110,10 @@ bool TargetEstimator::update(const PoseEstimate& pose) {
     }
   }
   t_capture_ns_ = pose.t_capture_ns;
-  if (!accepted) return false;
+  if (!accepted) return MeasurementStatus::Outlier;
   certainty_ = pose.certainty;
   in_reference_view_m_ = measurement->in_reference_view_m;
-  return true;
+  return MeasurementStatus::Accepted;
 }
 
 TargetState TargetEstimator::predict(TimeNs now_ns) const {

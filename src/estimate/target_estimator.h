@@ -23,9 +23,8 @@ class TargetEstimator {
   void reset();
 
   void add_odometry(const Odometry& odometry);
-  /// True when the frame is accepted: the shirt was found, its distance is known, the frame is newer than the
-  /// last, the robot's pose at the capture time is known, and the measurement is no outlier.
-  bool update(const PoseEstimate& pose);
+  /// Accepted, or the gate that the pose did not pass; never None.
+  MeasurementStatus update(const PoseEstimate& pose);
   /// The person, and the pose that the robot is to take, in the robot frame at `now_ns`.
   TargetState predict(TimeNs now_ns) const;
 

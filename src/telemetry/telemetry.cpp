@@ -18,6 +18,19 @@ constexpr TimeNs kRepeatedEventPeriod_ns = kNsPerS;
 
 static_assert(static_cast<std::size_t>(EventKind::Warning) < 16, "Telemetry::t_logged_ns_ is too short");
 
+/// Which gate refused the tick's pose; empty: none did.
+std::string refusal_of(const TickRecord& tick) {
+  switch (tick.measurement) {
+    case MeasurementStatus::None:
+    case MeasurementStatus::Accepted:
+      return "";
+    case MeasurementStatus::NotFound:
+      return fmt::format("shirt not found: {}", to_string(tick.input.pose.reason));
+    default:
+      return fmt::format("pose not used: {}", to_string(tick.measurement));
+  }
+}
+
 }  // namespace
 
 Telemetry::Telemetry(TelemetryQueues& queues, const TelemetryConfig& config) : queues_(queues) {
@@ -84,9 +97,30 @@ void Telemetry::take(const TickRecord& tick) {
               lost ? spdlog::level::warn : spdlog::level::info, text);
     if (recorder_) recorder_->record_text(tick.input.now_ns, text);
   }
+  take_measurement(tick);
   ++newest_.ticks;
   newest_.tick = tick;
   if (recorder_) recorder_->record(tick);
+}
+
+void Telemetry::take_measurement(const TickRecord& tick) {
+  const PoseEstimate& pose = tick.input.pose;
+  if (tick.measurement == MeasurementStatus::Accepted && pose.template_index != template_in_use_) {
+    template_in_use_ = pose.template_index;
+    const std::string text = fmt::format("template {} is in use", template_in_use_);
+    log_event({.part = "vision", .event = "template"}, spdlog::level::info, text);
+    if (recorder_) recorder_->record_text(tick.input.now_ns, text);
+  }
+  const TimeNs now_ns = tick.input.now_ns;
+  const bool too_soon = !logged_refusal_.empty() && now_ns - t_refusal_logged_ns_ < kRepeatedEventPeriod_ns;
+  if (too_soon) return;
+  if (tick.measurement == MeasurementStatus::Accepted) logged_refusal_.clear();
+  const std::string refusal = refusal_of(tick);
+  if (refusal.empty() || refusal == logged_refusal_) return;
+  logged_refusal_ = refusal;
+  t_refusal_logged_ns_ = now_ns;
+  log_event({.part = "vision", .event = to_string(tick.measurement)}, spdlog::level::info, refusal);
+  if (recorder_) recorder_->record_text(now_ns, refusal);
 }
 
 void Telemetry::take(const Event& event) {

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <string>
 
 #include "core/config.h"
 #include "heel/flow.h"
@@ -49,6 +50,7 @@ class Telemetry {
 
  private:
   void take(const TickRecord& tick);
+  void take_measurement(const TickRecord& tick);
   void take(const Event& event);
   void log_losses(TimeNs now_ns);
 
@@ -60,6 +62,9 @@ class Telemetry {
   TelemetrySnapshot published_;
 
   std::array<TimeNs, 16> t_logged_ns_{};  // by EventKind: when it was logged last
+  std::uint32_t template_in_use_ = 0;
+  std::string logged_refusal_;  // the last one: a frame refused for another reason is logged again
+  TimeNs t_refusal_logged_ns_ = 0;
   std::uint64_t losses_logged_ = 0;
   TimeNs t_losses_logged_ns_ = 0;
   TimeNs t_flushed_ns_ = 0;

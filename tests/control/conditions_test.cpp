@@ -42,7 +42,7 @@ struct Bench {
   Conditions idle(TimeNs dt_ns) {  // time passes, and frames come without the person
     input.now_ns += dt_ns;
     freshen();
-    return monitor.update(input, MeasurementStatus::Rejected, config, sonar_on);
+    return monitor.update(input, MeasurementStatus::NotFound, config, sonar_on);
   }
   void start_following() {
     for (int i = 0; i < config.frames_to_follow; ++i) frame();
@@ -138,7 +138,7 @@ TEST(Conditions, FollowingStartsOnlyAfterEnoughFramesInARow) {
   const int enough = bench.config.frames_to_follow;
   ASSERT_GT(enough, 1);
   for (int i = 1; i < enough; ++i) EXPECT_EQ(bench.frame(), kNoTargetYet) << i;
-  EXPECT_EQ(bench.frame(MeasurementStatus::Rejected), kNoTargetYet);  // the count starts again
+  EXPECT_EQ(bench.frame(MeasurementStatus::NotFound), kNoTargetYet);  // the count starts again
   for (int i = 1; i < enough; ++i) {
     EXPECT_EQ(bench.frame(), kNoTargetYet) << i;
     EXPECT_EQ(bench.same_tick(), kNoTargetYet) << "a tick without a frame does not count";

@@ -108,7 +108,7 @@ TEST(ControlStage, TheRecordHoldsTheInputAndTheStatusOfThePose) {
   run.visible = false;
   run.tick();
   EXPECT_EQ(run.record.input.pose.frame_sequence, 2u);
-  EXPECT_EQ(run.record.measurement, MeasurementStatus::Rejected);
+  EXPECT_EQ(run.record.measurement, MeasurementStatus::NotFound);
 }
 
 TEST(ControlStage, FollowsAWalkingPersonRoundABend) {

@@ -194,7 +194,7 @@ TEST(TargetEstimator, RejectsOneOutlier) {
   PoseEstimate outlier =
       measured({2.5, 1.5, 0.0}, scene.robot, mount_of(scene.config.camera), scene.reference);
   outlier.t_capture_ns = scene.now_ns;
-  EXPECT_FALSE(scene.estimator.update(outlier));
+  EXPECT_EQ(scene.estimator.update(outlier), MeasurementStatus::Outlier);
   EXPECT_LT(scene.position_error_m(), 1e-6);
 }
 
@@ -230,10 +230,25 @@ TEST(TargetEstimator, RejectsFramesThatAreNotNewer) {
   scene.run(0.5);
   PoseEstimate pose = measured(scene.person, scene.robot, mount_of(scene.config.camera), scene.reference);
   pose.t_capture_ns = scene.now_ns;
-  EXPECT_TRUE(scene.estimator.update(pose));
-  EXPECT_FALSE(scene.estimator.update(pose));
+  EXPECT_EQ(scene.estimator.update(pose), MeasurementStatus::Accepted);
+  EXPECT_EQ(scene.estimator.update(pose), MeasurementStatus::OutOfOrder);
   pose.t_capture_ns -= kNsPerMs;
-  EXPECT_FALSE(scene.estimator.update(pose));
+  EXPECT_EQ(scene.estimator.update(pose), MeasurementStatus::OutOfOrder);
+}
+
+TEST(TargetEstimator, EveryRefusalNamesItsGate) {
+  Scene scene;
+  scene.run(0.5);
+  PoseEstimate pose = measured(scene.person, scene.robot, mount_of(scene.config.camera), scene.reference);
+  pose.t_capture_ns = scene.now_ns;
+  PoseEstimate ambiguous = pose;
+  ambiguous.reason = PoseReason::Ambiguous;
+  EXPECT_EQ(scene.estimator.update(ambiguous), MeasurementStatus::NotFound);
+  PoseEstimate without_distance = pose;
+  without_distance.has_distance = false;
+  EXPECT_EQ(scene.estimator.update(without_distance), MeasurementStatus::Unusable);
+  EXPECT_EQ(TargetEstimator(scene.config).update(pose), MeasurementStatus::NoOdometry);
+  EXPECT_EQ(scene.estimator.update(pose), MeasurementStatus::Accepted);
 }
 
 TEST(TargetEstimator, ResetDiscardsTheTarget) {

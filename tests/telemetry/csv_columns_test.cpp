@@ -50,7 +50,7 @@ TEST(CsvColumns, ATicksValuesAreUnderTheirColumnNames) {
   tick.input.has_pose = true;
   tick.input.pose.frame_sequence = 41;
   tick.input.pose.t_capture_ns = 2'450'000'000;
-  tick.measurement = MeasurementStatus::Rejected;
+  tick.measurement = MeasurementStatus::Outlier;
   tick.conditions = kBumper | kTargetLost;
   tick.free_distance_m = 1.125;
   tick.target.known = true;
@@ -87,8 +87,8 @@ TEST(CsvColumns, ATicksValuesAreUnderTheirColumnNames) {
       {"has_pose", "1"},
       {"pose_frame", "41"},
       {"pose_t_capture_s", "2.450000000"},
-      {"measurement_code", "2"},
-      {"measurement", "rejected"},
+      {"measurement_code", "6"},
+      {"measurement", "outlier"},
       {"conditions", "1056"},
       {"free_distance_m", "1.125"},
       {"target_x_m", "2"},

@@ -56,6 +56,40 @@ TEST_F(TelemetryTest, ChangesOfStopReasonAndLinkAreLoggedOnce) {
   EXPECT_EQ(telemetry.snapshot().tick.tick, 6u);
 }
 
+TEST_F(TelemetryTest, ARefusalIsLoggedWithItsGateWhenItChanges) {
+  Telemetry telemetry(queues_, {});
+  TickRecord tick;
+  const auto push = [&](TimeNs now_ns, MeasurementStatus measurement, PoseReason reason) {
+    tick.input.now_ns = now_ns;
+    tick.measurement = measurement;
+    tick.input.pose.reason = reason;
+    queues_.ticks.push(tick);
+  };
+  for (int i = 0; i < 5; ++i) push(kNsPerS, MeasurementStatus::NotFound, PoseReason::Ambiguous);
+  push(kNsPerS, MeasurementStatus::NotFound, PoseReason::TooFewMatches);  // too soon
+  push(2 * kNsPerS, MeasurementStatus::NotFound, PoseReason::TooFewMatches);
+  push(3 * kNsPerS, MeasurementStatus::Accepted, PoseReason::Found);
+  push(4 * kNsPerS, MeasurementStatus::Outlier, PoseReason::Found);
+  push(4 * kNsPerS, MeasurementStatus::None, PoseReason::Found);
+  telemetry.drain(5 * kNsPerS);
+  EXPECT_EQ(log_.count("shirt not found: ambiguous"), 1);
+  EXPECT_EQ(log_.count("shirt not found: too few matches"), 1);
+  EXPECT_EQ(log_.count("pose not used: outlier"), 1);
+}
+
+TEST_F(TelemetryTest, AnotherTemplateIsLogged) {
+  Telemetry telemetry(queues_, {});
+  TickRecord tick;
+  for (const std::uint32_t index : {0u, 1u, 1u, 0u}) {
+    tick.measurement = MeasurementStatus::Accepted;
+    tick.input.pose.template_index = index;
+    queues_.ticks.push(tick);
+  }
+  telemetry.drain(kNsPerS);
+  EXPECT_EQ(log_.count("template 1 is in use"), 1);
+  EXPECT_EQ(log_.count("template 0 is in use"), 1);
+}
+
 TEST_F(TelemetryTest, EventsOfEveryThreadAreLoggedRepeatedOnesAtMostOnceASecond) {
   Telemetry telemetry(queues_, {});
   queues_.capture_events.push(event_of(EventKind::CameraLost, 1, "sim:yard: gone"));
