@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "core/angles.h"
 #include "heel/motion.h"
 
 namespace heel {
@@ -43,7 +44,9 @@ PoseEstimate PoseOfBack::in_terms_of_back(const PoseEstimate& pose) const {
   const Eigen::Matrix3d R = R_cur_from_ref * R_ref_from_back_;
   const Eigen::Vector3d position_m =
       Eigen::Map<const Eigen::Vector3d>(pose.position_m.data()) + R_cur_from_ref * back_from_seen_ref_m_;
-  of_back.yaw_rad = yaw_of_rotation(R);
+  of_back.frame_yaw_rad = yaw_of_rotation(R);
+  of_back.frame_yaw_sigma_rad = std::hypot(pose.frame_yaw_sigma_rad, yaw_sigma_rad_);
+  of_back.yaw_rad = wrap_angle_rad(pose.yaw_rad + of_back.frame_yaw_rad - pose.frame_yaw_rad);
   of_back.yaw_sigma_rad = std::hypot(pose.yaw_sigma_rad, yaw_sigma_rad_);
   Eigen::Map<RowMajor3d>(of_back.R_cur_from_ref.data()) = R;
   Eigen::Map<Eigen::Vector3d>(of_back.position_m.data()) = position_m;

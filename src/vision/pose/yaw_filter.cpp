@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/angles.h"
 
 namespace heel {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr TimeNs kMaxGap_ns = kNsPerS / 2;
 // Times between frames are rounded to this: the jitter of a clock does not change the answer.
 constexpr TimeNs kTimeStep_ns = kNsPerMs / 10;

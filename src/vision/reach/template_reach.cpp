@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <random>
 
+#include "core/angles.h"
 #include "heel/error.h"
 #include "heel/pose_tracker.h"
 #include "vision/pose/average_back.h"
@@ -16,7 +17,6 @@
 namespace heel {
 namespace {
 
-constexpr double kRadPerDeg = M_PI / 180.0;
 constexpr double kDistances_m[] = {0.8, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0};
 constexpr double kTurnDistances_m[] = {TemplateReach::kTurnDistance_m, 3.0, 1.0, 4.0};
 constexpr double kTurns_rad[] = {15 * kRadPerDeg, 30 * kRadPerDeg, 45 * kRadPerDeg, 60 * kRadPerDeg,

@@ -19,7 +19,7 @@ using test::random_view;
 using test::View;
 
 BackSurface shaped_back(double shape_sigma_m) {
-  BackSurface surface = back(0.0, shape_sigma_m);
+  BackSurface surface = test::curved::back(0.0, shape_sigma_m);
   const double per_d = 1.0 / kDistance_m;
   surface.depth = {.u2 = -0.013 * per_d,
                    .u4 = 0.049 * per_d,

@@ -7,10 +7,11 @@
 #include <numbers>
 #include <random>
 
+#include "core/angles.h"
+
 namespace heel {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr TimeNs kFrame_ns = kNsPerS / 15;
 
 TEST(YawFilter, TakesTheFirstFrameAsItIs) {
