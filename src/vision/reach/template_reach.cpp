@@ -227,6 +227,7 @@ TemplateReach measure_reach(const ShirtTemplate& shirt, const CameraModel& camer
     }
   }
   reach.complete = !trial.stopped();
+  if (!reach.complete && reach.turn_rad == 0.0) reach.turn_rad.reset();  // no turn was measured
   return reach;
 }
 

@@ -55,17 +55,18 @@ inline std::string ticks_csv() {
 
 inline std::string poses_csv() {
   std::string text =
-      "t_s,frame,reason,found,certainty,frame_yaw_rad,frame_yaw_sigma_rad,position_m_0,position_m_1,position_m_2";
+      "t_s,frame,reason,found,certainty,yaw_rad,frame_yaw_rad,frame_yaw_sigma_rad,position_m_0,position_m_1,"
+      "position_m_2";
   for (int i = 0; i < 9; ++i) text += ",H_cur_from_ref_" + std::to_string(i);
   for (int k = 0; k < 100; ++k) {
     const double t_s = kClock_s + 0.1 * k + 0.05;
     if (k >= 50 && k < 55) {
-      text += printed("\n%.2f,%d,too few inliers,0,0.02,nan,nan,nan,nan,nan,0,0,0,0,0,0,0,0,0", t_s, k);
+      text += printed("\n%.2f,%d,too few inliers,0,0.02,nan,nan,nan,nan,nan,nan,0,0,0,0,0,0,0,0,0", t_s, k);
       continue;
     }
     const double yaw_rad = 0.02 * (k + 0.5) + (k % 2 == 0 ? kEvenYawError_rad : kOddYawError_rad);
-    text += printed("\n%.2f,%d,found,1,0.3,%.3f,%.1f,0,-0.1,%.2f,1,0,0,0,1,0,0,0,1", t_s, k, yaw_rad,
-                    kYawSigma_rad, 2.0 + kZError_m);
+    text += printed("\n%.2f,%d,found,1,0.3,%.3f,%.3f,%.1f,0,-0.1,%.2f,1,0,0,0,1,0,0,0,1", t_s, k, yaw_rad,
+                    yaw_rad, kYawSigma_rad, 2.0 + kZError_m);
   }
   return text + "\n";
 }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -52,10 +53,13 @@ class TeachAndPose : public ::testing::Test {
     reference = test::printed_plane();
     cv::imwrite(image, reference);
   }
+  /// Measures the reach only where `more` says how long.
   Outcome teach(const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments = {"teach", "--image",       image,  "--roi", test::kRoi, "--distance",
                                           "1.5",   "--camera-info", camera, "-o",    shirt};
     arguments.insert(arguments.end(), more.begin(), more.end());
+    if (std::find(more.begin(), more.end(), kNoHurry[0]) == more.end())
+      arguments.insert(arguments.end(), {kNoHurry[0], "0"});
     return run_heel(arguments);
   }
   Outcome pose(const std::vector<std::string>& more) {
@@ -98,19 +102,13 @@ TEST_F(TeachAndPose, TeachReportsTheQualityAndKeepsTheOptions) {
   EXPECT_TRUE(std::equal(kept.grey.begin(), kept.grey.end(), reference.datastart, reference.dataend));
 }
 
-TEST_F(TeachAndPose, TeachSaysFromWhereTheShirtWillBeFoundAndWarnsWhenThatIsLittle) {
+TEST_F(TeachAndPose, TeachSaysFromWhereTheShirtWillBeFound) {
   const Outcome bold = teach(kNoHurry);
   ASSERT_EQ(bold.status, 0) << bold.err;
   EXPECT_THAT(bold.out,
               ContainsRegex("\nfound from [0-9.]+ to [3-6][0-9.]* m facing away, to [4-7][0-9]° at 2 m"));
   EXPECT_THAT(bold.out, ContainsRegex("\n +0° +[0-4]/4"));
   EXPECT_THAT(bold.out, Not(HasSubstr("warning")));
-
-  reference.convertTo(reference, -1, 0.1, 110.0);
-  cv::imwrite(image, reference);
-  const Outcome pale = teach(kNoHurry);
-  ASSERT_EQ(pale.status, 0) << pale.err;
-  EXPECT_THAT(pale.out, HasSubstr("\nwarning: the print is small or low in contrast: "));
 }
 
 TEST_F(TeachAndPose, TeachEndsItsMeasurementInTimeAndSaysSo) {
@@ -123,7 +121,7 @@ TEST_F(TeachAndPose, TeachEndsItsMeasurementInTimeAndSaysSo) {
   EXPECT_THAT(none.out, AllOf(HasSubstr("wrote "), Not(HasSubstr("facing away"))));
 }
 
-TEST_F(TeachAndPose, TeachMeasuresForTheRobotsCamera) {
+TEST_F(TeachAndPose, TeachMeasuresForTheRobotsCameraAndWarnsWhenItSeesLittle) {
   CameraModel small = test::shirt_camera();
   small.width_px = 160;
   small.height_px = 120;

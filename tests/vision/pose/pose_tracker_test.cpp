@@ -96,7 +96,7 @@ TEST(PoseTracker, AJumpIsFoundInTheSameFrame) {
   const PoseEstimate jumped = tracker.estimate(frame_at(seen(taught, 0.2, 0.35, 1.2), 1));
   ASSERT_TRUE(jumped.found());
   EXPECT_FALSE(jumped.tracked);
-  EXPECT_NEAR(jumped.yaw_rad, 0.2, 0.04);
+  EXPECT_NEAR(jumped.frame_yaw_rad, 0.2, 0.04);
   EXPECT_TRUE(tracker.estimate(frame_at(seen(taught, 0.2, 0.35, 1.2), 2)).tracked);
 }
 

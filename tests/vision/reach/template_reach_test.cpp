@@ -36,7 +36,7 @@ TemplateReach reach_of(const ShirtTemplate& shirt) {
 }
 
 TEST(TemplateReach, ABoldPrintReachesFartherThanAPaleOne) {
-  const TemplateReach bold = reach_of(printed(1.0)), pale = reach_of(printed(0.08));
+  const TemplateReach bold = reach_of(printed(1.0)), pale = reach_of(printed(0.15));
   EXPECT_TRUE(bold.complete);
   EXPECT_LE(bold.near_m, 1.0);
   EXPECT_GE(bold.far_m, 3.0);
