@@ -10,6 +10,7 @@
 ///   Human-Following Robot", PRASA 2010.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "heel/camera_model.h"
@@ -26,6 +27,9 @@ struct ExpectedView {
   double sigma_min_px = 0.0, sigma_max_px = 0.0;
   bool upsample = false;  ///< it is small there: FeatureSettings::upsample
   bool tracking = false;  ///< expected from an earlier frame; one from the same frame is a second look
+  // The motion of that earlier frame, as in PoseEstimate; the start of the pose while tracking.
+  std::array<double, 9> R_cur_from_ref{};
+  std::array<double, 3> t_over_d{};
 };
 
 /// The same frame (and expectation) gives the same estimate; only memory is kept between frames. `t_done_ns`

@@ -15,10 +15,14 @@ namespace {
 // Cloth that hangs otherwise than when it was taught has a second minimum about so far away.
 constexpr std::array kTurns_rad{-0.25, 0.25};
 
+// Patches are aligned and the pose is solved once: the start is nearly the pose.
+constexpr int kPatchRoundsAfterLast = 1;
+
 // The plane may be selected if it explains the frame this many times better than the curved surface.
 constexpr double kPlaneAdvantage = 1.25;
-// Of a plane that is one, so many times more patches are in place than of the curved surface.
-constexpr double kPlanePatchAdvantage = 1.05;
+// On a board that is one, patches lie nearer than this share of their distance on the curved surface. The
+// surface may turn and stretch so that nearly as many patches are in place, but never as precisely.
+constexpr double kBoardResidual = 0.7;
 // Without patches the odds of the curved surface are the advantage to the power −4: 2 to 5 at 1.25 times, 1
 // to 16 at twice.
 constexpr double kAdvantageExponent = 4.0;
@@ -39,8 +43,10 @@ BackPoseSelector::BackPoseSelector(const ReferenceView& reference, const Eigen::
       flat_(flat_surface(reference, config)),
       curved_(average_back(reference, config)),
       frontal_estimator_(reference.px.size()),
-      surface_refiner_(reference.px, reference.K_inverse, frontal_estimator_),
-      patch_refiner_(patch_refiner) {}
+      surface_matcher_(reference.px, reference.K_inverse, K_cur),
+      surface_refiner_(reference.px, reference.K_inverse, frontal_estimator_, surface_matcher_),
+      patch_refiner_(patch_refiner),
+      tracked_refiner_(reference, K_cur, surface_matcher_, patch_refiner) {}
 
 BackPose BackPoseSelector::estimate(const PlaneSolution& plane, TemplateMatcher& matcher,
                                     const FrameContent& frame, int patch_rounds) {
@@ -60,12 +66,20 @@ BackPose BackPoseSelector::estimate(const PlaneSolution& plane, TemplateMatcher&
 
   const std::optional<SurfacePose> flat =
       patch_refiner_.refine(frame.view, flat_, plane.inliers, of_plane.motion, patch_rounds);
-  if (curve && !(flat && flat->score > kPlanePatchAdvantage * curve->score))
+  if (curve && !(flat && flat->residual_px < kBoardResidual * curve->residual_px))
     return {frontal_pose(*curve), of_curve.pairs.size()};
   if (flat) return {frontal_pose(*flat), plane.inliers.size()};
   const AlternativeHypothesis curved{of_curve.pose.motion, std::pow(advantage, -kAdvantageExponent)};
   inflate_covariance({&curved, 1}, of_plane);
   return {of_plane, plane.inliers.size()};
+}
+
+BackPose BackPoseSelector::estimate_next(const FrontalMotion& last, const PlaneSolution& plane,
+                                         TemplateMatcher& matcher, const FrameContent& frame) {
+  if (!curved_.flat())
+    if (const std::optional<BackPose> tracked = tracked_refiner_.refine(curved_, last, plane, matcher, frame))
+      return *tracked;
+  return estimate(plane, matcher, frame, kPatchRoundsAfterLast);
 }
 
 }  // namespace heel

@@ -15,31 +15,16 @@
 #include "heel/vision_config.h"
 #include "vision/matching/feature_grid.h"
 #include "vision/matching/template_matcher.h"
+#include "vision/pose/back_pose.h"
 #include "vision/pose/back_surface.h"
 #include "vision/pose/curved_surface_refiner.h"
 #include "vision/pose/frontal_pose_estimator.h"
+#include "vision/pose/surface_matcher.h"
 #include "vision/pose/surface_pose_refiner.h"
+#include "vision/pose/tracked_back_refiner.h"
 #include "vision/template/reference_view.h"
 
 namespace heel {
-
-/// The start of both poses: the inliers of the homography, and a motion of the plane that explains them.
-struct PlaneSolution {
-  std::span<const PointPair> inliers;  ///< undistorted pixels
-  Eigen::Matrix3d H_cur_from_ref;
-  PlaneMotion motion;
-};
-
-/// What a frame shows: the picture and its features.
-struct FrameContent {
-  const FrameView& view;
-  const FeatureGrid& features;
-};
-
-struct BackPose {
-  FrontalPose pose;
-  std::size_t pairs = 0;  ///< features that fit it
-};
 
 class BackPoseSelector {
  public:
@@ -54,17 +39,23 @@ class BackPoseSelector {
   BackPoseSelector(const BackPoseSelector&) = delete;
   BackPoseSelector& operator=(const BackPoseSelector&) = delete;
 
-  /// `patch_rounds`: see SurfacePoseRefiner::refine; one is enough where the last frame was like this one.
+  /// `patch_rounds`: see SurfacePoseRefiner::refine.
   BackPose estimate(const PlaneSolution& plane, TemplateMatcher& matcher, const FrameContent& frame,
                     int patch_rounds);
+
+  /// The same, of the frame after the one in which the motion was `last`.
+  BackPose estimate_next(const FrontalMotion& last, const PlaneSolution& plane, TemplateMatcher& matcher,
+                         const FrameContent& frame);
 
  private:
   Eigen::Matrix3d K_ref_, K_cur_;
   Eigen::Vector2d centre_px_;
   BackSurface flat_, curved_;
   FrontalPoseEstimator frontal_estimator_;
+  SurfaceMatcher surface_matcher_;
   CurvedSurfaceRefiner surface_refiner_;
   SurfacePoseRefiner& patch_refiner_;
+  TrackedBackRefiner tracked_refiner_;
 };
 
 }  // namespace heel

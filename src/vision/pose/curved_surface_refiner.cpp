@@ -48,9 +48,11 @@ bool settled(const FrontalMotion& before, const FrontalMotion& after) {
 
 CurvedSurfaceRefiner::CurvedSurfaceRefiner(std::span<const Eigen::Vector2d> reference_px,
                                            const Eigen::Matrix3d& K_ref_inverse,
-                                           FrontalPoseEstimator& estimator)
-    : reference_px_(reference_px), K_ref_inverse_(K_ref_inverse), estimator_(estimator) {
-  predicted_.reserve(reference_px.size());
+                                           FrontalPoseEstimator& estimator, SurfaceMatcher& surface_matcher)
+    : reference_px_(reference_px),
+      K_ref_inverse_(K_ref_inverse),
+      estimator_(estimator),
+      surface_matcher_(surface_matcher) {
   fitting_.reserve(reference_px.size());
   best_fitting_.reserve(reference_px.size());
   fits_.reserve(kMaxFits);
@@ -90,10 +92,9 @@ CurvedSurfaceRefiner::Fit CurvedSurfaceRefiner::fit_surface(FrontalProblem probl
   Fit fit{start, -1.0, {}};
   for (int round = 0; round < kRounds; ++round) {
     const FrontalMotion before = fit.motion;
-    const std::span<const PredictedFeature> predicted = predict(problem, before);
-    const std::span<const Match> matches = matcher.match_near(predicted, frame);
-    const double limit_px = round == 0 ? kFirstLimit_px : kLimit_px;
-    fit.pairs = pairs_that_fit(problem, before, limit_px, predicted, matches, frame);
+    surface_matcher_.match(problem.surface, before, round == 0 ? kFirstLimit_px : kLimit_px, matcher, frame,
+                           fitting_);
+    fit.pairs = fitting_;
     if (fit.pairs.size() < kMinPairs) return {start, -1.0, {}};
     problem.pairs = fit.pairs;
     fit.motion = estimator_.refine(problem, as_start(before), kStepsPerRound);
@@ -101,44 +102,6 @@ CurvedSurfaceRefiner::Fit CurvedSurfaceRefiner::fit_surface(FrontalProblem probl
   }
   fit.support = static_cast<double>(fit.pairs.size()) - fit.motion.cost_px2 / (kLimit_px * kLimit_px);
   return fit;
-}
-
-/// Where the surface puts the features; those on the side turned away are not visible.
-std::span<const PredictedFeature> CurvedSurfaceRefiner::predict(const FrontalProblem& problem,
-                                                                const FrontalMotion& motion) {
-  const Eigen::Matrix3d KR = problem.K_cur * motion.R_cur_from_ref;
-  const Eigen::Vector3d Kt = problem.K_cur * motion.t_over_d;
-  predicted_.clear();
-  for (const Eigen::Vector2d& px : reference_px_) {
-    const Eigen::Vector3d ray = K_ref_inverse_ * px.homogeneous();
-    const Eigen::Vector3d pixel = KR * problem.surface.point(ray) + Kt;
-    const double area = image_derivative(problem.surface, K_ref_inverse_, KR, Kt, ray).determinant();
-    predicted_.push_back({pixel.hnormalized(), pixel.z() > 0.0 && area > 0.0 ? std::sqrt(area) : 0.0});
-  }
-  return predicted_;
-}
-
-/// Matches whose whitened residual is below the limit.
-std::span<const PointPair> CurvedSurfaceRefiner::pairs_that_fit(const FrontalProblem& problem,
-                                                                const FrontalMotion& motion, double limit_px,
-                                                                std::span<const PredictedFeature> predicted,
-                                                                std::span<const Match> matches,
-                                                                const FeatureGrid& frame) {
-  const Eigen::Matrix3d KR = problem.K_cur * motion.R_cur_from_ref;
-  const Eigen::Vector3d Kt = problem.K_cur * motion.t_over_d;
-  fitting_.clear();
-  for (const Match& match : matches) {
-    const auto ref = static_cast<std::size_t>(match.ref);
-    const Eigen::Vector2d& ref_px = reference_px_[ref];
-    const Eigen::Vector2d& cur_px = frame.undistorted_px()[static_cast<std::size_t>(match.cur)];
-    const Eigen::Vector3d ray = K_ref_inverse_ * ref_px.homogeneous();
-    const Eigen::Vector2d residual_px = predicted[ref].px - cur_px;
-    const Eigen::Matrix2d D = image_derivative(problem.surface, K_ref_inverse_, KR, Kt, ray);
-    const Eigen::Matrix2d S = Eigen::Matrix2d::Identity() + D * D.transpose();
-    if (residual_px.dot(S.inverse() * residual_px) < limit_px * limit_px)
-      fitting_.push_back({ref_px, cur_px});
-  }
-  return fitting_;
 }
 
 /// The target turned by `angle_rad` to the image's right about the vertical axis through the middle of the

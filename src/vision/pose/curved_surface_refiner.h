@@ -15,6 +15,7 @@
 #include "vision/pose/alternative_hypotheses.h"
 #include "vision/pose/back_surface.h"
 #include "vision/pose/frontal_pose_estimator.h"
+#include "vision/pose/surface_matcher.h"
 
 namespace heel {
 
@@ -26,10 +27,10 @@ struct CurvedSurfacePose {
 
 class CurvedSurfaceRefiner {
  public:
-  /// `reference_px`: the template's features, undistorted, in the matcher's order; they and `estimator` must
-  /// outlive this. Memory is taken once.
+  /// `reference_px`: the template's features, undistorted, in the matcher's order; they, `estimator` and
+  /// `surface_matcher` must outlive this. Memory is taken once.
   CurvedSurfaceRefiner(std::span<const Eigen::Vector2d> reference_px, const Eigen::Matrix3d& K_ref_inverse,
-                       FrontalPoseEstimator& estimator);
+                       FrontalPoseEstimator& estimator, SurfaceMatcher& surface_matcher);
 
   /// `problem`: the homography's pairs on the curved surface, `start` its solution. The deviations of the
   /// answer include the other fits that were tried.
@@ -45,10 +46,6 @@ class CurvedSurfaceRefiner {
 
   Fit fit_surface(FrontalProblem problem, const FrontalMotion& start, TemplateMatcher& matcher,
                   const FeatureGrid& frame);
-  std::span<const PredictedFeature> predict(const FrontalProblem& problem, const FrontalMotion& motion);
-  std::span<const PointPair> pairs_that_fit(const FrontalProblem& problem, const FrontalMotion& motion,
-                                            double limit_px, std::span<const PredictedFeature> predicted,
-                                            std::span<const Match> matches, const FeatureGrid& frame);
   FrontalMotion turned(const FrontalProblem& problem, const FrontalMotion& motion, double angle_rad) const;
   std::span<const AlternativeHypothesis> alternatives_to(const FrontalMotion& chosen, std::span<Fit> fits,
                                                          double best_support);
@@ -56,8 +53,8 @@ class CurvedSurfaceRefiner {
   std::span<const Eigen::Vector2d> reference_px_;
   Eigen::Matrix3d K_ref_inverse_;
   FrontalPoseEstimator& estimator_;
+  SurfaceMatcher& surface_matcher_;
   // Work space: written and read within one call.
-  std::vector<PredictedFeature> predicted_;
   std::vector<PointPair> fitting_, best_fitting_;
   std::vector<Fit> fits_;
   std::vector<AlternativeHypothesis> alternatives_;

@@ -26,8 +26,7 @@ constexpr std::size_t kHomographyPairs = 4;  // the fewest that determine a homo
 // So few supporting pairs are no detection, but enough of a hint to search their place again, upsampled.
 constexpr std::uint32_t kMinInliersForUpsampling = 5;
 
-// How often patches are aligned and the pose is solved. While tracking, the start is nearly the pose.
-constexpr int kSearchPatchRounds = 3, kTrackingPatchRounds = 1;
+constexpr int kSearchPatchRounds = 3;  // patches are aligned and the pose is solved so often
 
 using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
@@ -38,6 +37,13 @@ Eigen::Matrix3d homography_of(const PoseEstimate& pose) {
 VisionConfig with_feature_budget(const CameraModel& camera, VisionConfig config) {
   config.max_features = frame_feature_budget(camera, config);
   return config;
+}
+
+FrontalMotion last_motion(const ExpectedView& expected) {
+  FrontalMotion motion;
+  motion.R_cur_from_ref = Eigen::Map<const RowMajor3d>(expected.R_cur_from_ref.data());
+  motion.t_over_d = Eigen::Map<const Eigen::Vector3d>(expected.t_over_d.data());
+  return motion;
 }
 
 PoseEstimate with_reason(PoseEstimate pose, PoseReason reason) {
@@ -208,9 +214,11 @@ PoseEstimate PoseEstimator::Impl::steps(PoseEstimate pose, const FrameView& fram
   const PlaneMotions motions = decompose(fit);
   const std::optional<PlaneMotion> motion = choose(motions, fit, work);
   if (!motion) return with_reason(pose, PoseReason::NoValidMotion);
-  const BackPose back =
-      back_pose_selector.estimate({fit.inliers, fit.H_cur_from_ref, *motion}, matcher, {frame, frame_grid},
-                                  search.tracking ? kTrackingPatchRounds : kSearchPatchRounds);
+  const PlaneSolution plane{fit.inliers, fit.H_cur_from_ref, *motion};
+  const FrameContent content{frame, frame_grid};
+  const BackPose back = search.tracking
+                            ? back_pose_selector.estimate_next(last_motion(search), plane, matcher, content)
+                            : back_pose_selector.estimate(plane, matcher, content, kSearchPatchRounds);
   return with_back_pose(with_inliers_of_back(pose, back.pairs), back.pose, reference);
 }
 
@@ -264,7 +272,11 @@ int PoseEstimator::parts() {
 }
 
 ExpectedView PoseEstimator::expected_view(const PoseEstimate& last, TimeNs t_ns) const {
-  return impl_->view_predictor.near(homography_of(last), seconds_from_ns(t_ns - last.t_capture_ns));
+  ExpectedView expected =
+      impl_->view_predictor.near(homography_of(last), seconds_from_ns(t_ns - last.t_capture_ns));
+  expected.R_cur_from_ref = last.R_cur_from_ref;
+  expected.t_over_d = last.t_over_d;
+  return expected;
 }
 
 bool PoseEstimator::needs_upsampled_pass(const PoseEstimate& pose) const {

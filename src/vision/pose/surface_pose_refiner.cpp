@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "heel/motion.h"
 
@@ -76,6 +77,7 @@ SurfacePoseRefiner::SurfacePoseRefiner(const ShirtTemplate& shirt, const CameraM
   predicted_.resize(centres_px.size());
   aligned_.reserve(centres_px.size());
   kept_.reserve(centres_px.size());
+  residuals_px_.reserve(centres_px.size());
   aligned_index_.resize(centres_px.size());
   observations_.reserve(solver_.max_observations());
 }
@@ -98,11 +100,21 @@ std::optional<SurfacePose> SurfacePoseRefiner::refine(const FrameView& frame, co
     if (solver_.weight(i) > kFits) ++pose.patches;
     pose.score += 1.0 - solver_.cost(i) / SurfacePoseSolver::kMaxCost;
   }
+  pose.residual_px = median_residual_px();
   const auto visible = std::count_if(predicted_.begin(), predicted_.end(),
                                      [](const PredictedPatch& patch) { return patch.visible(); });
   pose.agreement = static_cast<double>(pose.patches) / std::max(1.0, static_cast<double>(visible));
   pose.covariance = solver_.covariance();
   return pose;
+}
+
+double SurfacePoseRefiner::median_residual_px() {
+  residuals_px_.clear();
+  for (std::size_t i = 0; i < aligned_.size(); ++i) residuals_px_.push_back(solver_.residual_px(i));
+  if (residuals_px_.empty()) return std::numeric_limits<double>::infinity();
+  const auto middle = residuals_px_.begin() + static_cast<std::ptrdiff_t>(residuals_px_.size() / 2);
+  std::nth_element(residuals_px_.begin(), middle, residuals_px_.end());
+  return *middle;
 }
 
 SurfacePose SurfacePoseRefiner::refine_turned(const FrameView& frame, const BackSurface& surface,

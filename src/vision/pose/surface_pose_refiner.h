@@ -29,6 +29,7 @@ struct SurfacePose {
   double agreement = 0.0;                  ///< their share of the patches in view
   /// Poses of one frame are compared by it: for each patch found, 1 less its share of the largest cost.
   double score = 0.0;
+  double residual_px = 0.0;  ///< median distance of the aligned patches from where the pose puts them
 };
 
 /// The same as a pose without alternatives.
@@ -59,6 +60,7 @@ class SurfacePoseRefiner {
   void drop_unlike_neighbours();
   bool moves_like_neighbours(const AlignedPatch& patch) const;
   void observe(std::span<const PointPair> pairs);
+  double median_residual_px();
 
   CameraModel camera_;
   Eigen::Matrix3d K_cur_, K_ref_inverse_;
@@ -72,6 +74,7 @@ class SurfacePoseRefiner {
   std::vector<AlignedPatch> aligned_, kept_;
   std::vector<std::ptrdiff_t> aligned_index_;  // of each patch; −1: not found
   std::vector<SurfaceObservation> observations_;
+  std::vector<double> residuals_px_;
 };
 
 }  // namespace heel

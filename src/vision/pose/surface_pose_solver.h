@@ -48,6 +48,8 @@ class SurfacePoseSolver {
   Matrix6d covariance() const;
   /// 1: the observation fits; 0: it is far off.
   double weight(std::size_t observation) const { return linearised_[observation].weight; }
+  /// The distance between where an observation is and where the pose puts it.
+  double residual_px(std::size_t observation) const { return linearised_[observation].residual_px.norm(); }
   /// The robust cost of an observation, in variances; less than kMaxCost.
   double cost(std::size_t observation) const;
 

@@ -71,7 +71,8 @@ class RefinerFor {
         shown_(shown),
         matcher_(shown.reference, kMaxFeatures, MatchSettings{}.ratio),
         grid_(kMaxFeatures, GuidedMatchSettings{}.radius_px),
-        refiner_(shown.reference_px, K_inverse, estimator) {}
+        surface_matcher_(shown.reference_px, K_inverse, K),
+        refiner_(shown.reference_px, K_inverse, estimator, surface_matcher_) {}
 
   CurvedSurfacePose refine(const FrontalProblem& problem, const FrontalPose& start) {
     return refine(problem, start, shown_.frame, shown_.frame_px);
@@ -90,6 +91,7 @@ class RefinerFor {
   const FeaturedBack& shown_;
   TemplateMatcher matcher_;
   FeatureGrid grid_;
+  SurfaceMatcher surface_matcher_;
   CurvedSurfaceRefiner refiner_;
 };
 
