@@ -27,7 +27,7 @@ struct PersonSettings {
   double bob_m = 0.012;
   double lean_rad = 0.03;       ///< forwards while walking
   double cloth_fold_m = 0.005;  ///< standard deviation of the shirt's folds while the person stands
-  double cloth_fold_walking_m = 0.0115;
+  double cloth_fold_walking_m = 0.008;
   double cloth_pull_walking_m =
       0.018;                     ///< and of the whole shirt's slow displacements, at the corners of the back
   double cloth_slide_m = 0.003;  ///< how far the cloth slides over the back with each stride

@@ -70,13 +70,13 @@ struct Reached {
 };
 
 constexpr Reached kReached[] = {
-    {"stills, 1-3 m, up to 45", 0.85, 2.7, 7.5, 1, 1, 0.5, 1.6},
-    {"stills, 4 m, up to 30", 0.60, 6.0, 16.0, 1, 1, 0.2, 6.0},
-    {"stills, 1-3 m, 60", 0.16, 4.5, 10.0, 1, 1, 0.2, 2.5},
-    {"board", 1.0, 0.8, 2.0, 0, 0, 0.0,
-     2.5},  // a board is read better than stated: it does not move as cloth does
-    {"walk", 0.97, 4.8, 12.5, 3, 2, 0.3, 5.0},
-    {"print photo", 0.44, 3.6, 10.0, 1, 1, 0.5, 2.5},
+    {"stills, 1-3 m, up to 45", 0.97, 2.5, 7.0, 0, 0, 0.6, 1.3},
+    {"stills, 4 m, up to 30", 0.95, 3.0, 7.0, 0, 0, 0.2, 2.0},
+    {"stills, 1-3 m, 60", 0.80, 3.2, 6.0, 0, 0, 0.2, 1.3},
+    // A board is read better than stated: it does not move as cloth does.
+    {"board", 1.0, 0.5, 2.0, 0, 0, 0.0, 1.0},
+    {"walk", 0.98, 3.9, 9.5, 0, 0, 0.5, 1.6},
+    {"print photo", 0.84, 3.4, 9.5, 0, 0, 0.5, 2.0},
 };
 
 TEST_F(ForeignFiguresKept, IsFoundAndReadAsWellAsBefore) {
@@ -102,8 +102,9 @@ TEST_F(ForeignFiguresKept, PositionIsGoodEverywhere) {
 
 TEST_F(ForeignFiguresKept, AWalkIsNoRougherThanBefore) {
   ASSERT_TRUE(walk());
-  EXPECT_LE(walk()->change_deg, 5.7);
-  EXPECT_LE(walk()->stride_direction_deg, 2.4);
+  EXPECT_LE(walk()->change_deg, 2.0);
+  // The filter of the yaw delays bends; the direction of travel is the estimator's (TravelFilter).
+  EXPECT_LE(walk()->stride_direction_deg, 3.0);
 }
 
 TEST_F(ForeignFiguresKept, NoShirtIsFoundWhereItIsNot) {
