@@ -19,8 +19,8 @@ struct PoseRow {
 
 /// One JSON object on one line, always with the same keys: frame, t_s, found, reason, certainty, inliers,
 /// yaw_rad, yaw_sigma_rad, frame_yaw_rad, frame_yaw_sigma_rad, t_over_d, position_m, H_cur_from_ref, ms; then
-/// template, if there are several. When the shirt is not found, those of the pose are null, so that numbers of
-/// a rejected fit are not taken for a pose.
+/// template, if there are several. When the shirt is not found, those of the pose are null, so that numbers
+/// of a rejected fit are not taken for a pose.
 std::string pose_json(const PoseRow& row);
 
 std::string pose_table_head();
