@@ -11,6 +11,7 @@
 ///   Human-Following Robot", PRASA 2010.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,6 +20,14 @@
 #include "heel/features.h"
 
 namespace heel {
+
+/// Another picture of the same back, by the same camera, and where the template was found in it:
+/// X_further / d = R_further_from_ref X_ref / d + t_over_d.
+struct FurtherView {
+  std::vector<std::uint8_t> grey;  ///< as ShirtTemplate::grey
+  Eigen::Matrix3d R_further_from_ref = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d t_over_d = Eigen::Vector3d::Zero();
+};
 
 /// What a .heel file holds. Features are not stored but computed from the image, so that they always come
 /// from the same code as the frame's.
@@ -30,6 +39,7 @@ struct ShirtTemplate {
   double yaw_rad = 0.0;     ///< how far the person was turned: 0 from behind, ±π/2 a side, π the front
   bool oriented = false;    ///< use oriented descriptors (default upright)
   int max_features = 300;   ///< template features kept
+  std::vector<FurtherView> further_views;  ///< turned or farther away: they help to find the back there
 };
 
 /// The features of the template's region (sigma over a wide range), strongest first.

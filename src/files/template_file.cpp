@@ -1,10 +1,14 @@
-// The .heel template file, format version 1:
+// The .heel template file, format versions 1 and 2:
 //
 //   "heel-template 1 <header bytes> <image bytes>\n"   text, so that `head -n 20 shirt.heel` shows what it is
 //   header                                             JSON: region, distance, camera, settings
 //   image                                              PNG, 8-bit grey, the whole reference view
 //   checksum                                           CRC-32 (zlib) of everything before it, 4 bytes, little
 //   endian
+//
+// Version 2 adds further views: the header's array "further_views" has the pose of each and the bytes of its
+// PNG; these PNGs follow the reference view's and are part of <image bytes>. A template without further views
+// is written as version 1, which earlier programs read.
 //
 // The checksum is tested right after the version: an error found later is an error of the program that made
 // the file, not damage in storage.
@@ -13,23 +17,22 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <Eigen/LU>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <string_view>
 
 #include "files/atomic_file.h"
+#include "files/template_header.h"
 #include "heel/error.h"
 #include "heel/shirt_template.h"
 
 namespace heel {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kTemplateMagic = "heel-template ";
 constexpr std::size_t kMaxTemplateBytes = std::size_t{1} << 28;
@@ -61,6 +64,20 @@ bool all_finite(const CameraModel& c) {
   return true;
 }
 
+void validate_further(const ShirtTemplate& shirt, const std::string& path) {
+  require(shirt.further_views.size() <= kMaxFurtherViews, path, "further_views",
+          fmt::format("at most {}", kMaxFurtherViews));
+  constexpr double kRotationTolerance = 1e-6;
+  for (const FurtherView& further : shirt.further_views) {
+    const Eigen::Matrix3d& R = further.R_further_from_ref;
+    require(R.allFinite() && (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < kRotationTolerance &&
+                R.determinant() > 0.0,
+            path, "further_views: R_further_from_ref", "a rotation");
+    require(further.t_over_d.allFinite(), path, "further_views: t_over_d", "finite numbers");
+    require(further.grey.size() == shirt.grey.size(), path, "further_views", "pictures of the camera's size");
+  }
+}
+
 /// What a template must satisfy, after reading and before writing.
 void validate(const ShirtTemplate& shirt, const std::string& path) {
   const CameraModel& camera = shirt.camera;
@@ -82,69 +99,18 @@ void validate(const ShirtTemplate& shirt, const std::string& path) {
   require(shirt.grey.size() ==
               static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px),
           path, "image", "one byte a pixel of the camera");
+  validate_further(shirt, path);
 }
 
-Json header_json(const ShirtTemplate& shirt) {
-  const CameraModel& c = shirt.camera;
-  const Region& r = shirt.roi;
-  return {
-      {"region", {{"x_px", r.x_px}, {"y_px", r.y_px}, {"width_px", r.width_px}, {"height_px", r.height_px}}},
-      {"distance_m", shirt.distance_m},
-      {"yaw_rad", shirt.yaw_rad},
-      {"camera",
-       {{"width_px", c.width_px},
-        {"height_px", c.height_px},
-        {"fx", c.fx},
-        {"fy", c.fy},
-        {"cx", c.cx},
-        {"cy", c.cy},
-        {"k1", c.k1},
-        {"k2", c.k2},
-        {"p1", c.p1},
-        {"p2", c.p2},
-        {"k3", c.k3}}},
-      {"settings", {{"oriented", shirt.oriented}, {"max_features", shirt.max_features}}}};
-}
-
-void parse_header(std::string_view text, const std::string& path, ShirtTemplate& shirt) {
-  try {
-    const Json header = Json::parse(text);
-    const Json& region = header.at("region");
-    region.at("x_px").get_to(shirt.roi.x_px);
-    region.at("y_px").get_to(shirt.roi.y_px);
-    region.at("width_px").get_to(shirt.roi.width_px);
-    region.at("height_px").get_to(shirt.roi.height_px);
-    header.at("distance_m").get_to(shirt.distance_m);
-    shirt.yaw_rad = header.value("yaw_rad", 0.0);  // older files have none
-    const Json& camera = header.at("camera");
-    camera.at("width_px").get_to(shirt.camera.width_px);
-    camera.at("height_px").get_to(shirt.camera.height_px);
-    camera.at("fx").get_to(shirt.camera.fx);
-    camera.at("fy").get_to(shirt.camera.fy);
-    camera.at("cx").get_to(shirt.camera.cx);
-    camera.at("cy").get_to(shirt.camera.cy);
-    camera.at("k1").get_to(shirt.camera.k1);
-    camera.at("k2").get_to(shirt.camera.k2);
-    camera.at("p1").get_to(shirt.camera.p1);
-    camera.at("p2").get_to(shirt.camera.p2);
-    camera.at("k3").get_to(shirt.camera.k3);
-    header.at("settings").at("oriented").get_to(shirt.oriented);
-    header.at("settings").at("max_features").get_to(shirt.max_features);
-  } catch (const nlohmann::json::exception& error) {
-    throw Error(fmt::format("{}: header: {} (expected the header of format version {})", path, error.what(),
-                            kTemplateFormatVersion));
-  }
-}
-
-std::string png_of(const ShirtTemplate& shirt) {
-  const cv::Mat grey(shirt.camera.height_px, shirt.camera.width_px, CV_8UC1,
-                     const_cast<std::uint8_t*>(shirt.grey.data()));
+std::string png_of(const std::vector<std::uint8_t>& image, const CameraModel& camera) {
+  const cv::Mat grey(camera.height_px, camera.width_px, CV_8UC1, const_cast<std::uint8_t*>(image.data()));
   std::vector<std::uint8_t> png;
   cv::imencode(".png", grey, png);
   return {png.begin(), png.end()};
 }
 
-void decode_png(std::string_view png, const std::string& path, ShirtTemplate& shirt) {
+std::vector<std::uint8_t> decode_png(std::string_view png, const std::string& path,
+                                     const CameraModel& camera) {
   cv::Mat grey;
   try {
     const cv::Mat bytes(1, static_cast<int>(png.size()), CV_8UC1, const_cast<char*>(png.data()));
@@ -152,9 +118,24 @@ void decode_png(std::string_view png, const std::string& path, ShirtTemplate& sh
   } catch (const cv::Exception&) {
     grey.release();
   }
-  require(grey.cols == shirt.camera.width_px && grey.rows == shirt.camera.height_px, path, "image",
-          fmt::format("a PNG of the camera's {}x{} pixels", shirt.camera.width_px, shirt.camera.height_px));
-  shirt.grey.assign(grey.datastart, grey.dataend);
+  require(grey.cols == camera.width_px && grey.rows == camera.height_px, path, "image",
+          fmt::format("a PNG of the camera's {}x{} pixels", camera.width_px, camera.height_px));
+  return {grey.datastart, grey.dataend};
+}
+
+/// The reference view's picture, then those of the further views.
+void decode_images(std::string_view images, const std::vector<std::size_t>& further_bytes,
+                   const std::string& path, ShirtTemplate& shirt) {
+  std::size_t left = images.size();
+  for (const std::size_t bytes : further_bytes) {
+    require(bytes <= left, path, "further_views: image_bytes", "no more than the file has");
+    left -= bytes;
+  }
+  shirt.grey = decode_png(images.substr(0, left), path, shirt.camera);
+  for (std::size_t i = 0; i < further_bytes.size(); ++i) {
+    shirt.further_views[i].grey = decode_png(images.substr(left, further_bytes[i]), path, shirt.camera);
+    left += further_bytes[i];
+  }
 }
 
 /// Takes a number and the character after it from the front of `line`; false when they are not there.
@@ -195,8 +176,8 @@ FirstLine parse_first_line(std::string_view file, const std::string& path) {
   std::string_view line = file.substr(kTemplateMagic.size(), first.bytes - kTemplateMagic.size());
   std::size_t version = 0;
   if (!take_number(line, ' ', version)) throw damaged_first_line(path);
-  if (version != static_cast<std::size_t>(kTemplateFormatVersion))
-    throw Error(fmt::format("{}: format version {} (expected {}; a newer heel may have made it)", path,
+  if (version < 1 || version > static_cast<std::size_t>(kTemplateFormatVersion))
+    throw Error(fmt::format("{}: format version {} (expected 1…{}; a newer heel may have made it)", path,
                             version, kTemplateFormatVersion));
   if (!take_number(line, ' ', first.header_bytes) || !take_number(line, '\n', first.image_bytes) ||
       !line.empty() || first.header_bytes > kMaxTemplateBytes || first.image_bytes > kMaxTemplateBytes)
@@ -206,7 +187,7 @@ FirstLine parse_first_line(std::string_view file, const std::string& path) {
 
 struct Parts {
   std::string_view header;
-  std::string_view image;
+  std::string_view images;
 };
 
 /// The parts of a file whose size and checksum are right.
@@ -229,8 +210,8 @@ ShirtTemplate read_template(const std::string& path) {
   const std::string file = read_whole_file(path, kMaxTemplateBytes);
   const Parts parts = split(file, path);
   ShirtTemplate shirt;
-  parse_header(parts.header, path, shirt);
-  decode_png(parts.image, path, shirt);
+  const std::vector<std::size_t> further_bytes = parse_template_header(parts.header, path, shirt);
+  decode_images(parts.images, further_bytes, path, shirt);
   validate(shirt, path);
   return shirt;
 }
@@ -248,10 +229,17 @@ const std::string& template_file(const TargetConfig& config, std::size_t index) 
 
 void write_template(const ShirtTemplate& shirt, const std::string& path) {
   validate(shirt, path);
-  const std::string header = header_json(shirt).dump(2) + "\n";
-  const std::string image = png_of(shirt);
-  std::string file = fmt::format("{}{} {} {}\n{}{}", kTemplateMagic, kTemplateFormatVersion, header.size(),
-                                 image.size(), header, image);
+  std::string images = png_of(shirt.grey, shirt.camera);
+  std::vector<std::size_t> further_bytes;
+  for (const FurtherView& further : shirt.further_views) {
+    const std::string png = png_of(further.grey, shirt.camera);
+    further_bytes.push_back(png.size());
+    images += png;
+  }
+  const std::string header = template_header(shirt, further_bytes);
+  const int version = further_bytes.empty() ? 1 : kTemplateFormatVersion;
+  std::string file =
+      fmt::format("{}{} {} {}\n{}{}", kTemplateMagic, version, header.size(), images.size(), header, images);
   const auto checksum = little_endian(crc32_of(file));
   file.append(checksum.data(), checksum.size());
   write_file_atomically(path, file);

@@ -9,7 +9,9 @@
 
 namespace heel {
 
-inline constexpr int kTemplateFormatVersion = 1;
+/// The newest that is read; older ones are read, too. A template is written in the oldest that can hold it.
+inline constexpr int kTemplateFormatVersion = 2;
+inline constexpr int kMaxFurtherViews = 8;
 
 /// Throws heel::Error naming the file and what is wrong: not a template, newer version, truncated, checksum.
 ShirtTemplate read_template(const std::string& path);

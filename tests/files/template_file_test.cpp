@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <filesystem>
 #include <random>
 #include <string>
@@ -22,6 +24,7 @@ using test::TemporaryFolder;
 using test::write_text;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 ShirtTemplate small_template() {
   ShirtTemplate shirt;
@@ -46,6 +49,18 @@ ShirtTemplate small_template() {
   return shirt;
 }
 
+ShirtTemplate with_further_views() {
+  ShirtTemplate shirt = small_template();
+  std::mt19937 random(6);
+  for (const double yaw_rad : {0.3, -0.7}) {
+    FurtherView& further = shirt.further_views.emplace_back();
+    further.R_further_from_ref = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    further.t_over_d = {yaw_rad / 3.0, 0.1, 0.2};
+    for (int i = 0; i < 24 * 16; ++i) further.grey.push_back(static_cast<std::uint8_t>(random()));
+  }
+  return shirt;
+}
+
 std::string refusal_of(const std::string& path) {
   return test::complaint_of([&] { read_template(path); });
 }
@@ -55,13 +70,15 @@ std::string with_header(const std::string& file, const std::string& from, const 
   const std::size_t line_end = file.find('\n');
   std::size_t header_bytes = 0;
   std::size_t image_bytes = 0;
-  sscanf(file.c_str(), "heel-template 1 %zu %zu", &header_bytes, &image_bytes);
+  int version = 0;
+  sscanf(file.c_str(), "heel-template %d %zu %zu", &version, &header_bytes, &image_bytes);
   std::string header = file.substr(line_end + 1, header_bytes);
   const std::size_t at = header.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   header.replace(at, from.size(), to);
-  std::string made = "heel-template 1 " + std::to_string(header.size()) + " " + std::to_string(image_bytes) +
-                     "\n" + header + file.substr(line_end + 1 + header_bytes, image_bytes);
+  std::string made = "heel-template " + std::to_string(version) + " " + std::to_string(header.size()) + " " +
+                     std::to_string(image_bytes) + "\n" + header +
+                     file.substr(line_end + 1 + header_bytes, image_bytes);
   const uLong checksum =
       crc32(0, reinterpret_cast<const Bytef*>(made.data()), static_cast<uInt>(made.size()));
   for (int shift = 0; shift < 32; shift += 8) made += static_cast<char>(checksum >> shift);
@@ -167,8 +184,57 @@ TEST_F(TemplateFile, RefusesBytesAfterTheEnd) {
 }
 
 TEST_F(TemplateFile, NamesANewerVersion) {
-  write_text(path, "heel-template 2 0 0\nsomething else altogether");
-  EXPECT_THAT(refusal_of(path), HasSubstr("format version 2"));
+  write_text(path, "heel-template 3 0 0\nsomething else altogether");
+  EXPECT_THAT(refusal_of(path), HasSubstr("format version 3"));
+  write_text(path, "heel-template 0 0 0\nsomething else altogether");
+  EXPECT_THAT(refusal_of(path), HasSubstr("format version 0"));
+}
+
+TEST_F(TemplateFile, FurtherViewsAreReadBackToTheBit) {
+  const ShirtTemplate written = with_further_views();
+  write_template(written, path);
+  EXPECT_THAT(read_text(path), StartsWith("heel-template 2 "));
+  const ShirtTemplate read = read_template(path);
+  EXPECT_EQ(read.grey, written.grey);
+  ASSERT_EQ(read.further_views.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(read.further_views[i].grey, written.further_views[i].grey);
+    EXPECT_EQ(read.further_views[i].R_further_from_ref, written.further_views[i].R_further_from_ref);
+    EXPECT_EQ(read.further_views[i].t_over_d, written.further_views[i].t_over_d);
+  }
+}
+
+TEST_F(TemplateFile, WithoutFurtherViewsItIsAFileThatEarlierProgramsRead) {
+  write_template(small_template(), path);
+  EXPECT_THAT(read_text(path), StartsWith("heel-template 1 "));
+  EXPECT_THAT(read_text(path), Not(HasSubstr("further_views")));
+}
+
+TEST_F(TemplateFile, ChecksTheFurtherViews) {
+  const auto refusal_to_write = [&](const ShirtTemplate& shirt) {
+    return test::complaint_of([&] { write_template(shirt, path); });
+  };
+  ShirtTemplate shirt = with_further_views();
+  shirt.further_views[1].R_further_from_ref(0, 0) += 0.01;
+  EXPECT_THAT(refusal_to_write(shirt), HasSubstr("expected a rotation"));
+  shirt = with_further_views();
+  shirt.further_views[0].t_over_d.x() = NAN;
+  EXPECT_THAT(refusal_to_write(shirt), HasSubstr("t_over_d"));
+  shirt = with_further_views();
+  shirt.further_views[0].grey.pop_back();
+  EXPECT_THAT(refusal_to_write(shirt), HasSubstr("pictures of the camera's size"));
+  shirt = with_further_views();
+  shirt.further_views.resize(kMaxFurtherViews + 1, shirt.further_views[0]);
+  EXPECT_THAT(refusal_to_write(shirt), HasSubstr("at most 8"));
+
+  write_template(with_further_views(), path);
+  const std::string whole = read_text(path);
+  write_text(path, with_header(whole, "\"image_bytes\": ", "\"image_bytes\": 99"));
+  EXPECT_THAT(refusal_of(path), HasSubstr("image_bytes"));
+  write_text(path, with_header(whole, "\"image_bytes\": ", "\"image_bytes\": -"));
+  EXPECT_THAT(refusal_of(path), HasSubstr("image"));
+  write_text(path, with_header(whole, "\"t_over_d\": [", "\"t_over_d\": [1.0,"));
+  EXPECT_THAT(refusal_of(path), HasSubstr("t_over_d: expected 3 numbers"));
 }
 
 TEST_F(TemplateFile, RefusesFilesThatAreNotTemplates) {

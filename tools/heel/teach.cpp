@@ -17,6 +17,7 @@
 #include "heel/error.h"
 #include "heel/shirt_template.h"
 #include "picture.h"
+#include "teach_more.h"
 #include "teach_reach.h"
 
 namespace heel::cli {
@@ -34,6 +35,7 @@ struct TeachOptions {
   std::string camera_file;
   std::string robot_camera_file;
   double reach_time_s = 8.0;
+  std::vector<std::string> more;
   std::string output;
   std::string picture;
   bool oriented = false;
@@ -131,12 +133,15 @@ void run_teach(const TeachOptions& options) {
     throw Error("expected either --image or --camera (see heel teach --help)");
   }
   if (!options.picture.empty()) require_writable_image_name(options.picture);
-  const ShirtTemplate shirt = make_template(options);
+  ShirtTemplate shirt = make_template(options);
   const CameraModel robot_camera =
       options.robot_camera_file.empty() ? shirt.camera : read_camera_model(options.robot_camera_file);
   const TemplateVerdict verdict = judge_template(shirt);
   if (!options.picture.empty()) write_image(options.picture, draw_template(shirt, template_features(shirt)));
-  if (verdict.usable) write_template(shirt, options.output);
+  if (verdict.usable) {
+    if (!options.more.empty()) shirt.further_views = further_views(shirt, options.more, options.camera_file);
+    write_template(shirt, options.output);
+  }
   print_verdict(shirt, verdict);
   if (!verdict.usable) {
     fmt::print("refused: {}\n", verdict.reason);
@@ -192,6 +197,12 @@ void add_teach_command(CLI::App& app) {
                    "longest time for measuring the reach, seconds; 0: it is not measured (default 8)")
       ->type_name("S")
       ->check(number_from(0.0, 3600.0));
+  command
+      ->add_option("--more", options->more,
+                   "further pictures of the same back by the same camera, turned by any angle: they help to "
+                   "find it there")
+      ->expected(1, kMaxFurtherViews)
+      ->type_name("IMAGE...");
   command
       ->add_option("--robot-camera-info", options->robot_camera_file,
                    "the robot's camera, for which the reach is measured (default: that of --camera-info)")

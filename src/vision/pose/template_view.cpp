@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "vision/patches/grey_pyramid.h"
+#include "vision/pose/further_view.h"
 
 namespace heel {
 namespace {
@@ -170,7 +171,15 @@ RenderedView rendered(const ShirtTemplate& shirt, const ViewGeometry& geometry,
   return view;
 }
 
-/// As those of the template, for a region of the view's size.
+// SURF features are found again up to a turn of 30° and a scaling by √2 or a little more: neighbouring views
+// lie twice as far apart. Each view has fewer features than the template: only the strongest are found again.
+constexpr double kYaws_rad[] = {-M_PI / 3.0, -M_PI / 6.0, 0.0, M_PI / 6.0, M_PI / 3.0};
+constexpr double kScales[] = {1.0, 0.5};
+constexpr int kFeaturesPerView = 200;
+constexpr std::size_t kMinFeaturesPerView = 8;
+
+}  // namespace
+
 FeatureSettings view_feature_settings(const ShirtTemplate& shirt, const Eigen::Vector2d& size_px,
                                       int max_features) {
   FeatureSettings settings;
@@ -180,15 +189,6 @@ FeatureSettings view_feature_settings(const ShirtTemplate& shirt, const Eigen::V
   settings.octaves = settings.sigma_max_px > 6.4f ? 3 : settings.sigma_max_px > 3.2f ? 2 : 1;
   return settings;
 }
-
-// SURF features are found again up to a turn of 30° and a scaling by √2 or a little more: neighbouring views
-// lie twice as far apart. Each view has fewer features than the template: only the strongest are found again.
-constexpr double kYaws_rad[] = {-M_PI / 3.0, -M_PI / 6.0, 0.0, M_PI / 6.0, M_PI / 3.0};
-constexpr double kScales[] = {1.0, 0.5};
-constexpr int kFeaturesPerView = 200;
-constexpr std::size_t kMinFeaturesPerView = 8;
-
-}  // namespace
 
 TemplateView make_view(const ShirtTemplate& shirt, const BackSurface& surface, double yaw_rad, double scale,
                        int max_features) {
@@ -229,6 +229,10 @@ std::vector<TemplateView> make_views(const ShirtTemplate& shirt, const BackSurfa
       TemplateView view = make_view(shirt, surface, yaw_rad, scale, kFeaturesPerView);
       if (view.set.features.size() >= kMinFeaturesPerView) views.push_back(std::move(view));
     }
+  }
+  for (const FurtherView& further : shirt.further_views) {
+    TemplateView view = further_view(shirt, surface, further, kFeaturesPerView);
+    if (view.set.features.size() >= kMinFeaturesPerView) views.push_back(std::move(view));
   }
   return views;
 }

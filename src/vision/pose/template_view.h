@@ -24,13 +24,17 @@ struct TemplateView {
   std::vector<Eigen::Vector2d> to_centre_px;  ///< from each feature to the middle of the back, in the view
 };
 
+/// As those of the template, for a region that is `size_px` large in the view.
+FeatureSettings view_feature_settings(const ShirtTemplate& shirt, const Eigen::Vector2d& size_px,
+                                      int max_features);
+
 /// The view of `surface` turned by `yaw_rad`, at 1 / `scale` times the template's distance, and at most
 /// `max_features` of its features, strongest first.
 TemplateView make_view(const ShirtTemplate& shirt, const BackSurface& surface, double yaw_rad, double scale,
                        int max_features);
 
 /// The views that a search compares a frame with: turned by up to 60° to either side, at the template's
-/// distance and at twice of it. Those without enough features are left out.
+/// distance and at twice of it; then its further views. Those without enough features are left out.
 std::vector<TemplateView> make_views(const ShirtTemplate& shirt, const BackSurface& surface);
 
 /// The view that is most like what a camera sees of a back turned by `yaw_rad`, at `scale`. None may be

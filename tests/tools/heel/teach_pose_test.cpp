@@ -135,6 +135,32 @@ TEST_F(TeachAndPose, TeachMeasuresForTheRobotsCameraAndWarnsWhenItSeesLittle) {
   EXPECT_EQ(read_template(shirt).camera.width_px, test::kWidth_px);
 }
 
+TEST_F(TeachAndPose, TeachKeepsFurtherPicturesWithThePosesItFindsInThem) {
+  const std::string turned = folder.file("turned.png"), far = folder.file("far.png");
+  cv::imwrite(turned, TrueMotion{0.5, {0, 0, 0}}.picture(reference));
+  cv::imwrite(far, TrueMotion{-0.2, {0.1, 0, 0.3}}.picture(reference));
+  const Outcome outcome = teach({"--more", turned, far});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const ShirtTemplate kept = read_template(shirt);
+  ASSERT_EQ(kept.further_views.size(), 2u);
+  const Eigen::Matrix3d& R = kept.further_views[0].R_further_from_ref;
+  EXPECT_NEAR(std::atan2(R(0, 2), R(2, 2)), 0.5, 0.1);
+  const cv::Mat picture = cv::imread(far, cv::IMREAD_GRAYSCALE);
+  EXPECT_TRUE(std::equal(picture.datastart, picture.dataend, kept.further_views[1].grey.begin(),
+                         kept.further_views[1].grey.end()));
+  EXPECT_THAT(pose({turned}).err, HasSubstr("found in 1 of 1"));
+}
+
+TEST_F(TeachAndPose, TeachRefusesAFurtherPictureWithoutTheShirtByItsName) {
+  const std::string turned = folder.file("turned.png"), wall = folder.file("wall.png");
+  cv::imwrite(turned, TrueMotion{0.3, {0, 0, 0}}.picture(reference));
+  cv::imwrite(wall, cv::Mat(test::kHeight_px, test::kWidth_px, CV_8UC1, cv::Scalar(120)));
+  const Outcome outcome = teach({"--more", turned, wall});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err, "heel teach: --more " + wall + ": the shirt is not found: too few features\n");
+  EXPECT_FALSE(std::filesystem::exists(shirt));
+}
+
 TEST_F(TeachAndPose, TeachGivesTheSameTemplateThroughACameraAddress) {
   ASSERT_EQ(teach().status, 0);
   const std::string by_camera = folder.file("camera.heel");
