@@ -11,7 +11,7 @@ namespace {
 
 using test::robot_camera;
 
-constexpr TimeNs kFramePeriod_ns = kNsPerS / 30;
+constexpr TimeNs kNextFrame_ns = kNsPerS / 30;
 
 class TrackedBack : public ::testing::Test {
  protected:
@@ -21,7 +21,7 @@ class TrackedBack : public ::testing::Test {
   }
   /// The pose of `image` after a frame with the pose `last`.
   PoseEstimate tracked(const cv::Mat& image, const PoseEstimate& last) {
-    ExpectedView expected = estimator_.expected_view(last, last.t_capture_ns + kFramePeriod_ns);
+    ExpectedView expected = estimator_.expected_view(last, last.t_capture_ns + kNextFrame_ns);
     expected.tracking = true;
     return estimator_.estimate(test::view_of(image), expected);
   }
