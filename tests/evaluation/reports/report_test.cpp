@@ -149,7 +149,7 @@ TEST(Report, RefusesBadRecordingsInOneLineThatNamesThePlace) {
       {"truth.csv", replaced(truth, ",1000.2,", ",999.0,"), "truth.csv:4: t_monotonic_s goes back"},
       {"ticks.csv", replaced(ticks, ",1,following,0.5", ",1,following,fast"),
        "ticks.csv:3: command_v_m_s is 'fast' (expected a number)"},
-      {"poses.csv", replaced(poses, "1000.25", "1000,25"), "poses.csv:4: 20 cells (expected 19"},
+      {"poses.csv", replaced(poses, "1000.25", "1000,25"), "poses.csv:4: 21 cells (expected 20"},
       {"poses.csv", replaced(poses, "1000.25", "1000.2x"),
        "poses.csv:4: t_s is '1000.2x' (expected a number)"},
   };
