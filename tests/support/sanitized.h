@@ -2,6 +2,10 @@
 // times).
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 namespace heel::test {
 
 #if defined(__SANITIZE_THREAD__)
@@ -15,5 +19,13 @@ inline constexpr bool kSanitized = true;
 #else
 inline constexpr bool kSanitized = false;
 #endif
+
+/// `cases`; under the sanitizers the first `count` of them.
+template <typename Case>
+std::vector<Case> fewer_if_sanitized(std::vector<Case> cases, std::size_t count) {
+  if (kSanitized)
+    cases.erase(cases.begin() + static_cast<std::ptrdiff_t>(std::min(count, cases.size())), cases.end());
+  return cases;
+}
 
 }  // namespace heel::test

@@ -16,6 +16,7 @@
 #include "loopback/daemon/scene.h"
 #include "support/full_notify_socket.h"
 #include "support/process.h"
+#include "support/sanitized.h"
 #include "support/temporary_folder.h"
 #include "support/text.h"
 
@@ -51,8 +52,8 @@ bool reloaded_and_ready(const std::vector<std::string>& messages) {
 
 /// The camera file lasts longer than any test waits.
 constexpr int kFramesOfALongFile = 4000;
-constexpr int kFramesOfAShortFile = 400;
-constexpr double kWatchdog_s = 2.0;     // of the P3-AT's firmware
+constexpr int kFramesOfAShortFile = test::kSanitized ? 100 : 400;  // 20 s, or 16 s
+constexpr double kWatchdog_s = 2.0;                                // of the P3-AT's firmware
 constexpr double kStopTimeout_s = 5.0;  // TimeoutStopSec of heeld.service: systemd then kills heeld
 
 class Heeld : public ::testing::Test {

@@ -8,6 +8,7 @@
 
 #include "support/allocation_count.h"
 #include "support/pose_bytes.h"
+#include "support/sanitized.h"
 #include "vision/pose/average_back.h"
 #include "vision/pose/frame_sequence.h"
 #include "vision/pose/rendered_back.h"
@@ -40,10 +41,11 @@ TEST(PoseTracker, TracksTheBackAcrossTheViewAsWellAsASearchOfTheWholeFrame) {
   PoseTracker tracker(taught, robot_camera(), flat_shirt_config());
   PoseEstimator everywhere(taught, robot_camera(), flat_shirt_config());
   double tracked_error_px = 0.0, whole_error_px = 0.0;
+  constexpr int kFrames = test::kSanitized ? 12 : 24;
   int frames = 0;
-  for (; frames < 24; ++frames) {
+  for (; frames < kFrames; ++frames) {
     // The back crosses the view at 0.9 rad/s, while it turns and moves away.
-    const double share = frames / 24.0;
+    const double share = static_cast<double>(frames) / kFrames;
     const double x = -0.35 + 0.7 * share, yaw_rad = 0.6 * std::sin(6.0 * share), depth = 0.9 + 0.5 * share;
     const Eigen::Matrix3d R = test::rotation(yaw_rad, 0.02, 0.0);
     const Eigen::Matrix3d truth = homography(R, t_over_d_for(R, x, depth));
@@ -156,7 +158,7 @@ TEST(PoseTracker, FindsInAPartWhatTheWholeFrameHides) {
   independent.tracking = false;
   PoseEstimator whole(taught, robot_camera(), config);
   PoseTracker by_itself(taught, robot_camera(), independent);
-  for (const double yaw_rad : {0.0, 0.6}) {
+  for (const double yaw_rad : test::fewer_if_sanitized<double>({0.0, 0.6}, 1)) {
     const cv::Mat image = small_and_pale(taught, yaw_rad);
     ASSERT_FALSE(whole.estimate(frame_at(image, 0)).found())
         << "the whole frame is enough: this test tests nothing";
@@ -177,7 +179,7 @@ TEST(PoseTracker, FindsInAPartWhatTheWholeFrameHides) {
 TEST(PoseTracker, FindsANearBackInTheSecondFrameAtTheLatest) {
   const ShirtTemplate taught = shirt();
   const cv::Mat clutter = texture(9, 640, 480), view = seen(taught, 0.1, 0.0, 1.2);
-  for (int empty = 0; empty < 4; ++empty) {
+  for (int empty = 0; empty < (test::kSanitized ? 2 : 4); ++empty) {
     PoseTracker tracker(taught, robot_camera(), heel::VisionConfig{});
     for (int number = 0; number < empty; ++number)
       ASSERT_FALSE(tracker.estimate(frame_at(clutter, number)).found());
