@@ -1,5 +1,6 @@
 #include "vision/pose/surface_matcher.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 

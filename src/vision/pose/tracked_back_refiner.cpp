@@ -1,5 +1,6 @@
 #include "vision/pose/tracked_back_refiner.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,7 @@ namespace heel::sim {
 namespace {
 
 using test::exact_settings;
+using test::Received;
 using test::VirtualClient;
 
 using arcos::CommandId;

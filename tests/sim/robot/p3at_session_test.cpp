@@ -7,6 +7,7 @@ namespace {
 
 using test::exact_settings;
 using test::from_hex;
+using test::Received;
 using test::VirtualClient;
 
 using arcos::CommandId;

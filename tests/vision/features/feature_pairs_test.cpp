@@ -15,6 +15,7 @@ namespace heel {
 namespace {
 
 using test::BlobField;
+using test::image_of;
 using test::load_oxford_pair;
 using test::oxford_folder;
 using test::OxfordPair;

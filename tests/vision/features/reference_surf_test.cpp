@@ -31,6 +31,7 @@ namespace {
 using test::Blob;
 using test::BlobField;
 using test::box_sum;
+using test::image_of;
 using test::noise_image;
 using test::reference_descriptor;
 using test::reference_hessian;
