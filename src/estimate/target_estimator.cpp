@@ -96,12 +96,14 @@ MeasurementStatus TargetEstimator::update(const PoseEstimate& pose) {
     const Eigen::Matrix<double, 1, 1> d_yaw(wrap_angle_rad(back.yaw_rad - yaw_.position()(0)));
     const Eigen::Matrix<double, 1, 1> R_yaw(back.yaw_sigma_rad * back.yaw_sigma_rad);
     const double gate = settings_.outlier_sigma * settings_.outlier_sigma;
-    const bool outlier = position_.distance_squared(d_position, back.R_position) > gate ||
-                         yaw_.distance_squared(d_yaw, R_yaw) > gate;
+    const bool elsewhere = position_.distance_squared(d_position, back.R_position) > gate;
+    const bool outlier = elsewhere || yaw_.distance_squared(d_yaw, R_yaw) > gate;
+    // This filter weighs the yaw by itself. With the gate, one frame more or less would change its states for
+    // seconds.
+    if (!elsewhere) travel_.correct(swaying);
     if (!outlier) {
       position_.correct(d_position, back.R_position);
       yaw_.correct(d_yaw, R_yaw);
-      travel_.correct(swaying);
       outliers_in_a_row_ = 0;
     } else if (++outliers_in_a_row_ >= settings_.outliers_to_reset) {
       start(back);

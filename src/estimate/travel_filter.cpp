@@ -29,6 +29,9 @@ constexpr double kFastestGait_m_s = 2.0;
 constexpr double kBackBiasSigma_rad = 2.0 * kRadPerDeg;
 constexpr double kClothBiasSigma_rad = 1.5 * kRadPerDeg;
 constexpr double kBiasMemory_s = 40.0;
+// Farther off than three deviations of both, the back does not point along the path: the person does not walk
+// forwards.
+constexpr double kBiasLimit_rad = 7.5 * kRadPerDeg;
 // Vision's errors in a walk: correlation 0.6 after 67 ms.
 constexpr double kClothMemory_s = 0.13;
 constexpr double kYawNoise_rad = 0.7 * kRadPerDeg;
@@ -220,6 +223,16 @@ void TravelFilter::correct(const BackMeasurement& back) {
   state_ += W * difference;
   P_ = (P_ - W * S * W.transpose()).eval();
   P_ = (0.5 * (P_ + P_.transpose())).eval();
+  limit_bias();
+}
+
+/// The most probable state with a bias within the limit (D. Simon, "Optimal State Estimation", 2006, section
+/// 7.5: projection by P). Continuous in the state.
+void TravelFilter::limit_bias() {
+  const double bias_rad = state_(kBackBias) + state_(kClothBias);
+  const double excess_rad = bias_rad - std::clamp(bias_rad, -kBiasLimit_rad, kBiasLimit_rad);
+  const State with_bias = P_.col(kBackBias) + P_.col(kClothBias);
+  state_ -= excess_rad / (with_bias(kBackBias) + with_bias(kClothBias)) * with_bias;
 }
 
 DirectionEstimate TravelFilter::travel(double ahead_s) const {

@@ -31,6 +31,8 @@
 // section 10.3.3).
 //
 // "Forwards" is where the chest points: of a person who steps aside or walks backwards the filter gives that.
+// The estimated bias a + b is limited to three of its deviations: a displacement that keeps on not to fit the
+// back, of a person who steps aside fast or by an error of the odometry, turns psi by no more than that.
 #pragma once
 
 #include <Eigen/Core>
@@ -95,6 +97,7 @@ class TravelFilter {
   void add_noise(double dt_s, const Eigen::Vector2d& t, const Matrix& F, double acceleration_sigma_m_s2);
   Innovation innovation(const BackMeasurement& back) const;
   Observation observation(const BackMeasurement& back) const;
+  void limit_bias();
 
   State state_ = State::Zero();
   Matrix P_ = Matrix::Identity();
