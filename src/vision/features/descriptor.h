@@ -8,10 +8,18 @@
 // wavelet of the paper and gives more correct matches.
 #pragma once
 
+#include <cmath>
+
 #include "heel/features.h"
 #include "vision/features/integral_image.h"
 
 namespace heel {
+
+/// How far from the centre of a feature its orientation and its descriptor read the image: grid lines lie up
+/// to 13 sigma away, or, rotated, 12 √2 sigma and half a box.
+inline int descriptor_reach_px(float sigma_px, bool upright) {
+  return static_cast<int>(std::ceil((upright ? 13.f : 18.f) * sigma_px)) + 2;
+}
 
 /// Rotated by feature.angle_rad unless `upright`. Order: subregion row, subregion column, (Σdx, Σdy, Σ|dx|,
 /// Σ|dy|). All zero where the image is uniform.

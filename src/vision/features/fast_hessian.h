@@ -30,9 +30,22 @@ constexpr BoxFilter octave_filter(int octave, int layer) {
   return BoxFilter{(2 << octave) * (layer + 1) + 1};
 }
 
+/// Of all keypoints: half-way between the last two layers.
+constexpr float largest_sigma_px(int octaves) {
+  const int sides = octave_filter(octaves - 1, kLayersPerOctave - 2).side() +
+                    octave_filter(octaves - 1, kLayersPerOctave - 1).side();
+  return 0.5f * BoxFilter::kSigmaPerSide * static_cast<float>(sides);
+}
+
 class FastHessian {
  public:
   explicit FastHessian(int max_width_px);
+
+  /// How far beyond the region detection reads the image: a keypoint is found at a sample up to two steps
+  /// away, and compared with that sample's neighbours.
+  static constexpr int reach_px(int octaves) {
+    return octave_filter(octaves - 1, kLayersPerOctave - 1).half() + 1 + 3 * (1 << (octaves - 1));
+  }
 
   /// Adds the keypoints whose centre lies in `region` (inside the image) and whose sigma lies in the
   /// settings' range; layers out of that range are not computed.

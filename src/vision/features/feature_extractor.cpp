@@ -30,11 +30,18 @@ Region clipped(const Region& region, int width_px, int height_px) {
   return {x0, y0, x1 - x0, y1 - y0};
 }
 
-Region with_border(const Region& region, int width_px, int height_px) {
-  constexpr int kBorder_px = UpsampledRegion::kBorder_px;
-  return clipped({region.x_px - kBorder_px, region.y_px - kBorder_px, region.width_px + 2 * kBorder_px,
-                  region.height_px + 2 * kBorder_px},
+/// Inside the image.
+Region with_border(const Region& region, int border_px, int width_px, int height_px) {
+  return clipped({region.x_px - border_px, region.y_px - border_px, region.width_px + 2 * border_px,
+                  region.height_px + 2 * border_px},
                  width_px, height_px);
+}
+
+/// How far from the centre of a feature its detection, orientation and description read the image.
+int reach_px(const FeatureSettings& settings) {
+  const float largest_px = std::min(settings.sigma_max_px, largest_sigma_px(settings.octaves));
+  return std::max(FastHessian::reach_px(settings.octaves),
+                  descriptor_reach_px(largest_px, !settings.oriented));
 }
 
 void check_settings(const FeatureSettings& settings) {
@@ -134,7 +141,7 @@ void FeatureExtractor::extract(const FrameView& frame, const Region& region, Fea
                 std::to_string(s.max_height_px) + " prepared for");
   const Region searched = clipped(region, width_px, height_px);
   if (frame.grey == nullptr || searched.width_px == 0 || searched.height_px == 0) return;
-  const Region part = with_border(searched, width_px, height_px);
+  const Region part = with_border(searched, UpsampledRegion::kBorder_px, width_px, height_px);
   if (s.settings.upsample && s.upsampled.has_room_for(part))
     return s.extract_upsampled(frame, searched, part, out);
   s.extract(frame, searched, s.settings, out);
@@ -142,7 +149,8 @@ void FeatureExtractor::extract(const FrameView& frame, const Region& region, Fea
 
 void FeatureExtractor::Impl::extract(const FrameView& view, const Region& region,
                                      const FeatureSettings& wanted, FeatureSet& out) {
-  integral.compute(view);
+  integral.compute(view, with_border(region, reach_px(wanted), static_cast<int>(view.header.width_px),
+                                     static_cast<int>(view.header.height_px)));
   mark(times, VisionStage::Integral);
   selection.start(wanted.threshold);
   hessian.detect(integral, region, wanted, selection);

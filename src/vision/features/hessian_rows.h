@@ -23,8 +23,8 @@ struct BoxFilter {
   int lobe = 3;
 
   static constexpr float kSigmaPerSide = 1.2f / 9.f;
-  int side() const { return 3 * lobe; }
-  int half() const { return (3 * lobe - 1) / 2; }  ///< pixels to each side of its centre
+  constexpr int side() const { return 3 * lobe; }
+  constexpr int half() const { return (3 * lobe - 1) / 2; }  ///< pixels to each side of its centre
 };
 
 /// Differences of rows of the integral image, which all boxes of one filter along a row share.

@@ -69,12 +69,20 @@ IntegralImage::IntegralImage(int max_width_px, int max_height_px) : stride_(padd
 }
 
 void IntegralImage::compute(const FrameView& frame) {
+  compute(frame, {0, 0, static_cast<int>(frame.header.width_px), static_cast<int>(frame.header.height_px)});
+}
+
+void IntegralImage::compute(const FrameView& frame, const Region& part) {
   width_px_ = static_cast<int>(frame.header.width_px);
   height_px_ = static_cast<int>(frame.header.height_px);
-  for (int y = 0; y < height_px_; ++y) {
-    std::uint32_t* below = sums_.get() + static_cast<std::size_t>(y + 1) * stride_;
-    HWY_DYNAMIC_DISPATCH(IntegralRow)
-    (frame.grey + static_cast<std::size_t>(y) * frame.stride_bytes, row(y) + 1, below + 1, width_px_);
+  const auto first = static_cast<std::size_t>(part.x_px);
+  std::uint32_t* above = sums_.get() + static_cast<std::size_t>(part.y_px) * stride_ + first;
+  const std::uint8_t* grey = frame.grey + static_cast<std::size_t>(part.y_px) * frame.stride_bytes + first;
+  std::fill_n(above, part.width_px + 1, 0U);
+  for (int y = 0; y < part.height_px; ++y, above += stride_, grey += frame.stride_bytes) {
+    std::uint32_t* const below = above + stride_;
+    below[0] = 0;
+    HWY_DYNAMIC_DISPATCH(IntegralRow)(grey, above + 1, below + 1, part.width_px);
   }
 }
 

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "heel/features.h"
 #include "heel/flow.h"
 
 namespace heel {
@@ -26,6 +27,9 @@ class IntegralImage {
 
   /// `frame` must not be larger than the constructor's sizes.
   void compute(const FrameView& frame);
+  /// Only of `part`, which lies inside the frame: the sums begin at its first row and column, so the
+  /// difference of four of them is the same. Rows and columns outside are undefined.
+  void compute(const FrameView& frame, const Region& part);
 
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
