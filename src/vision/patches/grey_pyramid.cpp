@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/patches/affine_samples.h"
+
 namespace heel {
 namespace {
 
@@ -65,22 +67,7 @@ bool GreyPyramid::sample(const Eigen::Vector2d& centre_px, const Eigen::Matrix2d
   if (!((centre - extent).minCoeff() >= 0.0) || !(last.x() < level.width_px - 1.01) ||
       !(last.y() < level.height_px - 1.01))
     return false;
-  const float step_x = static_cast<float>(step(0, 0)), step_y = static_cast<float>(step(1, 0));
-  float* value = out.data();
-  for (int row = 0; row < side; ++row) {
-    const Eigen::Vector2d first = centre - reach * step.col(0) + (row - reach) * step.col(1);
-    const float first_x = static_cast<float>(first.x()), first_y = static_cast<float>(first.y());
-    for (int column = 0; column < side; ++column) {
-      const float x = first_x + static_cast<float>(column) * step_x;
-      const float y = first_y + static_cast<float>(column) * step_y;
-      const int ix = static_cast<int>(x), iy = static_cast<int>(y);
-      const float fx = x - static_cast<float>(ix), fy = y - static_cast<float>(iy);
-      const float* p = level.grey.data() + static_cast<std::ptrdiff_t>(iy) * level.width_px + ix;
-      const float upper = p[0] + fx * (p[1] - p[0]);
-      const float lower = p[level.width_px] + fx * (p[level.width_px + 1] - p[level.width_px]);
-      *value++ = upper + fy * (lower - upper);
-    }
-  }
+  sample_affine(level.grey.data(), level.width_px, centre, step, side, out.data());
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "support/allocation_count.h"
+#include "support/each_simd_target.h"
 #include "vision/features/test_image.h"
 
 namespace heel {
@@ -95,6 +96,25 @@ TEST(PatchAligner, FindsPatchesWhereAnAffineMapPutsThem) {
       if ((patch.px - view.place(aligner.centres_px()[patch.patch])).norm() < 0.12) ++precise;
     EXPECT_GT(precise, 0.9 * static_cast<double>(found.size())) << view.cur_from_ref;
   }
+}
+
+TEST(PatchAligner, EveryInstructionSetFindsTheSame) {
+  const PatchAligner aligner(printed(), PatchSettings{});
+  const AffineView view{matrix(0.8, 0.1, -0.05, 0.95), {-4.4, 3.2}, 0.8, 20.0};
+  const TestImage image = view.image();
+  const std::vector<PredictedPatch> predicted = view.predicted(aligner, {1.4, -1.1});
+  std::vector<AlignedPatch> expected;
+  test::for_each_simd_target([&] {
+    const std::vector<AlignedPatch> found = aligned(aligner, image, predicted);
+    ASSERT_FALSE(found.empty());
+    if (expected.empty()) expected = found;
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].patch, expected[i].patch);
+      EXPECT_EQ(found[i].px, expected[i].px);
+      EXPECT_EQ(found[i].information, expected[i].information);
+    }
+  });
 }
 
 TEST(PatchAligner, FindsNothingInAnotherPrintNorInAPlainPicture) {
