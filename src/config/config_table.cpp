@@ -101,10 +101,10 @@ const ConfigKey kKeys[] = {
     number(HEEL_KEY(estimate, outliers_to_reset), "frames", {1, 100}, Yes, "Outliers in a row after which the estimate restarts from the last one."),
 
     number(HEEL_KEY(control, rate_hz), "Hz", {10, 200}, No, "Control ticks, and velocity commands, per second."),
-    choice(HEEL_KEY(control, law), "view|position", No, "The control law: view drives to the pose from which the template was taken, behind the person in their walking direction; position uses the person's position only and is the base line for comparisons."),
+    choice(HEEL_KEY(control, law), "view|position", No, "The control law: view drives to the pose from which the template was taken, behind the person in their direction of travel; position uses the person's position only and is the base line for comparisons."),
     number(HEEL_KEY(control, gain_distance_1_s), "1/s", {0, 10}, Yes, "Speed per metre of distance error (t_z)."),
     number(HEEL_KEY(control, gain_lateral_rad_s_m), "rad/s/m", {0, 10}, Yes, "Yaw rate per metre of sideways error (t_x)."),
-    number(HEEL_KEY(control, gain_yaw_1_s), "1/s", {0, 10}, Yes, "Yaw rate per radian between the robot's heading and the person's walking direction, with the law view; the law position chooses this gain itself."),
+    number(HEEL_KEY(control, gain_yaw_1_s), "1/s", {0, 10}, Yes, "Yaw rate per radian between the robot's heading and the person's direction of travel, with the law view; the law position chooses this gain itself."),
     number(HEEL_KEY(control, setpoint_t_z_m), "m", {-5, 10}, Yes, "Added to the template's distance; positive follows from farther away."),
     number(HEEL_KEY(control, setpoint_t_x_m), "m", {-5, 5}, Yes, "Sideways offset; positive drives to the left of the person."),
     number(HEEL_KEY(control, setpoint_yaw_rad), "rad", {-1.2, 1.2}, Yes, "Direction from which to follow; positive moves the robot around the person to their right side, still facing the person."),

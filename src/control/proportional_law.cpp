@@ -52,7 +52,7 @@ double ProportionalLaw::speed_m_s(const TargetState& target) const {
 }
 
 double ProportionalLaw::proportional_yaw_rate_rad_s(const TargetState& target) const {
-  const double psi_rad = wrap_angle_rad(target.yaw_rad + gains_.setpoint_yaw_rad);
+  const double psi_rad = wrap_angle_rad(target.travel_yaw_rad + gains_.setpoint_yaw_rad);
   const double yaw_1_s = yaw_gain_ == YawGain::CancelsYaw
                              ? gains_.lateral_rad_s_m * distance_behind_m(target, psi_rad)
                              : gains_.yaw_1_s;

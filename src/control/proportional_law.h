@@ -3,8 +3,9 @@
 //
 // "view" (M. Burke, W. Brink, "Estimating Target Orientation with a Single Camera for Use in a
 // Human-Following Robot", PRASA 2010, section IV), written in the robot frame: the goal (g_x, g_y) is where
-// the robot's centre has the reference view, and psi is the heading to have there (counter-clockwise +). The
-// errors in the image are t_z = g_x, t_x = −g_y, yaw = −psi, and
+// the robot's centre has the reference view, and psi is the heading to have there (counter-clockwise +): the
+// direction of travel, because the yaw of the back itself would turn the robot from side to side with each
+// stride. The errors in the image are t_z = g_x, t_x = −g_y, yaw = −psi, and
 //
 //   v     = k_z g_x
 //   omega = −k_x t_x − k_yaw yaw = k_x g_y + k_yaw psi
@@ -14,12 +15,13 @@
 // person and cuts every bend.
 //
 // Which k_yaw makes "view" walk round a bend on the person's own path follows from the bend. With the robot D
-// behind the person on the same arc of radius R, psi = D/R and g_y = (D/R)(D/2 − d), and omega must be V/R:
+// behind the person's back on the same arc of radius R, and the axis of the body, whose direction of travel
+// is estimated, l ahead of the back: psi = (D + l)/R and g_y = D²/(2R) − d psi, and omega must be V/R:
 //
-//   k_yaw = V/D + k_x (d − D/2)
+//   k_yaw = (V − k_x D²/2)/(D + l) + k_x d
 //
-// for every R. The default is that value for k_x = 1, a template taken at 1.5 m and a fast 0.5 m/s (robot's
-// centre to back: d = 1.65 m, and with the lag V / k_z, D = 2.2 m).
+// for every R. The default is that value for k_x = 1, l = 0.12 m, a template taken at 1.5 m and a fast 0.5
+// m/s (robot's centre to back: d = 1.65 m, and with the lag V / k_z, D = 2.2 m).
 //
 // Stability, linearised about a person who walks straight at V, with the robot on their line at heading error
 // theta and offset e (left +). In steady state v = V, so that the goal is G = V / k_z ahead, and

@@ -49,7 +49,7 @@ struct ControlConfig {
   std::string law = "view";           ///< name of the control law
   double gain_distance_1_s = 1.0;     ///< v = gain · t_z error (m → m/s)
   double gain_lateral_rad_s_m = 1.0;  ///< yaw rate from t_x error
-  double gain_yaw_1_s = 0.8;    ///< yaw rate from yaw error; control/proportional_law.h says how it is chosen
+  double gain_yaw_1_s = 0.82;   ///< yaw rate from yaw error; control/proportional_law.h says how it is chosen
   double setpoint_t_z_m = 0.0;  ///< added to the template's distance: + follows from farther away
   double setpoint_t_x_m = 0.0;  ///< + drives to the left of the person
   double setpoint_yaw_rad =

@@ -139,12 +139,14 @@ TargetState TargetEstimator::predict(TimeNs now_ns) const {
   const DirectionEstimate stride = travel_.stride();
   const double travel_yaw_rad = wrap_angle_rad(travel.angle_rad - robot->heading_rad);
 
-  // At the goal the camera has the person where the reference view has them, moved by the set points. The
-  // mount leads from the camera to the robot's centre.
+  // At the goal the camera has the person where the reference view has them, moved by the set points, and the
+  // robot heads in the direction of travel: that of the back would swing the goal with each stride. The mount
+  // leads from the camera to the robot's centre.
   const Eigen::Vector2d person_from_camera_m =
       in_reference_view_m_ + Eigen::Vector2d(set_points_.t_z_m, -set_points_.t_x_m);
   const Eigen::Vector2d person_from_robot_m = person_from_camera_m + Eigen::Vector2d(mount_.x_m, mount_.y_m);
-  const Eigen::Vector2d goal_m = position_m - rotation(yaw_rad + set_points_.yaw_rad) * person_from_robot_m;
+  const Eigen::Vector2d goal_m =
+      position_m - rotation(travel_yaw_rad + set_points_.yaw_rad) * person_from_robot_m;
 
   target.known = true;
   target.t_capture_ns = t_capture_ns_;

@@ -32,7 +32,7 @@ class FollowLawTest : public ::testing::TestWithParam<std::string> {
     t.known = true;
     t.x_m = range_m * std::cos(bearing_rad);
     t.y_m = range_m * std::sin(bearing_rad);
-    t.yaw_rad = yaw_rad;
+    t.travel_yaw_rad = yaw_rad;
     t.goal_x_m = t.x_m - kBehind_m * std::cos(yaw_rad);
     t.goal_y_m = t.y_m - kBehind_m * std::sin(yaw_rad);
     return t;
@@ -72,9 +72,10 @@ TEST_P(FollowLawTest, IsBoundedForEveryTarget) {
     const TargetState target = any_target(random);
     const WantedVelocity wanted = velocity(*law, target);
     // A law may want more than the gate allows, but within bounds.
-    ASSERT_LE(std::abs(wanted.v_m_s), 15.0) << target.x_m << " " << target.y_m << " " << target.yaw_rad;
+    ASSERT_LE(std::abs(wanted.v_m_s), 15.0)
+        << target.x_m << " " << target.y_m << " " << target.travel_yaw_rad;
     ASSERT_LE(std::abs(wanted.yaw_rate_rad_s), 35.0)
-        << target.x_m << " " << target.y_m << " " << target.yaw_rad;
+        << target.x_m << " " << target.y_m << " " << target.travel_yaw_rad;
   }
 }
 

@@ -27,7 +27,7 @@ struct Law {
     t.known = true;
     t.x_m = x_m;
     t.y_m = y_m;
-    t.yaw_rad = yaw_rad;
+    t.travel_yaw_rad = yaw_rad;
     const double behind_m = kDistance_m + mount().x_m;
     t.goal_x_m = x_m - behind_m * std::cos(yaw_rad + config.control.setpoint_yaw_rad);
     t.goal_y_m = y_m - behind_m * std::sin(yaw_rad + config.control.setpoint_yaw_rad);

@@ -161,7 +161,7 @@ TEST(TargetEstimator, TheDirectionOfTravelOfAPersonWhoStandsIsTheYawOfTheBack) {
   EXPECT_LT(target.stride_yaw_sigma_rad, target.travel_yaw_sigma_rad);
 }
 
-TEST(TargetEstimator, TheDirectionOfTravelDoesNotSwingWithTheBack) {
+TEST(TargetEstimator, TheDirectionOfTravelAndTheGoalDoNotSwingWithTheBack) {
   Scene scene;
   scene.person_v_m_s = 0.8;
   scene.v_m_s = 0.8;
@@ -172,17 +172,20 @@ TEST(TargetEstimator, TheDirectionOfTravelDoesNotSwingWithTheBack) {
     pose.t_capture_ns = scene.now_ns;
   };
   scene.run(5.0);
-  double back_rad = 0.0, travel_rad = 0.0, stride_rad = 0.0;
+  double back_rad = 0.0, travel_rad = 0.0, stride_rad = 0.0, goal_m = 0.0;
   for (int i = 0; i < 300; ++i) {
     scene.run(0.01);
     const TargetState target = scene.estimator.predict(scene.now_ns);
     back_rad = std::max(back_rad, std::abs(target.yaw_rad));
     travel_rad = std::max(travel_rad, std::abs(target.travel_yaw_rad));
     stride_rad = std::max(stride_rad, std::abs(target.stride_yaw_rad));
+    goal_m = std::max(goal_m, std::abs(target.goal_y_m));
   }
+  const double behind_m = scene.reference.distance_m() + mount_of(scene.config.camera).x_m;
   EXPECT_GT(back_rad, 0.1);
   EXPECT_LT(travel_rad, 0.04);
   EXPECT_LT(stride_rad, 0.015);
+  EXPECT_LT(goal_m, 0.04 * behind_m);
 }
 
 TEST(TargetEstimator, RejectsOneOutlier) {
