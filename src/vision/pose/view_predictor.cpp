@@ -21,6 +21,8 @@ constexpr double kScaleMargin = 1.2;  // the template's distance is measured by 
 constexpr double kViewMargin = 0.1;
 constexpr double kViewScaleMargin = 1.3;
 constexpr double kApproach_1_s = 1.0;
+// A candidate may lie beside its back by a quarter of its longer side, and look smaller than it is.
+constexpr double kCandidateMargin = 0.4, kCandidateScaleMargin = 1.43;
 constexpr double kBudgetWidth_px = 640.0;
 // Larger features are found in the whole frame.
 constexpr double kLargestInPart_px = 3.0;
@@ -76,12 +78,28 @@ ViewPredictor::ViewPredictor(const ReferenceView& reference, const CameraModel& 
 }
 
 ExpectedView ViewPredictor::near(const Eigen::Matrix3d& H_cur_from_ref, double dt_s) const {
+  const Eigen::AlignedBox2d box = outline_box(H_cur_from_ref);
+  const double moved_px = tracking_rate_rad_s_ * dt_s * std::max(camera_.fx, camera_.fy);
+  return around(H_cur_from_ref, box, kViewMargin * box.sizes() + Eigen::Vector2d::Constant(moved_px),
+                kViewScaleMargin * (1.0 + kApproach_1_s * dt_s));
+}
+
+ExpectedView ViewPredictor::near_candidate(const Eigen::Matrix3d& H_cur_from_ref) const {
+  const Eigen::AlignedBox2d box = outline_box(H_cur_from_ref);
+  return around(H_cur_from_ref, box, Eigen::Vector2d::Constant(kCandidateMargin * box.sizes().maxCoeff()),
+                kCandidateScaleMargin);
+}
+
+/// Of the template under H, in the frame.
+Eigen::AlignedBox2d ViewPredictor::outline_box(const Eigen::Matrix3d& H_cur_from_ref) const {
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& corner : reference_.outline_px)
     box.extend(camera_.distort_px((H_cur_from_ref * corner.homogeneous()).hnormalized()));
-  const double moved_px = tracking_rate_rad_s_ * dt_s * std::max(camera_.fx, camera_.fy);
-  const Eigen::Vector2d margin_px = kViewMargin * box.sizes() + Eigen::Vector2d::Constant(moved_px);
+  return box;
+}
 
+ExpectedView ViewPredictor::around(const Eigen::Matrix3d& H_cur_from_ref, const Eigen::AlignedBox2d& box,
+                                   const Eigen::Vector2d& margin_px, double scale_margin) const {
   ExpectedView view;
   const Eigen::Vector2d first = (box.min() - margin_px).array().floor();
   const Eigen::Vector2d size = (box.sizes() + 2.0 * margin_px).array().ceil();
@@ -95,7 +113,6 @@ ExpectedView ViewPredictor::near(const Eigen::Matrix3d& H_cur_from_ref, double d
     smallest_px = std::min(smallest_px, sigma_px);
     largest_px = std::max(largest_px, sigma_px);
   }
-  const double scale_margin = kViewScaleMargin * (1.0 + kApproach_1_s * dt_s);
   view.sigma_min_px = std::max(whole_frame_.sigma_min_px, smallest_px / scale_margin);
   view.sigma_max_px = std::min(whole_frame_.sigma_max_px, largest_px * scale_margin);
   view.upsample = is_small(H_cur_from_ref);

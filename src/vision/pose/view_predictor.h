@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "heel/camera_model.h"
 #include "heel/features.h"
@@ -53,11 +54,17 @@ class ViewPredictor {
   /// The bounding box of the outline and the sizes of the features under H, with a margin for what may have
   /// changed in `dt_s`.
   ExpectedView near(const Eigen::Matrix3d& H_cur_from_ref, double dt_s) const;
+  /// The same for a rough pose in this frame, whose error is a share of the back's size.
+  ExpectedView near_candidate(const Eigen::Matrix3d& H_cur_from_ref) const;
 
   /// True: the template is so small that few of its features are as large as the smallest filter.
   bool is_small(const Eigen::Matrix3d& H_cur_from_ref) const;
 
  private:
+  Eigen::AlignedBox2d outline_box(const Eigen::Matrix3d& H_cur_from_ref) const;
+  ExpectedView around(const Eigen::Matrix3d& H_cur_from_ref, const Eigen::AlignedBox2d& box,
+                      const Eigen::Vector2d& margin_px, double scale_margin) const;
+
   const ReferenceView& reference_;
   CameraModel camera_;
   double tracking_rate_rad_s_;

@@ -25,8 +25,6 @@ constexpr double kMinViewCertainty = 0.1;
 // candidates that are none, a tenth at most.
 constexpr double kMinAgreement = 0.2;
 constexpr std::size_t kMinPatches = 8;
-// A candidate is as uncertain as a pose of a tenth of a second ago.
-constexpr double kCandidateAge_s = 0.1;
 constexpr double kSmallerFeatures = 0.8;
 
 std::vector<TemplateView> views_of(const ShirtTemplate& shirt, const BackSurface& surface) {
@@ -79,7 +77,7 @@ ViewDetection ViewSearch::confirm(const FrameView& frame, const FrontalMotion& c
   detection.reason = PoseReason::ImplausibleShape;
   if (!plausible(H_candidate)) return detection;
 
-  ExpectedView near = predictor_.near(H_candidate, kCandidateAge_s);
+  ExpectedView near = predictor_.near_candidate(H_candidate);
   near.sigma_min_px = std::max(predictor_.whole_frame().sigma_min_px, kSmallerFeatures * near.sigma_min_px);
   const FeatureGrid& features = features_.find(frame, near, FrameFeatures::Search::CloserLook);
   const double magnification = near.upsample ? UpsampledRegion::kFactor : 1.0;

@@ -82,6 +82,10 @@ double FrameClock::frame_at(double t_s) const {
   return a.frame + (t_s - a.t_s) / (b.t_s - a.t_s) * (b.frame - a.frame);
 }
 
+int FrameClock::missing() const {
+  return frames_.back().frame - frames_.front().frame + 1 - static_cast<int>(frames_.size());
+}
+
 double FrameClock::oldest_view_s() const {
   double oldest_s = 0.0;
   for (std::size_t i = 1; i < frames_.size(); ++i)

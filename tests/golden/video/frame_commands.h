@@ -39,6 +39,8 @@ class FrameClock {
   std::size_t frames() const { return frames_.size(); }
   /// The greatest age of the newest frame that vision had finished.
   double oldest_view_s() const;
+  /// Frames between the first and the last one that vision did not look at.
+  int missing() const;
 
  private:
   struct Taken {
