@@ -115,6 +115,21 @@ TEST(ArcosSessionConnect, MotorsAlreadyOnAreDrivenOnlyAfterZeroHasBeenSent) {
   EXPECT_EQ(speeds.back().value, 500);
 }
 
+// At 9600 baud the zero and ENABLE do not fit into one tick, and a packet that says "on" arrives between
+// them.
+TEST(ArcosSessionConnect, MotorsAlreadyOnAreDrivenOnlyAfterZeroHasBeenSentOnASlowLine) {
+  SessionBench bench(bench_config("serial:/dev/ttyUSB0@9600"));
+  bench.robot.baud = 9600;
+  bench.robot.sip_period_ns = test::kTick_ns;
+  bench.robot.set_flag(arcos::kFlagMotorsEnabled, true);
+  bench.v_m_s = 0.5;
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+  ASSERT_FALSE(bench.robot.received(CommandId::Vel).empty()) << "the zero is still waiting";
+  EXPECT_EQ(bench.robot.received(CommandId::Vel)[0].value, 0);
+  EXPECT_FALSE(bench.robot.received(CommandId::RVel).empty());
+  EXPECT_FALSE(bench.robot.received(CommandId::Enable).empty());
+}
+
 TEST(ArcosSessionBaud, FindsTheRateTheRobotWasLeftAt) {
   for (const int baud : kRobotBauds) {
     SessionBench bench(bench_config("serial:/dev/ttyUSB0@38400"));

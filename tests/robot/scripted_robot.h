@@ -42,8 +42,9 @@ class ScriptedRobot {
   int host_bauds_to_follow = 100;
   int unheard_at = 0;              ///< a rate at which nothing it says arrives
   int last_echoes_to_swallow = 0;  ///< of SYNC2
-  std::string_view junk;           ///< sent before the first echo
-  arcos::Sip sip;                  ///< what it says of itself
+  TimeNs sip_period_ns = 100 * kNsPerMs;
+  std::string_view junk;  ///< sent before the first echo
+  arcos::Sip sip;         ///< what it says of itself
   arcos::ConfigPacket config;
 
   // What it received and sent.
@@ -69,7 +70,7 @@ class ScriptedRobot {
 
   /// The bytes that it sends now. Call it often.
   Bytes speak(TimeNs now_ns) {
-    if (open && now_ns - t_sip_ns_ >= 100 * kNsPerMs) {
+    if (open && now_ns - t_sip_ns_ >= sip_period_ns) {
       t_sip_ns_ = now_ns;
       say(arcos::encode_sip(sip));
     }
