@@ -45,7 +45,7 @@ enum class PoseReason : std::uint8_t {
   Found,
   TooFewFeatures,    ///< the frame has fewer than four features in the scale range
   TooFewMatches,     ///< fewer than four pairs survived sign, ratio and mutual check
-  NoHomography,      ///< no sample of four pairs has more support than itself
+  NoHomography,      ///< no homography is supported by more than the four pairs it was made from
   TooFewInliers,     ///< certainty or number of inliers below the configured minimum
   ImplausibleShape,  ///< the template's outline is mirrored, folded, or far too large or small
   NoValidMotion,     ///< no decomposition puts the shirt in front of both cameras, facing the camera
@@ -69,7 +69,8 @@ struct PoseEstimate {
   std::uint32_t template_features = 0;
   std::uint32_t matches = 0;
   std::uint32_t inliers = 0;
-  double certainty = 0.0;  ///< inliers / template_features, 0…1
+  double certainty =
+      0.0;  ///< inliers / template_features, 0…1; both of the view by which the shirt was found
 
   /// About camera y; positive turns the walking direction to the image's right. PoseTracker filters it over
   /// the frames of a sequence.

@@ -98,8 +98,8 @@ MeasurementStatus TargetEstimator::update(const PoseEstimate& pose) {
     const double gate = settings_.outlier_sigma * settings_.outlier_sigma;
     const bool elsewhere = position_.distance_squared(d_position, back.R_position) > gate;
     const bool outlier = elsewhere || yaw_.distance_squared(d_yaw, R_yaw) > gate;
-    // This filter weighs the yaw by itself. With the gate, one frame more or less would change its states for
-    // seconds.
+    // The travel filter lowers the weight of a doubtful yaw itself. Without outliers a single frame would
+    // change its states for seconds.
     if (!elsewhere) travel_.correct(swaying);
     if (!outlier) {
       position_.correct(d_position, back.R_position);

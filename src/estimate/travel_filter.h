@@ -22,8 +22,9 @@
 //   m1, m2, m3 psi through three equal low passes: m3 is the mean direction of travel over the last stride.
 //              Frames during a turn correct it too, so that it is far better known than psi now.
 //
-//   measured position = p − l t(psi + s + a) + y n(psi)    t: unit vector in a direction, n: to the left of
-//   it measured yaw      = psi + s + a + b + sigma c          l: from the body's axis to the back
+//   measured position = p − l t(psi + s + a) + y n(psi)
+//   measured yaw      = psi + s + a + b + sigma c
+//   t(angle): unit vector in that direction; n: unit vector to its left; l: body axis to back
 //
 // The rate of strides follows from the speed, because step length over step rate is nearly the same for all
 // speeds of a person (N. Sekiya, H. Nagasaki, "Reproducibility of the walking patterns of normal young
@@ -31,8 +32,8 @@
 // section 10.3.3).
 //
 // "Forwards" is where the chest points: of a person who steps aside or walks backwards the filter gives that.
-// The estimated bias a + b is limited to three of its deviations: a displacement that keeps on not to fit the
-// back, of a person who steps aside fast or by an error of the odometry, turns psi by no more than that.
+// The estimated bias a + b is limited to three of its deviations: if the displacement disagrees with the back
+// for a long time (side steps, odometry errors), psi moves away from the back by at most that angle.
 #pragma once
 
 #include <Eigen/Core>

@@ -115,7 +115,7 @@ void run_bench_vision(const BenchVisionOptions& options) {
   report.source = input.source;
   report.frames = input.frames.empty() ? 0 : input.frames.size() - 1;
   report.size = {input.camera.width_px, input.camera.height_px};
-  // Beside the agreed pictures only: somebody's own ones and other sizes have nothing to do with it.
+  // Only with the built-in pictures.
   std::optional<evaluation::BenchInput> far_shirt;
   if (options.inputs.empty() && options.size.empty())
     far_shirt = evaluation::far_shirt_in_a_room(std::min(options.frames, kFarShirtFrames) + 1);
@@ -135,7 +135,7 @@ void add_bench_vision_command(CLI::App& bench) {
       "BFMatcher, findHomography and decomposeHomographyMat: thread CPU time, all in turns on every frame.\n"
       "Ratios are of medians; goals hold at 640x480. Without an input and a size, also searching in "
       "1920x1080\n"
-      "for a shirt of 85 pixels, beside cv::ORB(3000). Exit status 0 whatever is reached.");
+      "for a shirt of 85 pixels, beside cv::ORB(3000). The exit status is 0 even if a goal is missed.");
   command
       ->add_option("inputs", options->inputs,
                    "images, folders of images, videos to measure on (default: a person's walk through a\n"

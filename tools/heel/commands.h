@@ -4,9 +4,8 @@
 // How a command ends:
 //   returns                     exit status 0
 //   throws heel::Error          bad usage or input: one line "heel NAME: …" on stderr, exit status 2
-//   throws CLI::RuntimeError(1) it worked, and the answer is no (template refused, limit not met); the
-//   command has
-//                               already printed why
+//   throws CLI::RuntimeError(1) it worked and the answer is no (template refused, limit not met);
+//                               the command has printed the reason
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -5,11 +5,11 @@ namespace heel::cli {
 
 void add_criteria_options(CLI::App& command, evaluation::FollowCriteria& criteria) {
   command.add_option("--max-out-of-view-s", criteria.max_out_of_view_s,
-                     "limit: longest time in which the shirt is not found");
+                     "exit status 1 if the shirt is not found for longer");
   command.add_option("--max-rms-m", criteria.max_rms_m,
-                     "limit: RMS distance of the robot from the person's path");
+                     "exit status 1 if the RMS distance from the person's path is larger, metres");
   command.add_option("--min-path-m", criteria.min_robot_path_m,
-                     "limit: shortest distance that the robot must drive");
+                     "exit status 1 if the robot drives less, metres");
 }
 
 }  // namespace heel::cli

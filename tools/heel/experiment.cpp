@@ -220,7 +220,7 @@ void add_experiment_command(CLI::App& app) {
   command->add_option("-o,--out", options->out, "folder for CSV files and pictures")->required();
   command
       ->add_option("--repeats", options->repeats,
-                   "of each pose, in up to eight worlds; of `errors`: thousands of poses")
+                   "pictures of each pose, at most eight worlds; for `errors`: poses in thousands")
       ->check(CLI::Range(1, 1000));
   command->add_option("--seed", options->seed, "of `stills`: other persons, prints, folds and rooms")
       ->capture_default_str();

@@ -159,8 +159,9 @@ void add_teach_command(CLI::App& app) {
       "teach",
       "Makes a template from one view of the back of a shirt, with the camera square to the back, and says\n"
       "how well it can be followed. A shirt that cannot be followed is refused with the reason (exit status\n"
-      "1, nothing written). Of any other it measures, on pictures made from the view, how far and how far\n"
-      "turned the robot's camera will find it; a table has the pictures found of each distance and turn.");
+      "1, nothing written). For a usable shirt it measures, on pictures made from the view, at which "
+      "distances\n"
+      "and turns the robot's camera finds it, and prints a table: pictures found / pictures made.");
   command->add_option("--image", options->image, "photograph or video of the back")->type_name("I");
   command
       ->add_option("--camera", options->camera_address,

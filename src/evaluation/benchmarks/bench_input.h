@@ -24,11 +24,11 @@ struct BenchInput {
   std::vector<BenchFrame> frames;  ///< the first is for warming up only
 };
 
-/// The simulator's own camera, as wide, at any size.
+/// The simulator's camera with the same field of view at another size.
 CameraModel camera_of(cv::Size size);
 
 inline constexpr double kWorldRate_Hz = 30.0;
-/// What the simulated world is rendered for at most: the person's path is so long.
+/// Longest sequence: the person's path ends after this many frames.
 inline constexpr int kMaxWorldFrames = 600;
 
 /// A person walks a figure of eight through a cluttered room, the camera following, `size` pixels, 30 Hz. The

@@ -41,7 +41,7 @@ class Subject {
   /// Adds to the figure what else was found.
   virtual void complete(Figure& /*figure*/) const {}
 
-  /// For work that tells its stages.
+  /// Times of the stages, for subjects that have stages.
   StageTimes* stage_times() { return &stage_times_; }
 
  private:

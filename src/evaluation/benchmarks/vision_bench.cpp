@@ -13,13 +13,13 @@ namespace {
 // The cost models were measured where cv::ORB(1000) took this long at 640 × 480.
 constexpr double kModelOrb_ms = 7.1;
 
-/// All of them, and the two that know more than their times.
-struct Field {
+/// Every subject that is timed; search and tracking also report what they found.
+struct AllSubjects {
   Subjects subjects;
   const PipelineSubject* search = nullptr;
   const PipelineSubject* tracking = nullptr;
 
-  explicit Field(const BenchInput& input) {
+  explicit AllSubjects(const BenchInput& input) {
     std::unique_ptr<PipelineSubject> searcher = search_subject(input), tracker = tracking_subject(input);
     search = searcher.get();
     tracking = tracker.get();
@@ -36,8 +36,8 @@ struct Field {
   }
 };
 
-/// Every frame is gone through in another order, so that nobody always finds the caches as the same
-/// predecessor leaves them.
+/// The order of the subjects changes with each frame, so that none always runs after the same one, with the
+/// same contents of the caches.
 void run_all(Subjects& subjects, std::size_t frames, const std::function<void(std::size_t)>& progress) {
   for (auto& subject : subjects) subject->warm_up(0);
   for (std::size_t frame = 1; frame < frames; ++frame) {
@@ -93,7 +93,7 @@ VisionBench measure_vision(const BenchInput& input, const BenchInput* far_shirt,
   if (input.frames.size() < 2)
     throw Error(input.source + ": frames: " + std::to_string(input.frames.size()) +
                 " (expected 2 or more, the first for warming up)");
-  Field field(input);
+  AllSubjects field(input);
   const auto wall_begin = std::chrono::steady_clock::now();
   const TimeNs cpu_begin_ns = thread_cpu_ns();
   run_all(field.subjects, input.frames.size(), progress);

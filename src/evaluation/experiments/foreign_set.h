@@ -1,4 +1,4 @@
-// A set of pictures of people in printed T-shirts, from behind, with truth, that owes nothing to heel:
+// A set of pictures of people in printed T-shirts, from behind, with truth, made without any part of heel:
 // bodies, cloth, walks, prints and renderer of others. FOLDER/images, FOLDER/truth.csv, FOLDER/camera.yaml.
 // The sets are not part of heel (HEEL_TEST_DATA).
 #pragma once

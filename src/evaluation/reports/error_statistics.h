@@ -1,4 +1,5 @@
-// Beyond the paper: errors over the conditions, sign flips, and whether the stated deviations are honest.
+// Beyond the paper: errors over the conditions, sign flips, and whether the stated standard deviations match
+// the errors.
 #pragma once
 
 #include <functional>

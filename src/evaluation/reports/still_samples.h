@@ -7,7 +7,7 @@
 
 namespace heel::evaluation {
 
-/// Whether an estimate is worse than useless: 15° or a tenth of the distance (at least 0.15 m) off.
+/// Whether an estimate counts as wrong: 15° or a tenth of the distance (at least 0.15 m) off.
 bool is_wrong(double yaw_error_rad, double off_m, double distance_m);
 
 /// One picture as the report needs it; radians and metres.

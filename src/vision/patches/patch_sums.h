@@ -11,7 +11,7 @@
 
 namespace heel {
 
-/// A patch of the frame held against the model.
+/// A patch of the frame compared with the model.
 struct PatchComparison {
   double variance = 0.0;                               ///< of the frame's samples
   double correlation = 0.0;                            ///< normalised

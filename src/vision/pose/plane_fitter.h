@@ -40,8 +40,8 @@ class PlaneFitter {
   /// Matches again near where `first` puts the features, and fits those: more pairs, mainly towards the
   /// edges, so a more precise homography. The error of `first` at the edges may exceed the matcher's radius;
   /// then a second round starts from a better homography. Only now, with all pairs there are, is the
-  /// certainty held against its minimum. `first` must be found. If no homography is found again, the last one
-  /// is returned, with the reason.
+  /// certainty compared with its minimum. `first` must be found. If no homography is found again, the last
+  /// one is returned, with the reason.
   PlaneFit fit_guided(const PlaneFit& first, TemplateMatcher& matcher, const FeatureGrid& frame,
                       PoseWorkspace& work);
 

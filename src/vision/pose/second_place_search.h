@@ -1,5 +1,5 @@
 // Whether a frame shows the shirt at a second place, too: on another person, a poster, the back of a chair.
-// Which of them is the person cannot be seen, so such a frame is refused.
+// The picture cannot tell which of them is the person, so such a frame is refused.
 //
 // Units: undistorted pixels of the frame.
 #pragma once

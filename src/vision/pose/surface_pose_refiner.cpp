@@ -22,9 +22,9 @@ constexpr double kFeatureNoise_px = 0.7, kMinPatchNoise_px = 0.1;
 // A patch about which the grey levels say nothing is known within 10 px.
 constexpr double kMinInformation_1_px2 = 0.01;
 
-// With so large a share of patches in place a pose is no other minimum.
-constexpr double kBeyondDoubt = 0.75;
-// The features speak for the first pose, so the patches must speak clearly for another.
+// With this share of the patches in place no other pose is tried.
+constexpr double kSufficientAgreement = 0.75;
+// The features support the first pose: another one replaces it if its score is this many times larger.
 constexpr double kBetter = 1.1;
 
 // A patch that moves otherwise than the median of its neighbours by more than cloth does is mistaken.
@@ -121,7 +121,7 @@ SurfacePose SurfacePoseRefiner::refine_turned(const FrameView& frame, const Back
                                               const SurfacePose& pose, std::span<const double> turns_rad,
                                               int rounds) {
   SurfacePose best = pose;
-  if (pose.agreement >= kBeyondDoubt) return best;
+  if (pose.agreement >= kSufficientAgreement) return best;
   const Eigen::Vector3d middle(surface.axis_x, surface.axis_y, 1.0);
   for (const double turn_rad : turns_rad) {
     FrontalMotion start;

@@ -14,8 +14,8 @@ constexpr double kSettled = 1e-4;  // rad and t/d
 
 // Shares of BackSurface::shape_sigma, 4 mm by default: how far cloth lies from where it hung when it was
 // taught. Measured on cloth simulated by others: from patch to patch 3 mm; along the cloth 3 mm, of which the
-// keystone and the stretch (at the region's corner and lower edge) are estimated with the pose; freer ones
-// take the turn for a departure, and stiffer ones a departure for a turn.
+// keystone and the stretch (at the region's corner and lower edge) are estimated with the pose. Larger
+// shares explain a turn as a change of the cloth; smaller shares explain a change of the cloth as a turn.
 constexpr double kPatchShare = 0.75, kTangentialShare = 0.75, kKeystoneShare = 0.75, kStretchShare = 0.2;
 constexpr double kMinSigma = 1e-6;  // in units of d; keeps precisions finite
 

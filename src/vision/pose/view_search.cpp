@@ -21,8 +21,8 @@ constexpr int kViewPatchRounds = 3;
 // Matches near a candidate are matches with any print that looks alike; so more of them must fit than of
 // those that are distinct in the whole frame.
 constexpr double kMinViewCertainty = 0.1;
-// Of backs that are there a fifth of the visible patches or more agree, in all but one of a hundred; of
-// candidates that are none, a tenth at most.
+// 99 % of true backs have at least 20 % of their visible patches in place; false candidates have at most 10
+// %.
 constexpr double kMinAgreement = 0.2;
 constexpr std::size_t kMinPatches = 8;
 constexpr double kSmallerFeatures = 0.8;

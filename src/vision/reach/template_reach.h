@@ -35,7 +35,8 @@ struct TemplateReach {
 
   /// Of the longest run of distances at which the back is always found, facing away; 0: none.
   double near_m = 0.0, far_m = 0.0;
-  /// Up to which the back is always found at kTurnDistance_m; nothing: not measured, or not even facing away.
+  /// Largest turn at which the back was found in every picture at kTurnDistance_m; no value: not measured, or
+  /// not found when facing away.
   std::optional<double> turn_rad;
 
   static constexpr double kTurnDistance_m = 2.0;
@@ -49,7 +50,7 @@ using ReachProgress = std::function<bool(int done, int most)>;
 TemplateReach measure_reach(const ShirtTemplate& shirt, const CameraModel& camera, const VisionConfig& config,
                             const ReachProgress& progress);
 
-/// What is little about a complete measurement, in one line; empty: nothing.
+/// A warning, in one line, if the shirt is found less far, or less far turned, than usual; empty if not.
 std::string reach_warning(const TemplateReach& reach);
 
 }  // namespace heel
