@@ -3,12 +3,13 @@ function(heel_compile_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# heel_test(NAME [SOURCES …] DEPENDS … [PROGRAMS …] [COUNTS_ALLOCATIONS] [SERIAL] [THREADS] [AS_ONE ENTRY]): a
+# heel_test(NAME [SOURCES …] DEPENDS … [PROGRAMS …] [COUNTS_ALLOCATIONS] [REAL_TIME] [SERIAL] [THREADS] [AS_ONE ENTRY]): a
 # GoogleTest program of every .cpp in the current folder, or of SOURCES; each of its tests is a ctest entry.
 # PROGRAMS: heel, heeld, heel-sim: the built programs it runs; their paths are HEEL_PROGRAM, HEELD_PROGRAM,
 # HEEL_SIM_PROGRAM.
 # COUNTS_ALLOCATIONS: links support/allocation_count.cpp, which takes the place of the C library's malloc.
-# SERIAL: its tests run in real time and are not to share the machine with others.
+# REAL_TIME: its tests run in real time: no two such tests at once.
+# SERIAL: its tests must not be late at all: they do not share the machine with any other.
 # THREADS: what it tests runs in several threads. The thread sanitizer's preset leaves the others out
 # (HEEL_ONLY_THREADED_TESTS): one thread races with nobody, at fifty times the price.
 # AS_ONE: all its tests are one entry of that name, because they share what took long to make.
@@ -16,7 +17,7 @@ endfunction()
 # a machine under load would be done: after 600 s, or TIMEOUT.
 # Tests that need real images or video say so by HEEL_NEEDS_TEST_DATA (support/test_data.h).
 function(heel_test name)
-  cmake_parse_arguments(ARG "SERIAL;THREADS;COUNTS_ALLOCATIONS" "TIMEOUT;AS_ONE" "SOURCES;DEPENDS;LABELS;PROGRAMS" ${ARGN})
+  cmake_parse_arguments(ARG "REAL_TIME;SERIAL;THREADS;COUNTS_ALLOCATIONS" "TIMEOUT;AS_ONE" "SOURCES;DEPENDS;LABELS;PROGRAMS" ${ARGN})
   if(NOT HEEL_BUILD_TESTS)
     return()
   endif()
@@ -51,6 +52,9 @@ function(heel_test name)
   endif()
   add_dependencies(heel_tests ${name})
   set(properties TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_SERIAL})
+  if(ARG_REAL_TIME)
+    list(APPEND properties RESOURCE_LOCK real_time)
+  endif()
   if(ARG_LABELS)
     list(APPEND properties LABELS "${ARG_LABELS}")
   endif()
