@@ -25,7 +25,7 @@ void CaptureLoop::run() {
     } else {
       try_open();
     }
-    push_counters();
+    push_counters_if_changed();
   }
   source_.close();
   open_ = false;
@@ -116,7 +116,7 @@ CaptureCounters CaptureLoop::counters() const {
           .reopened = reopened_.load(std::memory_order_relaxed)};
 }
 
-void CaptureLoop::push_counters() {
+void CaptureLoop::push_counters_if_changed() {
   CaptureCounters now = counters();
   now.t_ns = pushed_.t_ns;
   if (now == pushed_) return;

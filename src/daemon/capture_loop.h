@@ -48,7 +48,7 @@ class CaptureLoop {
   void take_frame();
   void publish(const FrameView& frame);
   void restart_stream();
-  void push_counters();
+  void push_counters_if_changed();
   void push_event(EventKind kind, std::int64_t a, std::int64_t b, const char* text);
 
   FrameSource& source_;

@@ -26,7 +26,7 @@ v4l2_buffer capture_buffer(std::uint32_t index) {
 }
 
 /// True for errors that mean: the device is not there now, but may be later.
-bool is_absence(int error) {
+bool means_device_absent(int error) {
   return error == ENOENT || error == ENODEV || error == ENXIO || error == EIO || error == EBUSY;
 }
 
@@ -63,7 +63,7 @@ OpenResult V4l2Source::open() {
 
 OpenResult V4l2Source::open_device() {
   if (const int error = device_->open(path_); error != 0) {
-    const OpenResult result = is_absence(error) ? OpenResult::Absent : OpenResult::Refused;
+    const OpenResult result = means_device_absent(error) ? OpenResult::Absent : OpenResult::Refused;
     if (error == ENOTTY) return fail(result, "is not a device (expected a camera such as /dev/video0)");
     return fail(result, fmt::format("cannot be opened: {}", std::strerror(error)));
   }
@@ -103,7 +103,7 @@ OpenResult V4l2Source::map_buffers() {
   request.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   request.memory = V4L2_MEMORY_MMAP;
   if (const int error = device_->control(VIDIOC_REQBUFS, &request); error != 0) {
-    const OpenResult result = is_absence(error) ? OpenResult::Absent : OpenResult::Refused;
+    const OpenResult result = means_device_absent(error) ? OpenResult::Absent : OpenResult::Refused;
     return fail(result, fmt::format("gives no buffers: {}{}", std::strerror(error),
                                     error == EBUSY ? "; another program is using it" : ""));
   }

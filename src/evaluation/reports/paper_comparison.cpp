@@ -103,7 +103,7 @@ std::string monotone(const ExperimentData& data) {
          said("yaw", breaks_of_monotony(yaw, "degrees"));
 }
 
-std::string goal_row(const char* what, const char* goal, const std::string& measured, bool met) {
+std::string markdown_goal_row(const char* what, const char* goal, const std::string& measured, bool met) {
   return std::string("| ") + what + " | " + goal + " | " + measured + " | " + (met ? "yes" : "**no**") +
          " |\n";
 }
@@ -122,19 +122,19 @@ std::string yaw_goals(const ExperimentData& data) {
   };
   const ErrorBin all = error_bin("", 0.0, undisturbed, within(kGoalYawRange_rad));
   const ErrorBin ahead = error_bin("", 0.0, undisturbed, within(20.0 / kDegPerRad));
-  rows += goal_row("mean absolute yaw error, 1 to 4 m, up to 60 degrees", "at most 2 degrees",
-                   printed("%.2f degrees (up to 20 degrees: %.2f)", kDegPerRad * all.yaw_mean_abs_rad,
-                           kDegPerRad * ahead.yaw_mean_abs_rad),
-                   kDegPerRad * all.yaw_mean_abs_rad <= kGoalYaw_deg);
-  rows += goal_row("sign flips of a back turned by 10 degrees or more", "below 0.1 %",
-                   printed("%zu of %zu (%.2f %%)", all.flips, all.signed_pictures,
-                           percent(all.flips, all.signed_pictures)),
-                   percent(all.flips, all.signed_pictures) < 100.0 * kGoalFlips);
+  rows += markdown_goal_row("mean absolute yaw error, 1 to 4 m, up to 60 degrees", "at most 2 degrees",
+                            printed("%.2f degrees (up to 20 degrees: %.2f)",
+                                    kDegPerRad * all.yaw_mean_abs_rad, kDegPerRad * ahead.yaw_mean_abs_rad),
+                            kDegPerRad * all.yaw_mean_abs_rad <= kGoalYaw_deg);
+  rows += markdown_goal_row("sign flips of a back turned by 10 degrees or more", "below 0.1 %",
+                            printed("%zu of %zu (%.2f %%)", all.flips, all.signed_pictures,
+                                    percent(all.flips, all.signed_pictures)),
+                            percent(all.flips, all.signed_pictures) < 100.0 * kGoalFlips);
   const NeesBand band = nees_band(all.found);
-  rows += goal_row("stated deviation of yaw: mean of (error / sigma) squared",
-                   printed("%.2f ... %.2f", band.low, band.high).c_str(),
-                   printed("%.1f (up to 20 degrees: %.1f)", all.yaw_nees, ahead.yaw_nees),
-                   all.yaw_nees >= band.low && all.yaw_nees <= band.high);
+  rows += markdown_goal_row("stated deviation of yaw: mean of (error / sigma) squared",
+                            printed("%.2f ... %.2f", band.low, band.high).c_str(),
+                            printed("%.1f (up to 20 degrees: %.1f)", all.yaw_nees, ahead.yaw_nees),
+                            all.yaw_nees >= band.low && all.yaw_nees <= band.high);
   return rows;
 }
 
@@ -207,8 +207,8 @@ std::string goals_table(const ExperimentData& data) {
       y.push_back(s.x_est_m);
     }
     const double r2 = r_squared(x, y);
-    text += goal_row("t_x against the truth, 2 m away", "R2 at least 0.999", printed("R2 %.5f", r2),
-                     r2 >= kGoalRSquared);
+    text += markdown_goal_row("t_x against the truth, 2 m away", "R2 at least 0.999", printed("R2 %.5f", r2),
+                              r2 >= kGoalRSquared);
   }
   if (!data.distance.empty()) {
     std::vector<StillSample> near;
@@ -216,7 +216,8 @@ std::string goals_table(const ExperimentData& data) {
       if (s.z_m <= kMonotoneFar_m + 1e-9) near.push_back(s);
     const std::string breaks = breaks_of_monotony(
         steps_of(near, &StillSample::z_m, &StillSample::z_est_m, &StillSample::true_z_m), "m");
-    text += goal_row("t_z from 1 to 5 m", "monotone", breaks.empty() ? "monotone" : breaks, breaks.empty());
+    text += markdown_goal_row("t_z from 1 to 5 m", "monotone", breaks.empty() ? "monotone" : breaks,
+                              breaks.empty());
   }
   if (data.walk) {
     const double rms_m = data.walk->metrics.lateral_m.rms;
@@ -224,8 +225,8 @@ std::string goals_table(const ExperimentData& data) {
     if (data.walk_position_only)
       measured +=
           printed("; following the position only: %.3f m", data.walk_position_only->metrics.lateral_m.rms);
-    text +=
-        goal_row("robot's path beside the person's", "within 0.15 m RMS", measured, rms_m <= kGoalFollow_m);
+    text += markdown_goal_row("robot's path beside the person's", "within 0.15 m RMS", measured,
+                              rms_m <= kGoalFollow_m);
   }
   return text;
 }

@@ -10,15 +10,15 @@
 namespace heel::evaluation {
 namespace {
 
-void add_places(CsvFile& file, const MotionSample& sample) {
+void append_position_cells(CsvFile& file, const MotionSample& sample) {
   file.number(sample.robot.x_m, 4).number(sample.robot.y_m, 4);
   file.number(sample.has_person ? sample.person.x_m : kNoValue, 4);
   file.number(sample.has_person ? sample.person.y_m : kNoValue, 4);
 }
 
-void add_run(CsvFile& file, const char* name, const MetricsCollector& run) {
+void append_run_rows(CsvFile& file, const char* name, const MetricsCollector& run) {
   for (const MotionSample& sample : run.motion()) {
-    add_places(file.text(name), sample);
+    append_position_cells(file.text(name), sample);
     file.end_row();
   }
 }
@@ -38,7 +38,7 @@ void write_response(const std::string& directory, const MetricsCollector& run) {
     // The person walks straight on: their line is where they are and where they face.
     const double c = std::cos(now.person.heading_rad), s = std::sin(now.person.heading_rad);
     const double offset_m = -s * (now.robot.x_m - now.person.x_m) + c * (now.robot.y_m - now.person.y_m);
-    add_places(file.number(driven_m, 4), now);
+    append_position_cells(file.number(driven_m, 4), now);
     file.number(offset_m, 4);
     file.number(kDegPerRad * wrap_angle_rad(now.robot.heading_rad - now.person.heading_rad), 3);
     file.end_row();
@@ -52,9 +52,9 @@ void write_walk(const std::string& directory, const MetricsCollector& run,
   const FollowMetrics metrics = run.evaluate();
   nlohmann::ordered_json json{{"person_path_m", metrics.person_path_m},
                               {"following_rms_m", metrics.lateral_m.rms}};
-  add_run(file, "walk", run);
+  append_run_rows(file, "walk", run);
   if (position_only != nullptr) {
-    add_run(file, "walk-position-only", *position_only);
+    append_run_rows(file, "walk-position-only", *position_only);
     json["position_only_rms_m"] = position_only->evaluate().lateral_m.rms;
   }
   file.flush();

@@ -10,7 +10,7 @@ void apply_robot(const ScenarioRobot& robot, P3AtSettings& settings) {
   for (const std::string& fault : robot.faults) settings.faults.push_back(parse_fault(fault));
 }
 
-RobotMotion motion_of(const RobotTruth& truth) {
+RobotMotion robot_motion_from_truth(const RobotTruth& truth) {
   return {truth.pose.x_m, truth.pose.y_m, truth.pose.heading_rad, truth.v_m_s, truth.yaw_rate_rad_s};
 }
 

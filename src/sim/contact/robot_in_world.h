@@ -11,8 +11,8 @@ namespace heel::sim {
 /// fault that cannot be read.
 void apply_robot(const ScenarioRobot& robot, P3AtSettings& settings);
 
-/// The robot's true motion as the world takes it.
-RobotMotion motion_of(const RobotTruth& truth);
+/// Pose and velocity of the simulated robot.
+RobotMotion robot_motion_from_truth(const RobotTruth& truth);
 
 /// Starts the person's walk `walk_after_s` after the first time this finds the robot's motors on; true that
 /// time.

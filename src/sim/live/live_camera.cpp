@@ -24,7 +24,7 @@ RobotMotion SharedMotion::at(TimeNs t_ns) const {
     const std::scoped_lock lock(mutex_);
     truth = truth_;
   }
-  return moved(motion_of(truth), seconds_from_ns(t_ns - truth.t_ns));
+  return moved(robot_motion_from_truth(truth), seconds_from_ns(t_ns - truth.t_ns));
 }
 
 LiveCamera::LiveCamera(World& world, const SharedMotion& motion, std::unique_ptr<FrameSink> sink,
@@ -60,6 +60,7 @@ std::uint64_t LiveCamera::current_sequence() const {
   return static_cast<std::uint64_t>((monotonic_now_ns() - t_start_ns_) / period_ns_);
 }
 
+/// Renders and publishes a frame at each frame time until stop_.
 void LiveCamera::run() {
   std::uint64_t sequence = 1 + current_sequence();
   while (!stop_) {

@@ -138,7 +138,7 @@ RobotMotion Lockstep::motion_at(TimeNs t_ns) const {
   const RobotTruth truth = robot_.truth();
   // The model stands at the last whole millisecond.
   const double dt_s = seconds_from_ns(t_ns - t_line_ns_);
-  RobotMotion motion = motion_of(truth);
+  RobotMotion motion = robot_motion_from_truth(truth);
   motion.x_m += dt_s * truth.v_m_s * std::cos(truth.pose.heading_rad);
   motion.y_m += dt_s * truth.v_m_s * std::sin(truth.pose.heading_rad);
   motion.heading_rad += dt_s * truth.yaw_rate_rad_s;

@@ -207,7 +207,7 @@ void P3At::send_due_packets() {
   t_next_sip_ns_ += settings_.sip_cycle_ns;
   // On a line that is too slow for everything requested, whole cycles are left out, not bytes.
   if (line_.output_free_at_ns() > t_ns_ + settings_.sip_cycle_ns) return;
-  send_requested();
+  send_requested_packets();
   send(arcos::encode_sip(make_sip()));
 }
 

@@ -138,7 +138,7 @@ class P3At {
 
   // p3at_packets.cpp: the packets it sends
   void send(const arcos::Frame& frame) { line_.from_robot(frame.bytes(), t_ns_); }
-  void send_requested();
+  void send_requested_packets();
   void send_config();
   arcos::Sip make_sip();
   arcos::Frame make_encoder_packet() const;

@@ -123,7 +123,7 @@ bool P3At::execute_requests(const arcos::Command& command) {
     default:
       return false;
   }
-  if (session_ != Session::Open) send_requested();  // otherwise with the next SIP
+  if (session_ != Session::Open) send_requested_packets();  // otherwise with the next SIP
   return true;
 }
 

@@ -33,7 +33,7 @@ std::uint8_t compass_units(double heading_rad) {
 
 }  // namespace
 
-void P3At::send_requested() {
+void P3At::send_requested_packets() {
   const auto due = [](Request& request) {
     const bool send_now = request != Request::No;
     if (request == Request::Once) request = Request::No;

@@ -88,7 +88,8 @@ struct Matcher::Impl {
     candidates.reserve(ref_capacity);
   }
 
-  void match_sign(const FeatureSet& ref, const FeatureSet& cur, bool dark, std::vector<Match>& out);
+  void match_features_of_sign(const FeatureSet& ref, const FeatureSet& cur, bool dark,
+                              std::vector<Match>& out);
   void find_candidates(const FeatureSet& ref, const FeatureSet& cur);
   bool passes_ratio(float best, float second) const {
     return distance_of(best) < settings.ratio * distance_of(second);
@@ -197,8 +198,8 @@ bool Matcher::Impl::is_nearest_of_cur(const Candidate& candidate, const FeatureS
   return true;
 }
 
-void Matcher::Impl::match_sign(const FeatureSet& ref, const FeatureSet& cur, bool dark,
-                               std::vector<Match>& out) {
+void Matcher::Impl::match_features_of_sign(const FeatureSet& ref, const FeatureSet& cur, bool dark,
+                                           std::vector<Match>& out) {
   members_of_sign(ref, max_ref, dark, ref_members);
   members_of_sign(cur, max_cur, dark, cur_members);
   if (ref_members.empty() || cur_members.empty()) return;
@@ -221,8 +222,8 @@ Matcher& Matcher::operator=(Matcher&&) noexcept = default;
 
 void Matcher::match(const FeatureSet& ref, const FeatureSet& cur, std::vector<Match>& out) {
   out.clear();
-  impl_->match_sign(ref, cur, true, out);
-  impl_->match_sign(ref, cur, false, out);
+  impl_->match_features_of_sign(ref, cur, true, out);
+  impl_->match_features_of_sign(ref, cur, false, out);
   std::sort(out.begin(), out.end(), [](const Match& a, const Match& b) { return a.ref < b.ref; });
 }
 

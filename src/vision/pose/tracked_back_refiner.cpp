@@ -56,7 +56,7 @@ TrackedBackRefiner::TrackedBackRefiner(const ReferenceView& reference, const Eig
 std::optional<BackPose> TrackedBackRefiner::refine(const BackSurface& surface, const FrontalMotion& last,
                                                    const PlaneSolution& plane, TemplateMatcher& matcher,
                                                    const FrameContent& frame) {
-  const FrontalMotion start = moved(surface, last, plane.inliers);
+  const FrontalMotion start = last_motion_fitted_to_inliers(surface, last, plane.inliers);
   surface_matcher_.match(surface, start, kPairLimit_px, matcher, frame.features, pairs_);
   const std::optional<SurfacePose> pose =
       patch_refiner_.refine(frame.view, surface, pairs_, start, kTrackingPatchRounds);
@@ -67,8 +67,9 @@ std::optional<BackPose> TrackedBackRefiner::refine(const BackSurface& surface, c
 }
 
 /// The last pose moved to where this frame's inliers are. It hardly turns between two frames.
-FrontalMotion TrackedBackRefiner::moved(const BackSurface& surface, const FrontalMotion& last,
-                                        std::span<const PointPair> inliers) {
+FrontalMotion TrackedBackRefiner::last_motion_fitted_to_inliers(const BackSurface& surface,
+                                                                const FrontalMotion& last,
+                                                                std::span<const PointPair> inliers) {
   observations_.clear();
   for (const PointPair& pair : inliers)
     observations_.push_back({K_ref_inverse_ * pair.ref_px.homogeneous(), pair.cur_px,

@@ -33,8 +33,8 @@ class TrackedBackRefiner {
                                  const FrameContent& frame);
 
  private:
-  FrontalMotion moved(const BackSurface& surface, const FrontalMotion& last,
-                      std::span<const PointPair> inliers);
+  FrontalMotion last_motion_fitted_to_inliers(const BackSurface& surface, const FrontalMotion& last,
+                                              std::span<const PointPair> inliers);
   double explanation_by(const BackSurface& surface, const FrontalMotion& motion) const;
 
   Eigen::Matrix3d K_ref_inverse_, K_cur_;

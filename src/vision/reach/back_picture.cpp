@@ -93,7 +93,7 @@ void BackPicture::frame_samples(const FrontalMotion& motion) {
   samples_.depth.assign(count, std::numeric_limits<float>::infinity());
 }
 
-/// Nothing where the camera sees the inside of the back.
+/// Draws one triangle of the back; nothing if the camera sees its inner side.
 void BackPicture::draw_triangle(const Vertex& a, const Vertex& b, const Vertex& c) {
   if (!(std::min({a.depth, b.depth, c.depth}) > kNearestDrawn)) return;
   const double s = samples_.per_pixel;
