@@ -21,6 +21,7 @@
 #include "evaluation/experiments/still_image_file.h"
 #include "evaluation/reports/foreign_tables.h"
 #include "files/image_file.h"
+#include "heel/error.h"
 #include "sim/lockstep/lockstep.h"
 
 namespace heel::cli {
@@ -94,7 +95,31 @@ void run_still_experiment(const evaluation::StillImageExperiment& chosen, const 
 std::string data_folder(const ExperimentOptions& options) {
   if (!options.data.empty()) return options.data;
   const char* given = std::getenv("HEEL_TEST_DATA");
-  return given != nullptr ? given : "../shared/data";
+  return given != nullptr && *given != '\0' ? given : "../shared/data";
+}
+
+/// Throws where a folder that the command line names cannot hold the pictures that are asked for. In the
+/// default folder absent pictures are skipped.
+void require_given_folders(const ExperimentOptions& options) {
+  namespace fs = std::filesystem;
+  std::error_code unused;
+  const bool foreign = options.wants(kForeign) || options.wants(kPlanar) || options.wants(kFalse);
+  if (const std::string& set = options.foreign_set; !set.empty() && !fs::is_directory(set, unused))
+    throw Error(fmt::format(
+        "--foreign-set {}: no such folder (expected one that holds images/, truth.csv and camera.yaml)",
+        set));
+  const std::string& data = options.data;
+  if (data.empty()) return;
+  const auto holds = [&](const char* name) { return fs::exists(data + name, unused); };
+  if (!fs::is_directory(data, unused))
+    throw Error(fmt::format("--data {}: no such folder (expected one that holds {})", data,
+                            foreign && !options.wants(kReal) ? "foreign/" : "oxford/ and person/"));
+  if (options.wants(kReal) && !holds("/oxford") && !holds("/person"))
+    throw Error(fmt::format(
+        "--data {}: no real pictures in this folder (expected one that holds oxford/ and person/)", data));
+  if (foreign && options.foreign_set.empty() && !holds("/foreign"))
+    throw Error(
+        fmt::format("--data {}: no foreign set in this folder (expected one that holds foreign/)", data));
 }
 
 void run_real_image_experiment(const ExperimentOptions& options) {
@@ -104,6 +129,10 @@ void run_real_image_experiment(const ExperimentOptions& options) {
   if (!pairs.empty()) evaluation::write_pairs(pairs, options.out + "/real_pairs.csv");
   const auto video = evaluation::estimate_video(data, kVideoStep, vision);
   if (!video.empty()) evaluation::write_video(video, options.out + "/real_video.csv");
+  if (!options.data.empty() && pairs.empty() && video.empty())
+    throw Error(
+        fmt::format("--data {}: no pairs in oxford/ and no video in person/ (expected at least one of them)",
+                    options.data));
   const bool complete = !pairs.empty() && !video.empty();
   fmt::print("{:<10} {} pairs, {} frames of video{}\n", kReal, pairs.size(), video.size(),
              complete ? "" : ": SKIPPED where absent in " + data);
@@ -183,6 +212,7 @@ void write_stills(const ExperimentOptions& options) {
 }
 
 void run_experiments(const ExperimentOptions& options) {
+  require_given_folders(options);
   std::filesystem::create_directories(options.out);
   if (options.wants(kStills)) write_stills(options);
   if (options.wants(kReal)) run_real_image_experiment(options);

@@ -10,17 +10,18 @@
 
 #include "files/camera_info.h"
 #include "tools/heel/printed_shirt.h"
+#include "tools/heel/refusals.h"
 #include "tools/heel/run_heel.h"
 
 namespace heel {
 namespace {
 
+using test::expect_refused;
 using test::Outcome;
 using test::read_text;
 using test::run_heel;
 using test::TemporaryFolder;
 using test::write_text;
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -85,26 +86,6 @@ class Files {
 
   TemporaryFolder folder_;
 };
-
-struct Row {
-  std::vector<std::string> arguments;
-  std::string begins;  ///< the start of the line: which command refuses
-  std::string names;   ///< what the line names
-};
-
-/// Each row ends with exit status 2, nothing on standard output, and one line on standard error.
-void expect_refused(const std::vector<Row>& rows) {
-  for (const Row& row : rows) {
-    std::string line;
-    for (const std::string& argument : row.arguments) line += " " + argument;
-    SCOPED_TRACE("heel" + line);
-    const Outcome outcome = run_heel(row.arguments);
-    EXPECT_EQ(outcome.status, 2);
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_THAT(outcome.err, AllOf(StartsWith(row.begins), HasSubstr(row.names)));
-  }
-}
 
 TEST(BadInput, OfUnknownCommandsAndOptionsIsRefused) {
   const Files f;

@@ -1,0 +1,69 @@
+// Bad input to `heel simulate`, `heel experiment` and `heel report` is refused in one line that names what
+// is wrong.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/heel/refusals.h"
+#include "tools/heel/run_heel.h"
+
+namespace heel {
+namespace {
+
+using test::expect_refused;
+using test::Outcome;
+using test::run_heel;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+struct BadFolders {
+  BadFolders() {
+    test::write_text(at("words.txt"), "no folder\n");
+    std::filesystem::create_directory(at("empty"));
+    std::filesystem::create_directories(at("no pairs/oxford"));
+  }
+  std::string at(const std::string& name) const { return folder.file(name); }
+
+  test::TemporaryFolder folder;
+};
+
+TEST(BadRun, OfExperimentIsRefused) {
+  const BadFolders f;
+  const auto experiment = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), "experiment");
+    more.insert(more.end(), {"-o", f.at("out")});
+    return more;
+  };
+  const std::string absent = f.at("absent"), empty = f.at("empty");
+  expect_refused({
+      {experiment({"real", "--data", absent}),
+       "heel experiment: ", "absent: no such folder (expected one that holds oxford/ and person/)"},
+      {experiment({"real", "--data", f.at("words.txt")}), "heel experiment: ", "words.txt: no such folder"},
+      {experiment({"real", "--data", empty}), "heel experiment: ", "empty: no real pictures in this folder"},
+      {experiment({"real", "--data", f.at("no pairs")}),
+       "heel experiment: ", "no pairs: no pairs in oxford/"},
+      {experiment({"foreign", "--data", absent}),
+       "heel experiment: ", "absent: no such folder (expected one that holds foreign/)"},
+      {experiment({"foreign-false", "--data", empty}),
+       "heel experiment: ", "empty: no foreign set in this folder (expected one that holds foreign/)"},
+      {experiment({"foreign", "--foreign-set", absent}),
+       "heel experiment: ", "--foreign-set " + absent + ": no such folder (expected one that holds images/"},
+      {experiment({"foreign", "--foreign-set", empty}),
+       "heel experiment: ", "empty/camera.yaml: cannot read"},
+  });
+}
+
+TEST(GoodRun, PicturesAbsentFromTheDefaultFolderAreSkipped) {
+  const BadFolders f;
+  setenv("HEEL_TEST_DATA", f.at("absent").c_str(), /*overwrite=*/1);
+  const Outcome outcome = run_heel({"experiment", "real", "foreign", "-o", f.at("out")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("SKIPPED where absent"), HasSubstr("SKIPPED: no ")));
+}
+
+}  // namespace
+}  // namespace heel
