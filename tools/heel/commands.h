@@ -9,6 +9,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
 
 #include "evaluation/metrics/metrics.h"
 
@@ -23,6 +24,10 @@ void add_criteria_options(CLI::App& command, evaluation::FollowCriteria& criteri
 
 /// Accepts finite numbers from `least` to `most`. (CLI::Range accepts "nan".)
 CLI::Validator number_from(double least, double most);
+/// Accepts whole numbers from 0. `kind` is what a refusal says was expected: "a frame number".
+CLI::Validator whole_number(const std::string& kind);
+/// Accepts finite numbers of seconds above 0.
+CLI::Validator duration_s();
 
 void add_calibrate_command(CLI::App& app);
 void add_teach_command(CLI::App& app);

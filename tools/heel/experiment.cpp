@@ -253,6 +253,7 @@ void add_experiment_command(CLI::App& app) {
                    "pictures of each pose, at most eight worlds; for `errors`: poses in thousands")
       ->check(CLI::Range(1, 1000));
   command->add_option("--seed", options->seed, "of `stills`: other persons, prints, folds and rooms")
+      ->check(whole_number("a whole number"))
       ->capture_default_str();
   command->add_option("--data", options->data,
                       "folder of the real pictures (default: HEEL_TEST_DATA, else ../shared/data)");

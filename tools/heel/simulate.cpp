@@ -87,9 +87,10 @@ void add_simulate_command(CLI::App& app) {
                          "detail, several as a table and figures. Exit status 1 when a limit is not met.");
   command->add_option("scenario", options->scenarios, "scenario files (TOML), or folders of them")
       ->required();
-  command->add_option("--seed", options->seed, "replaces the scenario's")->check(CLI::NonNegativeNumber);
+  command->add_option("--seed", options->seed, "replaces the scenario's")
+      ->check(whole_number("a whole number"));
   command->add_option("--duration", options->duration_s, "seconds; replaces the scenario's")
-      ->check(CLI::PositiveNumber);
+      ->check(duration_s());
   command->add_option("--config", options->config_file,
                       "the daemon's configuration file (default: every key at its default)");
   command->add_option("--template", options->template_file,

@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
 
 #include "commands.h"
@@ -18,6 +21,30 @@ CLI::Validator number_from(double least, double most) {
     return fmt::format("'{}' (expected a number, {})", text, range);
   };
   return {check, range};
+}
+
+CLI::Validator whole_number(const std::string& kind) {
+  const auto check = [kind](const std::string& text) -> std::string {
+    std::uint64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [used, error] = std::from_chars(text.data(), end, value);
+    if (error == std::errc{} && used == end) return {};
+    if (error == std::errc::result_out_of_range)
+      return fmt::format("'{}' (expected {}, 0…{})", text, kind, std::numeric_limits<std::uint64_t>::max());
+    return fmt::format("'{}' (expected {}, 0 or more)", text, kind);
+  };
+  return {check, {}};
+}
+
+CLI::Validator duration_s() {
+  const auto check = [](const std::string& text) -> std::string {
+    double value_s = 0.0;
+    const char* end = text.data() + text.size();
+    const auto [used, error] = std::from_chars(text.data(), end, value_s);
+    if (error == std::errc{} && used == end && std::isfinite(value_s) && value_s > 0.0) return {};
+    return fmt::format("'{}' (expected seconds, more than 0)", text);
+  };
+  return {check, {}};
 }
 
 }  // namespace heel::cli

@@ -31,6 +31,30 @@ struct BadFolders {
   test::TemporaryFolder folder;
 };
 
+TEST(BadRun, OfSimulateIsRefused) {
+  const BadFolders f;
+  expect_refused({
+      {{"simulate", f.at("s.toml"), "--seed", "-1"},
+       "heel simulate: ",
+       "--seed: '-1' (expected a whole number, 0 or more)"},
+      {{"simulate", f.at("s.toml"), "--seed", "1.5"},
+       "heel simulate: ",
+       "--seed: '1.5' (expected a whole number"},
+      {{"simulate", f.at("s.toml"), "--seed", "18446744073709551616"},
+       "heel simulate: ",
+       "(expected a whole number, 0…18446744073709551615)"},
+      {{"simulate", f.at("s.toml"), "--duration", "0"},
+       "heel simulate: ",
+       "--duration: '0' (expected seconds, more than 0)"},
+      {{"simulate", f.at("s.toml"), "--duration", "-1"},
+       "heel simulate: ",
+       "--duration: '-1' (expected seconds"},
+      {{"simulate", f.at("s.toml"), "--duration", "nan"},
+       "heel simulate: ",
+       "--duration: 'nan' (expected seconds"},
+  });
+}
+
 TEST(BadRun, OfExperimentIsRefused) {
   const BadFolders f;
   const auto experiment = [&](std::vector<std::string> more) {
@@ -46,6 +70,7 @@ TEST(BadRun, OfExperimentIsRefused) {
       {experiment({"real", "--data", empty}), "heel experiment: ", "empty: no real pictures in this folder"},
       {experiment({"real", "--data", f.at("no pairs")}),
        "heel experiment: ", "no pairs: no pairs in oxford/"},
+      {experiment({"stills", "--seed", "-1"}), "heel experiment: ", "--seed: '-1' (expected a whole number"},
       {experiment({"foreign", "--data", absent}),
        "heel experiment: ", "absent: no such folder (expected one that holds foreign/)"},
       {experiment({"foreign-false", "--data", empty}),
