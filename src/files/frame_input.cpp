@@ -118,6 +118,10 @@ bool FrameInput::skip(std::uint64_t count) {
   return count == 0;
 }
 
+std::uint64_t FrameInput::frames_passed() const {
+  return impl_->number;
+}
+
 std::uint64_t FrameInput::stated_frame_count() const {
   std::uint64_t frames = 0;
   for (const InputFile& file : impl_->files) {

@@ -34,6 +34,8 @@ class FrameInput {
   bool next(InputFrame& frame);
   /// Passes over `count` frames; false when the inputs have fewer.
   bool skip(std::uint64_t count);
+  /// Frames read and passed over so far.
+  std::uint64_t frames_passed() const;
   /// Frames in all inputs as the files' headers state them; 0 when one does not.
   std::uint64_t stated_frame_count() const;
 

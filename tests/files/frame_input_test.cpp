@@ -61,6 +61,7 @@ TEST_F(FrameInputTest, SkipsFramesWithoutChangingTheirNumbers) {
   EXPECT_EQ(frame.number, 2U);
   EXPECT_NEAR(frame.grey.at<std::uint8_t>(8, 8), 80, 3);
   EXPECT_FALSE(input.skip(2)) << "one frame is left";
+  EXPECT_EQ(input.frames_passed(), 4U);
 }
 
 TEST_F(FrameInputTest, AnImageIsRecognisedByItsEndingOrItsContent) {

@@ -131,6 +131,14 @@ void make_folder(const std::string& folder) {
   if (error) throw Error("--picture-dir: " + folder + ": " + error.message());
 }
 
+Error no_first_frame(const PoseOptions& options, std::uint64_t frames) {
+  const std::string ends = options.inputs.size() == 1
+                               ? options.inputs.front() + " ends"
+                               : fmt::format("the {} inputs end", options.inputs.size());
+  return Error(fmt::format("--first {}: {} after {} frame{} (expected a frame number below {})",
+                           options.first, ends, frames, frames == 1 ? "" : "s", frames));
+}
+
 /// Estimates and prints every frame from the first to the last that the options name.
 void process_frames(const PoseOptions& options, Setup setup) {
   FrameInput input(options.inputs, setup.image_rate_hz);
@@ -140,10 +148,10 @@ void process_frames(const PoseOptions& options, Setup setup) {
   const Progress progress(input.stated_frame_count());
   PoseSummary summary;
   InputFrame frame;
+  bool more = input.skip(options.first) && input.next(frame);
+  if (!more && options.first > 0) throw no_first_frame(options, input.frames_passed());
   if (!options.json) std::puts(pose_table_head().c_str());
-  if (!input.skip(options.first))
-    throw Error(fmt::format("--first {}: the input ends before that frame", options.first));
-  while (input.next(frame) && frame.number <= options.last) {
+  for (; more && frame.number <= options.last; more = input.next(frame)) {
     require_size(frame, setup.camera, setup.camera_file);
     const PoseRow row = estimate(templates, frame, setup.target);
     std::puts((options.json ? pose_json(row) : pose_table_row(row)).c_str());
@@ -204,8 +212,12 @@ void add_pose_command(CLI::App& app) {
       ->add_option("--picture-dir", options->picture_dir,
                    "draw the shirt's outline on every frame, into this folder")
       ->type_name("DIR");
-  command->add_option("--first", options->first, "first frame processed")->type_name("N");
-  command->add_option("--last", options->last, "last frame processed")->type_name("N");
+  command->add_option("--first", options->first, "first frame processed")
+      ->type_name("N")
+      ->check(whole_number("a frame number"));
+  command->add_option("--last", options->last, "last frame processed")
+      ->type_name("N")
+      ->check(whole_number("a frame number"));
   command
       ->add_option("--rate", options->rate_hz,
                    "frame rate of images (default: camera.rate_hz of --config, else 30)")

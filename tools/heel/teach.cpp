@@ -171,7 +171,8 @@ void add_teach_command(CLI::App& app) {
       ->add_option("--frame", options->frame,
                    "number of the frame of a video or camera, from 0 (default 0; for a device 30, when its "
                    "exposure has\nsettled)")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(whole_number("a frame number"));
   command
       ->add_option("--roi", options->roi,
                    "the back in the image, pixels, without arms, collar and background")
