@@ -15,12 +15,27 @@ namespace {
 // configuration.
 constexpr int kExitConfiguration = 78;
 
+// EX_USAGE of sysexits(3): the command line. systemd does not restart the service on it either.
+constexpr int kExitUsage = 64;
+
 struct Options {
   std::string config;
   bool check = false;
   bool print_default_config = false;
   bool print_config_manual = false;
 };
+
+/// A command line that cannot be used, in one line on standard error.
+int refuse(const std::string& what) {
+  std::fprintf(stderr, "heeld: %s (see heeld --help)\n", what.c_str());
+  return kExitUsage;
+}
+
+/// The first argument that no option takes.
+int refuse_unexpected(const std::string& argument) {
+  if (argument.starts_with('-')) return refuse(argument + ": unknown option");
+  return refuse("'" + argument + "': not an option (expected --config FILE)");
+}
 
 int run(const Options& options) {
   if (options.print_default_config) {
@@ -39,10 +54,15 @@ int run(const Options& options) {
 }
 
 int run(int argc, char** argv) {
+  const auto not_empty = [](const std::string& file) -> std::string {
+    return file.empty() ? "an empty name (expected a file; is a variable of the shell not set?)" : "";
+  };
   Options options;
   CLI::App app("heeld: makes a Pioneer P3-AT follow a person by the back of their shirt", "heeld");
   auto* config =
-      app.add_option("--config", options.config, "Configuration file (TOML); see docs/configuration.md");
+      app.add_option("--config", options.config, "Configuration file (TOML); see docs/configuration.md")
+          ->type_name("FILE")
+          ->check(not_empty);
   app.add_flag(
          "--check", options.check,
          "Check the configuration and the files it refers to, print every value with its origin, and exit")
@@ -51,7 +71,18 @@ int run(int argc, char** argv) {
                              "Print a configuration file with every key at its default value, and exit");
   auto* manual = app.add_flag("--print-config-manual", options.print_config_manual,
                               "Print the manual of all keys (docs/configuration.md), and exit");
-  CLI11_PARSE(app, argc, argv);
+  app.footer(
+      "Exit status: 0 done, or stopped by a signal; 1 an error while running; 64 the command line cannot\n"
+      "be used; 78 the configuration or a file that it names cannot be used, or none is given.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& request) {
+    return app.exit(request);
+  } catch (const CLI::ExtrasError& error) {
+    return refuse_unexpected(app.remaining().front());
+  } catch (const CLI::ParseError& error) {
+    return refuse(error.what());
+  }
   if (config->count() + print->count() + manual->count() == 0) {
     std::fputs(
         "heeld: no configuration; expected --config FILE (heeld --print-default-config prints an example)\n",

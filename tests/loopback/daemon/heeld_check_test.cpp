@@ -39,6 +39,7 @@ std::string place_of(const std::string& file, const std::string& begin) {
   return file + ":" + std::to_string(lines_before + 2);
 }
 
+constexpr int kExitUsage = 64;
 constexpr int kExitConfiguration = 78;
 
 TEST(HeeldCheck, AGoodConfigurationIsListedWithOriginsAndVerdict) {
@@ -109,6 +110,34 @@ TEST(HeeldCheck, AMissingConfigurationIsNamed) {
   EXPECT_EQ(outcome.status, kExitConfiguration);
   EXPECT_THAT(outcome.err, HasSubstr("/nowhere.toml: cannot read"));
   EXPECT_EQ(heeld({}).status, kExitConfiguration);
+}
+
+TEST(HeeldCheck, ACommandLineThatCannotBeUsedIsRefusedInOneLine) {
+  const struct {
+    std::vector<std::string> arguments;
+    std::string line;
+  } rows[] = {
+      {{"--confg", "heel.toml"}, "heeld: --confg: unknown option (see heeld --help)\n"},
+      {{"heel.toml"}, "heeld: 'heel.toml': not an option (expected --config FILE) (see heeld --help)\n"},
+      {{"--config"}, "heeld: --config: 1 required FILE missing (see heeld --help)\n"},
+      {{"--check"}, "heeld: --check requires --config (see heeld --help)\n"},
+      {{"--config", ""},
+       "heeld: --config: an empty name (expected a file; is a variable of the shell not set?) (see heeld "
+       "--help)\n"},
+  };
+  for (const auto& row : rows) {
+    const Outcome outcome = heeld(row.arguments);
+    EXPECT_EQ(outcome.status, kExitUsage) << row.line;
+    EXPECT_EQ(outcome.out, "") << row.line;
+    EXPECT_EQ(outcome.err, row.line);
+  }
+}
+
+TEST(HeeldCheck, HelpStatesTheExitStatuses) {
+  const Outcome help = heeld({"--help"});
+  EXPECT_EQ(help.status, 0);
+  EXPECT_EQ(help.err, "");
+  EXPECT_THAT(help.out, AllOf(HasSubstr("--print-default-config"), HasSubstr("64 the command line")));
 }
 
 TEST(HeeldCheck, PrintsTheCommittedExampleAndManual) {
