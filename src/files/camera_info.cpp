@@ -23,6 +23,9 @@ namespace {
 
 constexpr std::size_t kMaxCameraInfoBytes = 1 << 20;
 constexpr int kMaxSensorSide_px = 32768;
+// From a fisheye lens to a long telephoto lens.
+constexpr double kMinFocalPerWidth = 0.2;
+constexpr double kMaxFocalPerWidth = 10.0;
 
 Error key_error(const std::string& path, const std::string& key, const std::string& found,
                 const std::string& expected) {
@@ -105,6 +108,28 @@ std::vector<double> read_matrix(const YAML::Node& root, const std::string& path,
   return values;
 }
 
+/// Refuses a focal length or a principal point that no camera with this size of picture has.
+void require_possible(const CameraModel& camera, const std::string& path) {
+  const std::string key = "camera_matrix.data";
+  const double least_px = kMinFocalPerWidth * camera.width_px, most_px = kMaxFocalPerWidth * camera.width_px;
+  const auto focal = [&](const char* name, double value_px) {
+    if (value_px >= least_px && value_px <= most_px) return;
+    throw key_error(path, key, fmt::format("{} {:g}", name, value_px),
+                    fmt::format("{:g}…{:g} px; {}", least_px, most_px,
+                                value_px < least_px ? "is it in millimetres?" : "was image_width edited?"));
+  };
+  const auto centre = [&](const char* name, double value_px, int side_px, const char* side) {
+    if (value_px >= 0.0 && value_px <= side_px) return;
+    throw key_error(path, key, fmt::format("{} {:g}", name, value_px),
+                    fmt::format("inside the picture, 0…{} px{}", side_px,
+                                value_px > side_px ? fmt::format("; was {} edited?", side) : ""));
+  };
+  focal("fx", camera.fx);
+  focal("fy", camera.fy);
+  centre("cx", camera.cx, camera.width_px, "image_width");
+  centre("cy", camera.cy, camera.height_px, "image_height");
+}
+
 void read_intrinsics(const YAML::Node& root, const std::string& path, CameraModel& camera) {
   const std::string key = "camera_matrix";
   const std::vector<double> k = read_matrix(root, path, key, "3 × 3: fx 0 cx, 0 fy cy, 0 0 1");
@@ -124,6 +149,7 @@ void read_intrinsics(const YAML::Node& root, const std::string& path, CameraMode
   camera.cx = k[2];
   camera.fy = k[4];
   camera.cy = k[5];
+  require_possible(camera, path);
 }
 
 /// The lens model of OpenCV that has this number of coefficients.

@@ -150,6 +150,14 @@ TEST(CameraExamples, AreReadable) {
   EXPECT_GE(files, 1);
 }
 
+TEST_F(CameraFile, ReadsTheWidestAndTheLongestLens) {
+  std::string wide = kRos, tele = kRos;
+  wide.replace(wide.find("700.5, 0, 320.25"), 16, "128, 0, 0");
+  tele.replace(tele.find("700.5, 0, 320.25"), 16, "6400, 0, 640");
+  EXPECT_EQ(read(wide).fx, 128.0);
+  EXPECT_EQ(read(tele).fx, 6400.0);
+}
+
 struct WrongFile {
   const char* from;  ///< in the ROS file
   const char* to;
@@ -167,6 +175,13 @@ TEST_F(CameraFile, RefusalsNameFileKeyAndWhatIsExpected) {
       {"700.5, 0,", "700.5,", "camera_matrix: 8 numbers", "rows × cols"},
       {"700.5, 0,", "700.5, 0.5,", "skew", "0"},
       {"700.5, 0,", "-700.5, 0,", "fx -700.5", "above 0"},
+      {"700.5, 0,", "3.6, 0,", "camera_matrix.data: fx 3.6", "128…6400 px; is it in millimetres?"},
+      {"701.5, 240", "3.6, 240", "camera_matrix.data: fy 3.6", "128…6400 px; is it in millimetres?"},
+      {"700.5, 0,", "100000, 0,", "camera_matrix.data: fx 100000", "128…6400 px; was image_width edited?"},
+      {"320.25", "9999", "cx 9999", "inside the picture, 0…640 px; was image_width edited?"},
+      {"320.25", "-331", "cx -331", "inside the picture, 0…640 px"},
+      {"240.75", "480.5", "cy 480.5", "inside the picture, 0…480 px; was image_height edited?"},
+      {"240.75", "-0.5", "cy -0.5", "inside the picture, 0…480 px"},
       {"700.5, 0,", "seven, 0,", "camera_matrix.data[0]: 'seven'", "finite number"},
       {"700.5, 0,", ".nan, 0,", "camera_matrix.data[0]: '.nan'", "finite number"},
       {"0, 0, 1]", "0, 1, 1]", "camera_matrix.data", "row by row"},
