@@ -20,6 +20,7 @@
 #include "evaluation/experiments/still_image_cases.h"
 #include "evaluation/experiments/still_image_file.h"
 #include "evaluation/reports/foreign_tables.h"
+#include "files/folder.h"
 #include "files/image_file.h"
 #include "heel/error.h"
 #include "sim/lockstep/lockstep.h"
@@ -62,7 +63,7 @@ sim::Scenario base_scenario(const ExperimentOptions& options) {
 
 /// Writes each picture of a case as FOLDER/NNN.png.
 evaluation::PictureCallback picture_writer(const std::string& folder, const CameraModel& camera) {
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   return [folder, camera](std::size_t index, const std::vector<std::uint8_t>& grey) {
     write_grey_image(fmt::format("{}/{:03}.png", folder, index), grey.data(), camera.width_px,
                      camera.height_px);
@@ -213,7 +214,7 @@ void write_stills(const ExperimentOptions& options) {
 
 void run_experiments(const ExperimentOptions& options) {
   require_given_folders(options);
-  std::filesystem::create_directories(options.out);
+  make_folder(options.out);
   if (options.wants(kStills)) write_stills(options);
   if (options.wants(kReal)) run_real_image_experiment(options);
   if (options.wants(kForeign) || options.wants(kPlanar) || options.wants(kFalse))

@@ -12,6 +12,7 @@
 #include "evaluation/experiments/still_image_file.h"
 #include "evaluation/reports/fit_rows.h"
 #include "evaluation/reports/run_files.h"
+#include "files/folder.h"
 #include "sim/lockstep/lockstep.h"
 #include "sim/pose_noise/error_fit.h"
 
@@ -45,7 +46,7 @@ void make_stills(const sim::Scenario& base, const VisionConfig& vision, const Fi
 void make_walk(sim::LockstepSettings settings, const FitOptions& options, const std::string& directory) {
   settings.scenario.duration_s = std::min(settings.scenario.duration_s, options.walk_s);
   settings.shirt = sim::teach_from_world(settings.scenario, options.teach_distance_m);
-  std::filesystem::create_directories(directory);
+  make_folder(directory);
   evaluation::RunRecord record(directory, settings);
   sim::run_lockstep(settings, record);
 }
@@ -55,7 +56,7 @@ void run_fit(const FitOptions& options) {
   settings.scenario = sim::read_scenario(options.walk);
   sim::apply_scenario(settings.scenario, settings.config);
   const std::string stills = options.directory + "/errors.csv", walk = options.directory + "/runs/walk";
-  std::filesystem::create_directories(options.directory);
+  make_folder(options.directory);
   if (!std::filesystem::exists(stills))
     make_stills(settings.scenario, settings.config.vision, options, stills);
   if (!std::filesystem::exists(walk + "/truth.csv")) make_walk(settings, options, walk);

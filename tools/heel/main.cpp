@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
@@ -83,6 +84,9 @@ int run_command(CLI::App& app, int argc, char** argv) {
           app, std::string("no command '") + argv[1] + "' (expected one of " + command_list(app) + ")");
     }
     return print_error(app, one_line(error.what()) + " (see " + command_name(app) + " --help)");
+  } catch (const std::filesystem::filesystem_error& error) {
+    return print_error(app, error.path1().string() + ": " + error.code().message() +
+                                " (expected a file or folder that this user can use)");
   } catch (const std::exception& error) {
     return print_error(app, error.what());
   }

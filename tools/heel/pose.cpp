@@ -15,6 +15,7 @@
 #include "commands.h"
 #include "config/config_load.h"
 #include "files/camera_info.h"
+#include "files/folder.h"
 #include "files/frame_input.h"
 #include "files/image_file.h"
 #include "files/template_file.h"
@@ -124,12 +125,6 @@ class Progress {
   std::uint64_t frames_;
   bool shown_;
 };
-
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw Error("--picture-dir: " + folder + ": " + error.message());
-}
 
 Error no_first_frame(const PoseOptions& options, std::uint64_t frames) {
   const std::string ends = options.inputs.size() == 1

@@ -17,6 +17,7 @@
 #include "evaluation/reports/plots.h"
 #include "evaluation/reports/run_report.h"
 #include "files/atomic_file.h"
+#include "files/folder.h"
 #include "heel/error.h"
 #include "simulate_output.h"
 
@@ -100,6 +101,7 @@ evaluation::FollowMetrics simulate_seed(const SimulateOptions& options, sim::Sce
 
 void simulate_one(const SimulateOptions& options, const sim::Scenario& scenario) {
   const sim::LockstepSettings settings = settings_of(options, scenario);
+  if (!options.out.empty()) make_folder(options.out);
   evaluation::RunRecord record(options.out, settings);
   const SimulatedRun run = simulate(options, settings, record);
   record.flush();
@@ -109,13 +111,13 @@ void simulate_one(const SimulateOptions& options, const sim::Scenario& scenario)
 
 void simulate_several(const SimulateOptions& options, const std::vector<sim::Scenario>& scenarios) {
   const std::string out = options.out.empty() ? kSimulateDefaultOut : options.out;
+  make_folder(out);
   std::vector<SimulatedRun> runs;
   for (const sim::Scenario& scenario : scenarios) {
     if (!options.json) std::cerr << scenario.name << ": " << scenario.shows << '\n';
     runs.push_back(simulate_into_folder(options, scenario, out + "/" + scenario.name));
   }
   const std::string table = table_text(runs);
-  std::filesystem::create_directories(out);
   write_file_atomically(out + "/table.txt", table);
   write_overview(runs, out);
   if (options.json) {

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
 #include "core/angles.h"
 #include "core/random.h"
 #include "evaluation/experiments/back_set_truth.h"
 #include "files/camera_info.h"
+#include "files/folder.h"
 #include "files/image_file.h"
 #include "sim/scene/shirts.h"
 
@@ -78,7 +78,7 @@ class BackSet {
  public:
   BackSet(const std::string& folder, std::uint64_t seed, const std::function<void(std::size_t)>& on_progress)
       : folder_(folder), seed_(seed), on_progress_(on_progress) {
-    std::filesystem::create_directories(folder + "/images");
+    make_folder(folder + "/images");
   }
 
   void add_stills() {

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
+#include "files/folder.h"
 #include "files/image_file.h"
 #include "files/template_file.h"
 #include "sim/robot/truth_columns.h"
@@ -66,7 +65,7 @@ RunRecord::RunRecord(const std::string& directory, const sim::LockstepSettings& 
   wire_ = std::make_unique<sim::WireFile>(directory + "/wire.hex", kWireDecimals);
   if (!settings.errors) {
     write_template(settings.shirt, directory + "/shirt.heel");
-    std::filesystem::create_directories(directory + "/frames");
+    make_folder(directory + "/frames");
   }
   frame_interval_ns_ = ns_from_seconds(settings.scenario.duration_s / kSavedFrames);
   t_next_frame_ns_ = frame_interval_ns_ / 2;

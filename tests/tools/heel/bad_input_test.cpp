@@ -162,7 +162,8 @@ TEST(BadInput, OfPoseIsRefused) {
        "expected --config, or both --template and --camera-info"},
       {f.pose({image, "--config", f.at("absent.toml")}), "heel pose: ", "absent.toml"},
       {f.pose({image, "--rate", "0"}), "heel pose: ", "--rate"},
-      {f.pose({image, "--picture-dir", f.at("words.txt") + "/x"}), "heel pose: ", "--picture-dir"},
+      {f.pose({image, "--picture-dir", f.at("words.txt") + "/x"}), "heel pose: ",
+       "words.txt/x: cannot make this folder: Not a directory (expected a folder, not a file)"},
   });
 }
 

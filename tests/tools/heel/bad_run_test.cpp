@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "support/test_data.h"
 #include "tools/heel/refusals.h"
 #include "tools/heel/run_heel.h"
 
@@ -79,6 +80,30 @@ TEST(BadRun, OfExperimentIsRefused) {
        "heel experiment: ", "--foreign-set " + absent + ": no such folder (expected one that holds images/"},
       {experiment({"foreign", "--foreign-set", empty}),
        "heel experiment: ", "empty/camera.yaml: cannot read"},
+  });
+}
+
+TEST(BadRun, NamesAFolderThatCannotBeMadeOrRead) {
+  const BadFolders f;
+  const std::string file = f.at("words.txt"), loop = f.at("loop");
+  const std::string scenario = test::source_path("tools/heel-sim/scenarios/demo.toml");
+  // Permissions do not hold for root, under which this test may run. This fails for every user.
+  std::filesystem::create_symlink("loop", loop);
+  const std::string not_made =
+      file + ": cannot make this folder: Not a directory (expected a folder, not a file)";
+  const std::string not_read = loop + ": Too many levels of symbolic links (expected a file or folder";
+  expect_refused({
+      {{"experiment", "yaw", "-o", file}, "heel experiment: ", not_made},
+      {{"simulate", scenario, "-o", file}, "heel simulate: ", not_made},
+      {{"simulate", scenario, test::source_path("tools/heel-sim/scenarios/small_picture.toml"), "-o", file},
+       "heel simulate: ",
+       not_made},
+      {{"fit", file, "--walk", scenario, "-o", f.at("model.toml")}, "heel fit: ", not_made},
+      {{"simulate", loop}, "heel simulate: ", not_read},
+      {{"pose", loop, "--template", "t.heel", "--camera-info", "c.yaml"},
+       "heel pose: ",
+       "t.heel: cannot read"},
+      {{"report", loop}, "heel report: ", loop},
   });
 }
 
