@@ -27,6 +27,17 @@ void add_commands(CLI::App& app) {
   add_bench_command(app);
 }
 
+/// Refuses the empty value that an unset variable of a shell gives, of every option and argument.
+void refuse_empty_values(CLI::App& app) {
+  const auto check = [](const std::string& value) -> std::string {
+    return value.empty() ? "an empty name (expected a file or a value; is a variable of the shell not set?)"
+                         : "";
+  };
+  for (CLI::Option* option : app.get_options())
+    if (option->get_items_expected_max() > 0) option->check(check);
+  for (CLI::App* command : app.get_subcommands({})) refuse_empty_values(*command);
+}
+
 /// One thread, so that results are the same to the bit on any number of cores. No messages of OpenCV and
 /// FFmpeg: an error is one line of ours.
 void set_up_libraries() {
@@ -101,6 +112,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   add_commands(app);
+  refuse_empty_values(app);
 
   const int status = run_command(app, argc, argv);
   if (!flush_output())

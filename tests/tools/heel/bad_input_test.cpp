@@ -98,6 +98,10 @@ TEST(BadInput, OfUnknownCommandsAndOptionsIsRefused) {
       {f.teach({"--colour"}), "heel teach: ", "--colour"},
       {f.pose({image, "--frobnicate"}), "heel pose: ", "--frobnicate"},
       {f.pose({}), "heel pose: ", "inputs"},
+      {f.pose({""}), "heel pose: ", "inputs: an empty name (expected a file"},
+      {f.pose({image, "--template", ""}), "heel pose: ", "--template: an empty name (expected a file"},
+      {f.teach({"-o", ""}), "heel teach: ", "--output: an empty name (expected a file"},
+      {f.bench({""}), "heel bench vision: ", "inputs: an empty name (expected a file"},
   });
 }
 
