@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <string>
@@ -31,6 +32,24 @@ TEST(MakeFolder, SaysWhyAFolderCannotBeMade) {
   EXPECT_EQ(
       test::complaint_of([&] { make_folder(longer); }),
       longer + ": cannot make this folder: File name too long (expected a place where a folder can be made)");
+}
+
+TEST(MakeFolder, RefusesAFolderThatCannotBeWritten) {
+  namespace fs = std::filesystem;
+  const test::TemporaryFolder folder;
+  const std::string closed = folder.file("closed");
+  fs::create_directory(closed);
+  fs::permissions(folder.path(), fs::perms{0755});
+  fs::permissions(closed, fs::perms{0555});
+  // Permissions do not hold for root, who becomes another user for this call.
+  const bool root = geteuid() == 0;
+  ASSERT_EQ(root ? seteuid(65534) : 0, 0);
+  const std::string complaint = test::complaint_of([&] { make_folder(closed); });
+  ASSERT_EQ(root ? seteuid(0) : 0, 0);
+  fs::permissions(closed, fs::perms{0755});
+  EXPECT_EQ(
+      complaint,
+      closed + ": cannot write into this folder: Permission denied (expected one that this user can write)");
 }
 
 }  // namespace
