@@ -93,7 +93,8 @@ void LiveSimulation::add_world_columns() {
     truth_->add_column(column.name, column.decimals, [this, &column, is_first] {
       const RobotTruth robot = robot_.truth();
       if (is_first)
-        live_world_->truth = live_world_->world.truth(motion_of(robot), seconds_from_ns(robot.t_ns));
+        live_world_->truth =
+            live_world_->world.truth(robot_motion_from_truth(robot), seconds_from_ns(robot.t_ns));
       return column.value(live_world_->truth);
     });
     is_first = false;
@@ -135,7 +136,7 @@ void LiveSimulation::step_world(TimeNs t_ns) {
 
 void LiveSimulation::print_progress(TimeNs t_ns) const {
   const RobotTruth robot = robot_.truth();
-  const Truth truth = live_world_->world.truth(motion_of(robot), seconds_from_ns(t_ns));
+  const Truth truth = live_world_->world.truth(robot_motion_from_truth(robot), seconds_from_ns(t_ns));
   print_event(t_ns,
               fmt::format("robot ({:6.2f}, {:6.2f}) {:.2f} m/s   person ({:6.2f}, {:6.2f}) {:.2f} m ahead{}",
                           robot.pose.x_m, robot.pose.y_m, robot.v_m_s, truth.person.x_m, truth.person.y_m,
