@@ -120,7 +120,7 @@ TEST(Lockstep, TheRecordedInputsGiveTheRecordedDecisionsAgain) {
 }
 
 TEST(Lockstep, FollowsAWalkingPerson) {
-  if (test::kThreadSanitizer)
+  if (test::kSanitized)
     GTEST_SKIP() << "RepeatsToTheBitAndDiffersBySeed runs the same threads for a shorter time";
   const LockstepSettings settings = short_walk();
   evaluation::RunRecord record("", settings);
@@ -132,7 +132,7 @@ TEST(Lockstep, FollowsAWalkingPerson) {
   EXPECT_GT(metrics.robot_path_m, 1.0);
   EXPECT_LT(metrics.out_of_view_longest_s, 0.5);
   EXPECT_LT(metrics.lateral_m.rms, 0.15);
-  EXPECT_LT(std::abs(metrics.yaw_error_rad.mean), test::kSanitized ? 0.1 : 0.05);  // half as many pixels
+  EXPECT_LT(std::abs(metrics.yaw_error_rad.mean), 0.05);
   EXPECT_LT(metrics.z_error_m.rms, 0.06);
   EXPECT_GT(metrics.separation_m.lowest, 1.2);
 }
