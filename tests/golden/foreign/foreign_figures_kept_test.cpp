@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "evaluation/reports/foreign_figures.h"
+#include "files/csv_table.h"
 #include "support/process.h"
 #include "support/temporary_folder.h"
 #include "support/test_data.h"
@@ -91,6 +94,47 @@ TEST_F(ForeignFiguresKept, AWalkIsNoRougherThanBefore) {
   EXPECT_LE(walk()->change_deg, 2.0);
   // The filter of the yaw delays bends; the direction of travel is the estimator's (TravelFilter).
   EXPECT_LE(walk()->stride_direction_deg, 3.0);
+}
+
+/// Every template is searched for in every twelfth still of the other prints; `heel experiment foreign-false`
+/// takes all of them, which is some minutes of work.
+TEST_F(ForeignFiguresKept, NoShirtIsFoundWhereItIsNot) {
+  constexpr std::size_t kEvery = 12;
+  const test::TemporaryFolder folder;
+  const std::string set = test::data_path() + "/foreign", camera = set + "/camera.yaml",
+                    shirt = folder.file("shirt.heel");
+  const CsvTable truth(set + "/truth.csv");
+  const auto image = [&](std::size_t row) { return set + "/images/" + truth.text(row, "image"); };
+  std::size_t searched = 0;
+  for (std::size_t taught = 0; taught < truth.rows(); ++taught) {
+    if (truth.text(taught, "kind") != "teach") continue;
+    std::string roi;
+    for (const char* name : {"roi_x", "roi_y", "roi_w", "roi_h"})
+      roi += (roi.empty() ? "" : ",") + truth.text(taught, name);
+    const test::Outcome teach = test::run_program(
+        {HEEL_PROGRAM, "teach", "--image", image(taught), "--roi", roi, "--distance",
+         truth.text(taught, "teach_distance_m"), "--camera-info", camera, "--reach-time", "0", "-o", shirt});
+    ASSERT_EQ(teach.status, 0) << image(taught) << ": " << teach.err;
+    std::vector<std::string> argv = {HEEL_PROGRAM, "pose", "--independent", "--json",
+                                     "--template", shirt,  "--camera-info", camera};
+    std::vector<std::string> pictures;
+    std::size_t others = 0;
+    for (std::size_t row = 0; row < truth.rows(); ++row) {
+      const std::string kind = truth.text(row, "kind");
+      if (kind == "teach" || kind == "walk" || truth.text(row, "print") == truth.text(taught, "print"))
+        continue;
+      if (others++ % kEvery == taught % kEvery) pictures.push_back(image(row));
+    }
+    argv.insert(argv.end(), pictures.begin(), pictures.end());
+    std::istringstream lines(test::run_program(argv).out);
+    std::size_t answered = 0;
+    for (std::string line; std::getline(lines, line); ++answered)
+      EXPECT_FALSE(nlohmann::json::parse(line)["found"].get<bool>())
+          << image(taught) << " in " << pictures.at(answered);
+    ASSERT_EQ(answered, pictures.size());
+    searched += answered;
+  }
+  EXPECT_GT(searched, 100U);
 }
 
 }  // namespace
