@@ -1,15 +1,15 @@
 /// \file
 /// All data exchanged between threads, in the order in which it flows:
 /// \verbatim
-///   camera → FrameHeader → PoseEstimate → TargetState → StopReason → VelocityCommand → P3-AT
-///                                 RobotState (odometry, bumpers, flags) ← SIP ┘
+///   camera → FrameHeader → PoseEstimate → TargetState → SupervisorState → VelocityCommand → P3-AT
+///                                  operator → OperatorRequest ┘ RobotState (odometry, flags) ← SIP ┘
 /// \endverbatim
 /// - Convention: all of it is trivially copyable. Frames of reference:
 ///   - camera: x right, y down, z forward
 ///   - robot: x forward, y left, z up; origin between the wheels, on the floor
 ///   - odom: the robot frame at the start of the session; it drifts, as odometry does
 /// - Units: SI and radians; pixels in names that end in _px.
-/// - Errors: named reasons (PoseReason, LinkPhase, StopReason).
+/// - Errors: named reasons (PoseReason, LinkPhase, StopReason, OperatorOutcome).
 #pragma once
 
 #include <array>
@@ -97,7 +97,7 @@ enum class LinkPhase : std::uint8_t {
   Opening,   ///< OPEN sent, first SIP awaited; CONFIG requested
   Enabling,  ///< zero velocity and ENABLE sent, the motors' flag awaited
   Running,   ///< SIPs arrive, motors are enabled
-  Disabled,  ///< SIPs arrive, motors went off (STOP button, E-stall): off until heeld is restarted
+  Disabled,  ///< SIPs arrive, motors went off (STOP button, E-stall): off until an operator's reset
   Lost,      ///< SIPs stopped or the line broke; reconnecting
 };
 
@@ -138,12 +138,41 @@ struct RobotState {
   std::uint64_t reconnects = 0;
 };
 
+// ── operator → control ──────────────────────────────────────────────────────────────────────────
+
+/// What an operator may ask for.
+enum class OperatorCommand : std::uint8_t {
+  None,
+  Start,  ///< the robot may move
+  Stop,   ///< come to rest; only a start lets it move again
+  EStop,  ///< rest at once; only a reset leaves this
+  Reset,  ///< after an emergency stop, or after the motors went off: they may be enabled again
+};
+
+/// The newest request; `number` grows by one with each. 0: none yet.
+struct OperatorRequest {
+  std::uint64_t number = 0;
+  TimeNs t_ns = 0;
+  OperatorCommand command = OperatorCommand::None;
+};
+
+/// What became of a request.
+enum class OperatorOutcome : std::uint8_t {
+  None,       ///< no request yet
+  Done,       ///< it has changed the state
+  AlreadySo,  ///< nothing to change
+  Refused,    ///< TickRecord::refused_by says why
+};
+
 // ── control ─────────────────────────────────────────────────────────────────────────────────────
 
 /// All inputs of one control tick. The inputs since the start and the configuration give the decisions of
 /// every tick again, to the bit.
 struct ControlInput {
-  TimeNs now_ns = 0;  ///< when the tick ran
+  TimeNs now_ns = 0;         ///< when the tick ran
+  TimeNs lateness_ns = 0;    ///< how long after its absolute deadline it ran
+  OperatorRequest request;   ///< the newest; handled in the tick in which its number is new
+  TimeNs t_operator_ns = 0;  ///< newest sign of the operator: a request or a keep-alive; 0: none yet
   RobotState robot;
   bool has_pose = false;  ///< a frame has been processed since the start
   PoseEstimate pose;      ///< the newest; the same as in the last tick when no frame has come since
@@ -181,25 +210,76 @@ enum class MeasurementStatus : std::uint8_t {
 };
 
 /// The conditions that keep the robot at rest, as bits of Conditions.
-enum Condition : std::uint16_t {
+enum Condition : std::uint32_t {
   kShutdown = 1 << 0,
   kLinkDown = 1 << 1,
   kStaleSip = 1 << 2,  ///< no packet from the robot for the timeout
   kStopButton = 1 << 3,
   kMotorsOff = 1 << 4,
-  kBumper = 1 << 5,        ///< pressed, or released less than the hold time ago
-  kStall = 1 << 6,         ///< wheels stalled, or free again for less than the hold time
-  kSonarSilent = 1 << 7,   ///< no reading from any front sonar for the timeout, though they are on
-  kStaleFrame = 1 << 8,    ///< no frame for the timeout, or none yet
-  kLowCertainty = 1 << 9,  ///< not following; the shirt is found, but with too little certainty
-  kTargetLost = 1 << 10,   ///< not following, having followed before
-  kNoTargetYet = 1 << 11,  ///< not following, never followed
+  kBumper = 1 << 5,         ///< pressed, or released less than the hold time ago
+  kStall = 1 << 6,          ///< wheels stalled, or free again for less than the hold time
+  kSonarSilent = 1 << 7,    ///< no reading from any front sonar for the timeout, though they are on
+  kStaleFrame = 1 << 8,     ///< no frame for the timeout, or none yet
+  kLowCertainty = 1 << 9,   ///< not following; the shirt is found, but with too little certainty
+  kTargetLost = 1 << 10,    ///< not following, having followed before
+  kNoTargetYet = 1 << 11,   ///< not following, never followed
+  kAmbiguous = 1 << 12,     ///< not following; the newest frame shows the shirt at two places
+  kBatteryLow = 1 << 13,    ///< below the lower voltage, and since then not above the upper one
+  kOverrun = 1 << 14,       ///< the tick came too many periods late
+  kClockStep = 1 << 15,     ///< the time went back, or ahead by more than the lateness explains
+  kOperatorAway = 1 << 16,  ///< no sign of the operator for the timeout
 };
 /// Condition bits.
-using Conditions = std::uint16_t;
-inline constexpr Conditions kAllConditions = (1 << 12) - 1;
+using Conditions = std::uint32_t;
+inline constexpr Conditions kAllConditions = (1 << 17) - 1;
 
-/// Why the robot is at rest. One value for each row of the supervisor's table; None: following.
+/// Where the supervisor stands. The robot moves only in Following and Searching.
+enum class SupervisorState : std::uint8_t {
+  Idle,       ///< not allowed to move: an operator's start is needed
+  Armed,      ///< allowed to move; no target accepted since the start
+  Following,  ///< the control law drives
+  Searching,  ///< the target is lost, and the control law drives on
+  Waiting,    ///< at rest; goes on by itself when the target is good
+  Stopped,    ///< at rest after a fault: an operator's start is needed, after motors off a reset before it
+  Emergency,  ///< at rest; only an operator's reset leaves it
+};
+inline constexpr std::size_t kSupervisorStates = 7;
+
+/// Why the supervisor's state changed.
+enum class TransitionCause : std::uint8_t {
+  Boot,  ///< no change yet
+  // The operator:
+  Start,
+  Stop,
+  EStop,
+  Reset,
+  // supervisor.start = "at_once":
+  StartAtOnce,
+  FaultGone,
+  // The target:
+  TargetGood,
+  TargetLost,
+  SearchEnded,
+  // Conditions, each named like its bit:
+  Shutdown,
+  LinkDown,
+  StaleSip,
+  StopButton,
+  MotorsOff,
+  Bumper,
+  Stall,
+  BatteryLow,
+  Overrun,
+  ClockStep,
+  OperatorAway,
+  SonarSilent,
+  StaleFrame,
+  Ambiguous,
+  LowCertainty,
+};
+inline constexpr std::size_t kTransitionCauses = 25;
+
+/// Why the robot does not follow. Most are conditions of the supervisor's table; None: following.
 enum class StopReason : std::uint8_t {
   None,
   Shutdown,
@@ -214,6 +294,20 @@ enum class StopReason : std::uint8_t {
   StaleFrame,
   TargetLost,
   LowCertainty,
+  Ambiguous,
+  BatteryLow,
+  Overrun,
+  ClockStep,
+  OperatorAway,
+  NotStarted,     ///< no condition: the operator's start is missing
+  EmergencyStop,  ///< the operator's reset is missing
+};
+
+/// What the gate holds the robot by while the supervisor lets it move.
+enum class Hold : std::uint8_t {
+  None,
+  PersonTooNear,  ///< TickRecord::person_m
+  ObstacleAhead,  ///< TickRecord::free_distance_m
 };
 
 /// The gate's limits that changed a command, as bits of VelocityCommand::limited_by.
@@ -240,16 +334,25 @@ struct VelocityCommand {
 /// One control tick: its inputs and its decisions.
 struct TickRecord {
   std::uint64_t tick = 0;
-  TimeNs lateness_ns = 0;  ///< how long after its absolute deadline it ran
   ControlInput input;
   MeasurementStatus measurement = MeasurementStatus::None;  ///< of input.pose
   TargetState target;
   Conditions conditions = 0;
-  StopReason stop_reason = StopReason::NoTargetYet;
-  VelocityCommand wanted;  ///< from the control law
+  SupervisorState state = SupervisorState::Idle;
+  TransitionCause cause = TransitionCause::Boot;  ///< of the last change of `state` …
+  TimeNs t_transition_ns = 0;                     ///< … and the tick of it; 0: none yet
+  StopReason stop_reason = StopReason::NotStarted;
+  // The newest request that was handled, and what became of it:
+  std::uint64_t request_number = 0;
+  OperatorOutcome outcome = OperatorOutcome::None;
+  StopReason refused_by = StopReason::None;  ///< why it was refused
+  bool enable_motors = false;                ///< this tick's reset: the session may enable the motors again
+  VelocityCommand wanted;                    ///< from the control law
+  double person_m = 0.0;  ///< camera to back; infinite: the person is not ahead, or not known
   /// Bumper to the nearest sonar obstacle in the way; infinite: none; NaN: not needed, the robot stops at
   /// once.
   double free_distance_m = 0.0;
+  Hold hold = Hold::None;
   VelocityCommand command;  ///< after the gate, as sent
 };
 
@@ -290,14 +393,20 @@ struct CaptureCounters {
 /// These structs are copied between threads byte by byte.
 template <typename... T>
 inline constexpr bool kAllTriviallyCopyable = (std::is_trivially_copyable_v<T> && ...);
-static_assert(kAllTriviallyCopyable<FrameHeader, FrameView, PoseEstimate, RobotState, TargetState,
-                                    VelocityCommand, ControlInput, TickRecord, Event, CaptureCounters>);
+static_assert(
+    kAllTriviallyCopyable<FrameHeader, FrameView, PoseEstimate, RobotState, TargetState, VelocityCommand,
+                          OperatorRequest, ControlInput, TickRecord, Event, CaptureCounters>);
 
 /// The texts of reasons and phases in logs, records and status lines.
 const char* to_string(PoseReason reason);
 const char* to_string(LinkPhase phase);
 const char* to_string(MeasurementStatus status);
+const char* to_string(OperatorCommand command);
+const char* to_string(OperatorOutcome outcome);
+const char* to_string(SupervisorState state);
+const char* to_string(TransitionCause cause);
 const char* to_string(StopReason reason);
+const char* to_string(Hold hold);
 const char* to_string(EventKind kind);
 
 }  // namespace heel

@@ -37,7 +37,7 @@ Conditions ConditionMonitor::update(const ControlInput& input, MeasurementStatus
   const TimeNs now_ns = input.now_ns;
   update_following(input, measurement, config);
 
-  unsigned bits = 0;
+  Conditions bits = 0;
   const auto set = [&bits](Condition condition, bool holds) {
     if (holds) bits |= condition;
   };
@@ -56,7 +56,7 @@ Conditions ConditionMonitor::update(const ControlInput& input, MeasurementStatus
       !following_ && input.has_pose && input.pose.found() && input.pose.certainty < config.certainty_follow);
   set(kTargetLost, !following_ && ever_followed_);
   set(kNoTargetYet, !following_ && !ever_followed_);
-  return static_cast<Conditions>(bits);
+  return bits;
 }
 
 void ConditionMonitor::update_following(const ControlInput& input, MeasurementStatus measurement,

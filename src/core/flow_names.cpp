@@ -99,6 +99,138 @@ const char* to_string(StopReason reason) {
       return "target lost";
     case StopReason::LowCertainty:
       return "certainty too low";
+    case StopReason::Ambiguous:
+      return "shirt seen at two places";
+    case StopReason::BatteryLow:
+      return "battery low";
+    case StopReason::Overrun:
+      return "control too late";
+    case StopReason::ClockStep:
+      return "clock jumped";
+    case StopReason::OperatorAway:
+      return "operator away";
+    case StopReason::NotStarted:
+      return "not started";
+    case StopReason::EmergencyStop:
+      return "emergency stop";
+  }
+  return "?";
+}
+
+const char* to_string(Hold hold) {
+  switch (hold) {
+    case Hold::None:
+      return "none";
+    case Hold::PersonTooNear:
+      return "person too near";
+    case Hold::ObstacleAhead:
+      return "obstacle ahead";
+  }
+  return "?";
+}
+
+const char* to_string(OperatorCommand command) {
+  switch (command) {
+    case OperatorCommand::None:
+      return "none";
+    case OperatorCommand::Start:
+      return "start";
+    case OperatorCommand::Stop:
+      return "stop";
+    case OperatorCommand::EStop:
+      return "estop";
+    case OperatorCommand::Reset:
+      return "reset";
+  }
+  return "?";
+}
+
+const char* to_string(OperatorOutcome outcome) {
+  switch (outcome) {
+    case OperatorOutcome::None:
+      return "none";
+    case OperatorOutcome::Done:
+      return "done";
+    case OperatorOutcome::AlreadySo:
+      return "already so";
+    case OperatorOutcome::Refused:
+      return "refused";
+  }
+  return "?";
+}
+
+const char* to_string(SupervisorState state) {
+  switch (state) {
+    case SupervisorState::Idle:
+      return "idle";
+    case SupervisorState::Armed:
+      return "armed";
+    case SupervisorState::Following:
+      return "following";
+    case SupervisorState::Searching:
+      return "searching";
+    case SupervisorState::Waiting:
+      return "waiting";
+    case SupervisorState::Stopped:
+      return "stopped";
+    case SupervisorState::Emergency:
+      return "emergency";
+  }
+  return "?";
+}
+
+const char* to_string(TransitionCause cause) {
+  switch (cause) {
+    case TransitionCause::Boot:
+      return "boot";
+    case TransitionCause::Start:
+      return "start by the operator";
+    case TransitionCause::Stop:
+      return "stop by the operator";
+    case TransitionCause::EStop:
+      return "emergency stop by the operator";
+    case TransitionCause::Reset:
+      return "reset by the operator";
+    case TransitionCause::StartAtOnce:
+      return "start at once";
+    case TransitionCause::FaultGone:
+      return "fault gone";
+    case TransitionCause::TargetGood:
+      return "target good";
+    case TransitionCause::TargetLost:
+      return to_string(StopReason::TargetLost);
+    case TransitionCause::SearchEnded:
+      return "search ended";
+    case TransitionCause::Shutdown:
+      return to_string(StopReason::Shutdown);
+    case TransitionCause::LinkDown:
+      return to_string(StopReason::LinkDown);
+    case TransitionCause::StaleSip:
+      return to_string(StopReason::StaleSip);
+    case TransitionCause::StopButton:
+      return to_string(StopReason::StopButton);
+    case TransitionCause::MotorsOff:
+      return to_string(StopReason::MotorsOff);
+    case TransitionCause::Bumper:
+      return to_string(StopReason::Bumper);
+    case TransitionCause::Stall:
+      return to_string(StopReason::Stall);
+    case TransitionCause::BatteryLow:
+      return to_string(StopReason::BatteryLow);
+    case TransitionCause::Overrun:
+      return to_string(StopReason::Overrun);
+    case TransitionCause::ClockStep:
+      return to_string(StopReason::ClockStep);
+    case TransitionCause::OperatorAway:
+      return to_string(StopReason::OperatorAway);
+    case TransitionCause::SonarSilent:
+      return to_string(StopReason::SonarSilent);
+    case TransitionCause::StaleFrame:
+      return to_string(StopReason::StaleFrame);
+    case TransitionCause::Ambiguous:
+      return to_string(StopReason::Ambiguous);
+    case TransitionCause::LowCertainty:
+      return to_string(StopReason::LowCertainty);
   }
   return "?";
 }

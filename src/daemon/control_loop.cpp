@@ -1,5 +1,6 @@
 #include "daemon/control_loop.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "robot/p3at_geometry.h"
@@ -26,9 +27,8 @@ void ControlLoop::run() {
 }
 
 void ControlLoop::tick(TimeNs lateness_ns) {
-  read_inputs(monotonic_now_ns());
-  TickRecord record = stage_.tick(input_);
-  record.lateness_ns = lateness_ns;
+  read_inputs(monotonic_now_ns(), lateness_ns);
+  const TickRecord record = stage_.tick(input_);
   link_.write(record.command, input_.now_ns);
   report_robot_events();
   publish(record);
@@ -75,10 +75,24 @@ bool ControlLoop::reconfigure(const Config& config, TimeNs timeout_ns) {
   return true;
 }
 
-void ControlLoop::read_inputs(TimeNs now_ns) {
+void ControlLoop::request(const OperatorRequest& request) {
+  (request.command == OperatorCommand::EStop ? emergency_stops_ : requests_).post(request);
+}
+
+void ControlLoop::read_inputs(TimeNs now_ns, TimeNs lateness_ns) {
   input_.now_ns = now_ns;
+  input_.lateness_ns = lateness_ns;
   input_.robot = link_.read(now_ns);
   if (poses_.take(input_.pose)) input_.has_pose = true;
+  read_operator();
+}
+
+void ControlLoop::read_operator() {
+  // One request a tick. A request that waits behind an emergency stop and is older is never handled: its
+  // number is no longer new.
+  if (!emergency_stops_.take(input_.request)) requests_.take(input_.request);
+  input_.t_operator_ns =
+      std::max({input_.t_operator_ns, input_.request.t_ns, t_operator_ns_.load(std::memory_order_relaxed)});
 }
 
 /// The session's events as they are, copied, not formatted.
@@ -94,6 +108,7 @@ void ControlLoop::report_robot_events() {
 
 void ControlLoop::publish(const TickRecord& record) {
   status_.post(record);
+  operator_status_.post(record);
   queues_.ticks.push(record);
 }
 

@@ -25,6 +25,15 @@ class ControlLoop {
   /// STOP, SONAR 0, CLOSE, for a thread whose run() has ended by an exception; nothing when already done.
   void shut_robot_down();
 
+  /// From the operator thread, which alone calls it: the newest request replaces one that no tick has taken
+  /// yet, but an emergency stop is never replaced. Wait-free. A tick's `request_number` tells when it was
+  /// handled; a number that is already larger: it was replaced.
+  void request(const OperatorRequest& request);
+  /// From the operator thread: a sign that the operator is there (supervisor.operator_timeout_s).
+  void operator_alive(TimeNs t_ns) { t_operator_ns_.store(t_ns, std::memory_order_relaxed); }
+  /// For the operator thread: true and the newest tick, when there is one not taken before.
+  bool take_operator_status(TickRecord& out) { return operator_status_.take(out); }
+
   /// From the main thread: offers a configuration, taken over before the next tick. `config` must live until
   /// the call returns. False: the loop did not take it within the timeout.
   bool reconfigure(const Config& config, TimeNs timeout_ns);
@@ -40,7 +49,8 @@ class ControlLoop {
   TimeNs wait_for_tick();
   void tick(TimeNs lateness_ns);
   void apply_offered_configuration();
-  void read_inputs(TimeNs now_ns);
+  void read_inputs(TimeNs now_ns, TimeNs lateness_ns);
+  void read_operator();
   void report_robot_events();
   void publish(const TickRecord& record);
 
@@ -53,7 +63,11 @@ class ControlLoop {
   ControlInput input_;
   std::uint64_t overruns_ = 0;
 
-  Mailbox<TickRecord> status_;
+  Mailbox<OperatorRequest> requests_;            // operator → control
+  Mailbox<OperatorRequest> emergency_stops_;     // operator → control; taken before `requests_`
+  std::atomic<TimeNs> t_operator_ns_{0};         // operator → control
+  Mailbox<TickRecord> operator_status_;          // control → operator
+  Mailbox<TickRecord> status_;                   // control → main
   std::atomic<const Config*> offered_{nullptr};  // main → control
   std::atomic<const Config*> taken_{nullptr};    // control → main
   std::atomic<bool> stop_{false};

@@ -28,7 +28,8 @@ std::vector<CsvColumn<TickRecord>> make_tick_columns() {
   std::vector<CsvColumn<T>> columns{
       {"t_s", [](L& l, const T& t, int) { l.seconds(t.input.now_ns); }},
       {"tick", [](L& l, const T& t, int) { l.integer(t.tick); }},
-      {"lateness_us", [](L& l, const T& t, int) { l.number(static_cast<double>(t.lateness_ns) * 1e-3); }},
+      {"lateness_us",
+       [](L& l, const T& t, int) { l.number(static_cast<double>(t.input.lateness_ns) * 1e-3); }},
       {"stop_code", [](L& l, const T& t, int) { l.integer(static_cast<std::uint64_t>(t.stop_reason)); }},
       {"stop_reason", [](L& l, const T& t, int) { l.text(to_string(t.stop_reason)); }},
       {"link_code",

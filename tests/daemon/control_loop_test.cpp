@@ -27,7 +27,7 @@ TEST(ControlLoop, TheTimeBeforeTheThreadRunsIsNotLateness) {
   thread.join();
 
   // The first tick cannot be later than this on any machine, however busy.
-  EXPECT_LE(first.lateness_ns, first.input.now_ns - t_run_ns - period_ns);
+  EXPECT_LE(first.input.lateness_ns, first.input.now_ns - t_run_ns - period_ns);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST(CsvColumns, ATicksValuesAreUnderTheirColumnNames) {
   TickRecord tick;
   tick.tick = 17;
   tick.input.now_ns = 2'500'000'000;
-  tick.lateness_ns = 12'500;
+  tick.input.lateness_ns = 12'500;
   tick.stop_reason = StopReason::Bumper;
   tick.input.robot.phase = LinkPhase::Running;
   tick.input.robot.has_sip = true;

@@ -150,7 +150,7 @@ TEST_F(TelemetryTest, EveryPushedRecordIsInTheRecordingAfterStop) {
     const std::string text = test::read_text(folder.file(name));
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), kRecords + 1) << name;
   }
-  EXPECT_THAT(test::read_text(folder.file("events.log")), HasSubstr("at rest: no target seen yet"));
+  EXPECT_THAT(test::read_text(folder.file("events.log")), HasSubstr("at rest: not started"));
   EXPECT_EQ(telemetry.snapshot().tick.tick, std::uint64_t{kRecords});
   EXPECT_EQ(telemetry.snapshot().pose.frame_sequence, std::uint64_t{kRecords});
   EXPECT_EQ(telemetry.snapshot().capture.captured, std::uint64_t{kRecords});
