@@ -38,6 +38,7 @@ bool ArcosSession::is_connected() const {
 
 void ArcosSession::enter(Step step, TimeNs now_ns) {
   step_ = step;
+  if (step != Step::Enabling) ends_e_stall_ = false;
   t_step_ns_ = now_ns;
   attempts_ = 0;
   switch (step) {
@@ -205,14 +206,15 @@ void ArcosSession::on_reset_notice(TimeNs t_ns) {
 }
 
 void ArcosSession::apply_motor_flags(TimeNs t_ns) {
-  const bool held = state_.stop_button || state_.e_stall;
+  const bool held = state_.stop_button || (state_.e_stall && !ends_e_stall_);
   if (step_ == Step::Enabling) {
     if (held) {
       hold_disabled_ = true;
       queue_.clear();
       events_.push(t_ns, Kind::StopButton);
       enter(Step::Disabled, t_ns);
-    } else if (state_.motors_enabled && queue_.empty()) {  // not before zero velocity has been sent
+    } else if (state_.motors_enabled && !state_.e_stall && queue_.empty()) {
+      // Not before zero velocity has been sent.
       events_.push(t_ns, Kind::MotorsEnabled);
       enter(Step::Running, t_ns);
     }

@@ -2,7 +2,7 @@
 // the time, its output is bytes: it uses no device and no clock, so that the daemon and the lock-step
 // simulator run the same code. It does not allocate after construction.
 //
-//   NoLine → Listening → Sync0 → Sync1 → Sync2 → Opening → Enabling → Running ⇄ Disabled
+//   NoLine → Listening → Sync0 → Sync1 → Sync2 → Opening → Enabling → Running → Disabled (reset: → Enabling)
 //              ↑  └ a SIP: left open → Closing ┘      ⇅          └ silence, reset → Silent → Listening
 //                                            AskingRate → TryingRate (→ LeavingRate): a faster line
 //
@@ -53,6 +53,10 @@ class ArcosSession {
   int wanted_baud() const { return sweep_.current(); }
   /// True: every rate was tried without an answer; opening the device again may help.
   bool line_exhausted() const { return line_exhausted_; }
+
+  /// An operator's reset: the motors that went off, or were not enabled, may be enabled again; nothing
+  /// otherwise. To be called between advance() and send().
+  void enable_motors_again(TimeNs now_ns);
 
   /// STOP, SONAR 0, CLOSE, to be sent whenever the program ends. Nothing more is sent until line_opened().
   std::span<const std::uint8_t> close(TimeNs now_ns);
@@ -137,7 +141,8 @@ class ArcosSession {
   bool was_connected_ = false;
   bool line_exhausted_ = false;
   bool rate_refused_ = false;   ///< the robot is asked for a faster rate once
-  bool hold_disabled_ = false;  ///< the motors went off: this session does not enable them again
+  bool hold_disabled_ = false;  ///< the motors went off: they are not enabled without a reset
+  bool ends_e_stall_ = false;   ///< Enabling after a reset: ENABLE ends an E-stall
 };
 
 }  // namespace heel

@@ -151,6 +151,16 @@ void ArcosSession::retry_enable(TimeNs now_ns) {
   queue_enable();
 }
 
+void ArcosSession::enable_motors_again(TimeNs now_ns) {
+  if (!hold_disabled_) return;
+  hold_disabled_ = false;
+  if (step_ != Step::Disabled) return;  // the next connection enables them
+  events_.push(now_ns, Kind::EnableAgain);
+  queue_enable();
+  enter(Step::Enabling, now_ns);
+  ends_e_stall_ = true;
+}
+
 void ArcosSession::disconnect_silent(TimeNs now_ns) {
   const TimeNs last_ns = sip_seen_ ? t_sip_ns_ : t_step_ns_;
   events_.push(now_ns, Kind::SipSilence, (now_ns - last_ns) / kNsPerMs);

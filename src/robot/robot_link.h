@@ -26,6 +26,9 @@ class RobotLink {
   /// control and session decide on in this tick.
   const RobotState& read(TimeNs now_ns);
 
+  /// Between read() and write() of a tick: ArcosSession::enable_motors_again().
+  void enable_motors_again(TimeNs now_ns) { session_.enable_motors_again(now_ns); }
+
   /// The end of the same tick, at the same `now_ns`: writes what the session makes of the command.
   void write(const VelocityCommand& command, TimeNs now_ns);
 

@@ -31,11 +31,13 @@ const char* to_string(SessionEventKind kind) {
     case SessionEventKind::EnableRepeated:
       return "motors are not enabled yet; attempt {} to enable them";
     case SessionEventKind::EnableFailed:
-      return "motors are not enabled after {} attempts; check stop button and battery";
+      return "motors are not enabled after {} attempts; check stop button and battery, then `heel reset`";
+    case SessionEventKind::EnableAgain:
+      return "reset by the operator: enabling the motors again";
     case SessionEventKind::StopButton:
-      return "stop button or E-stall: motors stay off until heeld is restarted";
+      return "stop button or E-stall: motors stay off until `heel reset`";
     case SessionEventKind::MotorsOff:
-      return "motors went off: they stay off until heeld is restarted";
+      return "motors went off: they stay off until `heel reset`";
     case SessionEventKind::ControllerReset:
       return "robot controller was reset; heeld connects again";
     case SessionEventKind::SipSilence:

@@ -24,6 +24,7 @@ enum class SessionEventKind : std::uint8_t {
   MotorsEnabled,
   EnableRepeated,  ///< value: attempt
   EnableFailed,    ///< value: attempts
+  EnableAgain,     ///< by an operator's reset
   StopButton,      ///< motors off by the button, or by E-stall
   MotorsOff,       ///< motors off for another reason
   ControllerReset,

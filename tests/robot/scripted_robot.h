@@ -39,6 +39,7 @@ class ScriptedRobot {
   bool answers_config = true;
   bool config_damaged = false;
   int enables_to_ignore = 0;
+  bool enable_ends_e_stall = false;  ///< otherwise an E-stall keeps the motors off
   int host_bauds_to_follow = 100;
   int unheard_at = 0;              ///< a rate at which nothing it says arrives
   int last_echoes_to_swallow = 0;  ///< of SYNC2
@@ -116,6 +117,8 @@ class ScriptedRobot {
       if (host_bauds_to_follow-- > 0) baud = kRobotBauds.at(static_cast<std::size_t>(command.value));
     } else if (command.is(CommandId::Enable)) {
       if (command.value == 1 && enables_to_ignore-- > 0) return;
+      if (enable_ends_e_stall) set_flag(arcos::kFlagEStall, false);
+      if ((sip.flags & arcos::kFlagEStall) != 0) return;
       set_flag(arcos::kFlagMotorsEnabled, command.value == 1);
     }
   }

@@ -307,7 +307,7 @@ TEST_F(Heeld, StopButtonHoldsTheRobotUntilHeeldIsRestarted) {
   }
   ASSERT_TRUE(daemon_) << "the robot was not driving after 90 s";
   EXPECT_TRUE(daemon_->says("at rest: stop button pressed")) << logs();
-  EXPECT_TRUE(daemon_->says("motors stay off until heeld is restarted")) << logs();
+  EXPECT_TRUE(daemon_->says("motors stay off until `heel reset`")) << logs();
   EXPECT_TRUE(comes_to_rest());
   sleep_s(2.0);
   EXPECT_EQ(speed(), 0.0) << "the button has been released";
