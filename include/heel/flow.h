@@ -346,6 +346,7 @@ struct TickRecord {
   std::uint64_t request_number = 0;
   OperatorOutcome outcome = OperatorOutcome::None;
   StopReason refused_by = StopReason::None;  ///< why it was refused
+  bool needs_start = false;                  ///< only an operator's start lets the robot move again
   bool enable_motors = false;                ///< this tick's reset: the session may enable the motors again
   VelocityCommand wanted;                    ///< from the control law
   double person_m = 0.0;  ///< camera to back; infinite: the person is not ahead, or not known

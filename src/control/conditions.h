@@ -9,15 +9,20 @@ namespace heel {
 /// Finds the conditions that hold in a tick. A good frame is one that the estimator accepted with a certainty
 /// of at least `certainty_follow`, or `certainty_drop` while following. Following starts after
 /// `frames_to_follow` good frames in a row and ends when no good frame has come for `target_timeout_s`.
+/// Motors that went off while the line was up stay off until an operator's reset.
 class ConditionMonitor {
  public:
-  /// Once a tick. `sonar_on`: without readings from the sonars kSonarSilent holds.
+  /// Once a tick. `sonar_on`: without readings from the sonars kSonarSilent holds. `command`: of a request
+  /// that is new in this tick.
   Conditions update(const ControlInput& input, MeasurementStatus measurement, const SupervisorConfig& config,
-                    bool sonar_on);
+                    bool sonar_on, OperatorCommand command);
 
  private:
   void update_following(const ControlInput& input, MeasurementStatus measurement,
                         const SupervisorConfig& config);
+  bool motors_off(const RobotState& robot, OperatorCommand command);
+  bool battery_low(const RobotState& robot, TimeNs now_ns, const SupervisorConfig& config);
+  bool clock_stepped(const ControlInput& input);
 
   bool following_ = false;
   bool ever_followed_ = false;
@@ -27,6 +32,11 @@ class ConditionMonitor {
   TimeNs t_last_bump_ns_ = 0;
   bool ever_stalled_ = false;
   TimeNs t_last_stall_ns_ = 0;
+  bool motors_went_off_ = false;  // by the robot, and no reset since
+  bool battery_low_ = false;
+  TimeNs t_battery_fine_ns_ = 0;  // when it last had at least battery_low_v; 0: no voltage yet
+  bool ticked_ = false;
+  TimeNs t_last_tick_ns_ = 0;
 };
 
 }  // namespace heel

@@ -11,10 +11,25 @@
 #include "estimate/target_estimator.h"
 
 namespace heel {
+namespace {
+
+void copy_verdict(const Verdict& verdict, TickRecord& record) {
+  record.state = verdict.state;
+  record.cause = verdict.cause;
+  record.t_transition_ns = verdict.t_transition_ns;
+  record.stop_reason = verdict.stop_reason;
+  record.request_number = verdict.request_number;
+  record.outcome = verdict.outcome;
+  record.refused_by = verdict.refused_by;
+  record.needs_start = verdict.needs_start;
+  record.enable_motors = verdict.enable_motors;
+}
+
+}  // namespace
 
 struct ControlStage::Impl {
   Impl(const Config& config, const RobotGeometry& robot)
-      : estimator(config), obstacle_map(robot), law(make_follow_law(config)) {
+      : estimator(config), obstacle_map(robot), law(make_follow_law(config)), supervisor(config.supervisor) {
     reconfigure(config);
   }
 
@@ -25,7 +40,8 @@ struct ControlStage::Impl {
   double person_range_m(const TargetState& target) const;
   VelocityCommand wanted(const FollowInput& input) const;
 
-  // The parts of the configuration in use. They hold no text, so that reconfigure() does not allocate.
+  // The parts of the configuration in use. They hold no text that is longer than a std::string keeps in
+  // itself, so that reconfigure() does not allocate.
   SupervisorConfig supervisor_config;
   GateConfig gate_config;
   CameraMount mount;
@@ -35,6 +51,7 @@ struct ControlStage::Impl {
   SonarObstacleMap obstacle_map;
   std::unique_ptr<FollowLaw> law;
   ConditionMonitor condition_monitor;
+  Supervisor supervisor;
   VelocityCommand last_command;
   std::uint64_t ticks = 0;
   std::uint64_t reconnects = 0;
@@ -115,15 +132,19 @@ TickRecord ControlStage::tick(const ControlInput& input) {
   record.measurement = impl.update_target(input);
   record.target = impl.estimator.predict(input.now_ns);
   record.conditions =
-      impl.condition_monitor.update(input, record.measurement, impl.supervisor_config, impl.sonar_on);
-  const Verdict verdict = supervise(record.conditions);
-  record.stop_reason = verdict.reason;
-  const Clearances clearances{impl.person_range_m(record.target),
+      impl.condition_monitor.update(input, record.measurement, impl.supervisor_config, impl.sonar_on,
+                                    impl.supervisor.new_command(input.request));
+  const Verdict verdict =
+      impl.supervisor.update(input, record.conditions, impl.law->may_search(), impl.supervisor_config);
+  copy_verdict(verdict, record);
+  record.person_m = impl.person_range_m(record.target);
+  const Clearances clearances{record.person_m,
                               impl.obstacle_map.obstacles_at(input.now_ns, input.robot.odometry)};
   record.wanted = impl.wanted({input.now_ns, record.target, input.robot, clearances.obstacles});
   const GateResult gated =
       apply_gate(record.wanted, impl.last_command, verdict.style, clearances, input.now_ns, impl.gate_config);
   record.free_distance_m = gated.free_distance_m;
+  record.hold = gated.hold;
   record.command = gated.command;
   impl.last_command = record.command;
   return record;

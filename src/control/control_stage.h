@@ -21,7 +21,8 @@ class ControlStage {
   ControlStage& operator=(ControlStage&&) noexcept;
 
   /// New gains, limits and thresholds at a tick boundary; state is kept. The control law stays the one of the
-  /// construction: another one would begin without the state that it needs while the robot drives.
+  /// construction: another one would begin without the state that it needs while the robot drives. So does
+  /// supervisor.start.
   void reconfigure(const Config& config);
 
   /// One tick: the input, and everything that was decided.

@@ -33,6 +33,9 @@ class FollowLaw {
   virtual void reconfigure(const Config& config) = 0;
   /// The robot may have moved unobserved (the line was interrupted): forgets everything that is kept in odom.
   virtual void reset() = 0;
+  /// True: without a target the law can drive on, along what it knows of the person's path, and has not come
+  /// to its end. The supervisor limits the time (supervisor.search_s).
+  virtual bool may_search() const { return false; }
   /// One tick.
   virtual WantedVelocity velocity(const FollowInput& input) = 0;
 };

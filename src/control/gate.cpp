@@ -67,15 +67,15 @@ GateResult apply_gate(const VelocityCommand& wanted, const VelocityCommand& prev
   goal.v_m_s = clamped(goal.v_m_s, -limits.v_max_m_s, limits.v_max_m_s, kGateSpeed, limited_by);
   goal.yaw_rate_rad_s = clamped(goal.yaw_rate_rad_s, -limits.yaw_rate_max_rad_s, limits.yaw_rate_max_rad_s,
                                 kGateSpeed, limited_by);
-  goal.v_m_s =
-      clamped(goal.v_m_s, -limits.v_max_m_s, approach_limit(clearances.person_m, limits.separation_m, limits),
-              kGateSeparation, limited_by);
+  const double person_limit_m_s = approach_limit(clearances.person_m, limits.separation_m, limits);
+  goal.v_m_s = clamped(goal.v_m_s, -limits.v_max_m_s, person_limit_m_s, kGateSeparation, limited_by);
   // Two arcs must be free: the one to drive, and the one that is driven until the velocity has changed.
   const Velocity now = velocity_at(previous, now_ns, limits);
   result.free_distance_m = std::min(clearances.obstacles.free_distance_m(goal.v_m_s, goal.yaw_rate_rad_s),
                                     clearances.obstacles.free_distance_m(now.v_m_s, now.yaw_rate_rad_s));
   const double obstacle_limit_m_s = approach_limit(result.free_distance_m, limits.clearance_m, limits);
   goal.v_m_s = clamped(goal.v_m_s, -obstacle_limit_m_s, obstacle_limit_m_s, kGateObstacle, limited_by);
+  const bool obstacle_holds = (limited_by & kGateObstacle) != 0 && obstacle_limit_m_s < kHeld_m_s;
 
   const bool expired = now_ns > previous.t_expires_ns;  // the first command after a gap is zero
   const TimeNs gap_ns = expired ? 0 : std::clamp<TimeNs>(now_ns - previous.t_issued_ns, 0, kLongestSlew_ns);
@@ -86,6 +86,12 @@ GateResult apply_gate(const VelocityCommand& wanted, const VelocityCommand& prev
       std::clamp(goal.yaw_rate_rad_s, now.yaw_rate_rad_s - yaw_step, now.yaw_rate_rad_s + yaw_step);
   if (out.v_m_s != goal.v_m_s || out.yaw_rate_rad_s != goal.yaw_rate_rad_s) limited_by |= kGateAcceleration;
   out.limited_by = static_cast<std::uint8_t>(limited_by);
+  // A robot that drives backwards gives way: nothing holds it. Near the person a law may want no speed by
+  // itself; the gate would allow none.
+  if (style == StopStyle::Go && std::abs(out.v_m_s) < kHeld_m_s) {
+    const bool person_holds = person_limit_m_s < kHeld_m_s && out.v_m_s >= 0.0;
+    result.hold = person_holds ? Hold::PersonTooNear : obstacle_holds ? Hold::ObstacleAhead : Hold::None;
+  }
   return result;
 }
 

@@ -4,8 +4,8 @@
 
 #include <limits>
 
+#include "control/condition_table.h"
 #include "control/sonar_obstacles.h"
-#include "control/supervisor.h"
 #include "core/config.h"
 #include "heel/flow.h"
 
@@ -13,6 +13,8 @@ namespace heel {
 
 /// A gap between ticks that is longer than this allows no larger change of velocity.
 inline constexpr TimeNs kLongestSlew_ns = 100 * kNsPerMs;
+/// Slower than this, and not allowed to be faster, the robot counts as held.
+inline constexpr double kHeld_m_s = 0.05;
 
 /// What the robot must not come too near to, in this tick.
 struct Clearances {
@@ -22,6 +24,7 @@ struct Clearances {
 
 struct GateResult {
   VelocityCommand command;
+  Hold hold = Hold::None;
   /// Bumper to the nearest echo in the way; infinite: none; NaN: not asked for, because the robot stops at
   /// once.
   double free_distance_m = std::numeric_limits<double>::quiet_NaN();

@@ -61,14 +61,20 @@ struct ControlConfig {
 };
 
 struct SupervisorConfig {
-  double certainty_follow = 0.1;  ///< following starts at this certainty …
-  double certainty_drop = 0.06;   ///< … and continues while it is at least this (hysteresis)
-  int frames_to_follow = 3;       ///< good frames in a row before the robot moves
-  double target_timeout_s = 0.4;  ///< no good frame for this long: target lost
-  double frame_timeout_s = 0.3;   ///< no frame for this long: camera silent
-  double sip_timeout_s = 0.5;     ///< no SIP for this long: robot silent
-  double bumper_hold_s = 2.0;     ///< time at rest after a bumper or stall has cleared
-  double sonar_timeout_s = 1.0;   ///< no reading of a front sonar for this long: sonars silent
+  std::string start = "operator";   ///< what lets the robot move: operator, or at_once (benches)
+  double certainty_follow = 0.1;    ///< following starts at this certainty …
+  double certainty_drop = 0.06;     ///< … and continues while it is at least this (hysteresis)
+  int frames_to_follow = 3;         ///< good frames in a row before the robot moves
+  double target_timeout_s = 0.4;    ///< no good frame for this long: target lost
+  double frame_timeout_s = 0.3;     ///< no frame for this long: camera silent
+  double sip_timeout_s = 0.5;       ///< no SIP for this long: robot silent
+  double bumper_hold_s = 2.0;       ///< time at rest after a bumper or stall has cleared
+  double sonar_timeout_s = 1.0;     ///< no reading of a front sonar for this long: sonars silent
+  double search_s = 5.0;            ///< longest search for a lost target by a law that can drive on
+  double battery_low_v = 11.0;      ///< below this the battery counts as low; 0: never
+  double battery_ok_v = 12.0;       ///< at or above this it no longer does (hysteresis)
+  double lateness_max_s = 0.2;      ///< a tick that is later than this: control too late; 0: never
+  double operator_timeout_s = 0.0;  ///< no sign of the operator for this long: operator away; 0: never
 };
 
 struct GateConfig {

@@ -29,6 +29,7 @@ void ControlLoop::run() {
 void ControlLoop::tick(TimeNs lateness_ns) {
   read_inputs(monotonic_now_ns(), lateness_ns);
   const TickRecord record = stage_.tick(input_);
+  if (record.enable_motors) link_.enable_motors_again(input_.now_ns);
   link_.write(record.command, input_.now_ns);
   report_robot_events();
   publish(record);

@@ -88,6 +88,9 @@ void log_configuration(const LoadedConfig& loaded, const Inputs& inputs) {
                inputs.camera.width_px, inputs.camera.height_px);
   for (const std::string& line : template_lines(c, inputs)) spdlog::info("template: {}", line);
   spdlog::info("robot: {}", c.robot.address);
+  if (c.supervisor.start == "at_once")
+    spdlog::warn(
+        "supervisor.start = \"at_once\": the robot moves without `heel start`; for test benches only");
   spdlog::info(
       "limits: speed {:.2f} m/s, yaw rate {:.2f} rad/s, acceleration {:.2f} m/s², deceleration {:.2f} m/s²",
       c.gate.v_max_m_s, c.gate.yaw_rate_max_rad_s, c.gate.acceleration_m_s2, c.gate.deceleration_m_s2);

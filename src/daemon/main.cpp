@@ -6,6 +6,7 @@
 
 #include "config/config_load.h"
 #include "config/config_text.h"
+#include "control/state_manual.h"
 #include "daemon/check.h"
 #include "daemon/daemon.h"
 
@@ -23,6 +24,7 @@ struct Options {
   bool check = false;
   bool print_default_config = false;
   bool print_config_manual = false;
+  bool print_state_manual = false;
 };
 
 /// A command line that cannot be used, in one line on standard error.
@@ -44,6 +46,10 @@ int run(const Options& options) {
   }
   if (options.print_config_manual) {
     std::fputs(heel::config_manual_text().c_str(), stdout);
+    return 0;
+  }
+  if (options.print_state_manual) {
+    std::fputs(heel::state_manual_text().c_str(), stdout);
     return 0;
   }
   if (options.check) {
@@ -71,6 +77,8 @@ int run(int argc, char** argv) {
                              "Print a configuration file with every key at its default value, and exit");
   auto* manual = app.add_flag("--print-config-manual", options.print_config_manual,
                               "Print the manual of all keys (docs/configuration.md), and exit");
+  auto* states = app.add_flag("--print-state-manual", options.print_state_manual,
+                              "Print the tables of the supervisor (in docs/safety.md), and exit");
   app.footer(
       "Exit status: 0 done, or stopped by a signal; 1 an error while running; 64 the command line cannot\n"
       "be used; 78 the configuration or a file that it names cannot be used, or none is given.");
@@ -83,7 +91,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return refuse(error.what());
   }
-  if (config->count() + print->count() + manual->count() == 0) {
+  if (config->count() + print->count() + manual->count() + states->count() == 0) {
     std::fputs(
         "heeld: no configuration; expected --config FILE (heeld --print-default-config prints an example)\n",
         stderr);

@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "core/state_sentence.h"
+
 namespace heel {
 namespace {
 
@@ -65,16 +67,7 @@ std::string StatusReporter::status_line() const {
     const char* const both = robot.empty() || frame_seen_ ? "" : " and ";
     return fmt::format("waiting for {}{}{}", robot, both, camera);
   }
-  const PoseEstimate& pose = tick_.input.pose;
-  if (tick_.stop_reason == StopReason::None)
-    return pose.template_index == 0 ? "following"
-                                    : fmt::format("following by template {}", pose.template_index);
-  const bool waits_for_person =
-      tick_.stop_reason == StopReason::NoTargetYet || tick_.stop_reason == StopReason::TargetLost;
-  const std::string why = waits_for_person && tick_.input.has_pose && !pose.found()
-                              ? fmt::format(" ({})", to_string(pose.reason))
-                              : "";
-  return fmt::format("at rest: {}{}", to_string(tick_.stop_reason), why);
+  return state_sentence(tick_);
 }
 
 }  // namespace heel

@@ -32,6 +32,22 @@ std::vector<CsvColumn<TickRecord>> make_tick_columns() {
        [](L& l, const T& t, int) { l.number(static_cast<double>(t.input.lateness_ns) * 1e-3); }},
       {"stop_code", [](L& l, const T& t, int) { l.integer(static_cast<std::uint64_t>(t.stop_reason)); }},
       {"stop_reason", [](L& l, const T& t, int) { l.text(to_string(t.stop_reason)); }},
+      {"state_code", [](L& l, const T& t, int) { l.integer(static_cast<std::uint64_t>(t.state)); }},
+      {"state", [](L& l, const T& t, int) { l.text(to_string(t.state)); }},
+      {"cause", [](L& l, const T& t, int) { l.text(to_string(t.cause)); }},
+      {"transition_s", [](L& l, const T& t, int) { l.seconds(t.t_transition_ns); }},
+      {"hold", [](L& l, const T& t, int) { l.text(to_string(t.hold)); }},
+      // The operator's newest request, and what became of it.
+      {"request", [](L& l, const T& t, int) { l.integer(t.input.request.number); }},
+      {"request_t_s", [](L& l, const T& t, int) { l.seconds(t.input.request.t_ns); }},
+      {"request_command", [](L& l, const T& t, int) { l.text(to_string(t.input.request.command)); }},
+      {"request_handled", [](L& l, const T& t, int) { l.integer(t.request_number); }},
+      {"outcome", [](L& l, const T& t, int) { l.text(to_string(t.outcome)); }},
+      {"refused_by",
+       [](L& l, const T& t, int) {
+         l.text(t.outcome == OperatorOutcome::Refused ? to_string(t.refused_by) : "none");
+       }},
+      {"operator_t_s", [](L& l, const T& t, int) { l.seconds(t.input.t_operator_ns); }},
       {"link_code",
        [](L& l, const T& t, int) { l.integer(static_cast<std::uint64_t>(t.input.robot.phase)); }},
       {"link_phase", [](L& l, const T& t, int) { l.text(to_string(t.input.robot.phase)); }},
@@ -98,6 +114,7 @@ std::vector<CsvColumn<TickRecord>> make_tick_columns() {
       {"command_yaw_rate_rad_s", [](L& l, const T& t, int) { l.number(t.command.yaw_rate_rad_s); }},
       {"command_expires_s", [](L& l, const T& t, int) { l.seconds(t.command.t_expires_ns); }},
       {"limited_by", [](L& l, const T& t, int) { l.integer(std::uint64_t{t.command.limited_by}); }},
+      {"person_m", [](L& l, const T& t, int) { l.number(t.person_m); }},
       {"free_distance_m", [](L& l, const T& t, int) { l.number(t.free_distance_m); }},
   };
   add_array<T>(columns, "sonar_t_s", kSonars, [](L& l, const T& t, int i) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "core/state_sentence.h"
 #include "logging/journal_sink.h"
 #include "realtime/clock.h"
 #include "realtime/futex.h"
@@ -83,13 +84,7 @@ void Telemetry::drain(TimeNs now_ns) {
 // Of the ticks only changes are logged.
 void Telemetry::take(const TickRecord& tick) {
   const bool first = newest_.ticks == 0;
-  if (first || tick.stop_reason != newest_.tick.stop_reason) {
-    const std::string text = tick.stop_reason == StopReason::None
-                                 ? "following"
-                                 : fmt::format("at rest: {}", to_string(tick.stop_reason));
-    log_event({.part = "supervisor", .event = to_string(tick.stop_reason)}, spdlog::level::info, text);
-    if (recorder_) recorder_->record_text(tick.input.now_ns, text);
-  }
+  take_state(tick, first);
   if (first || tick.input.robot.phase != newest_.tick.input.robot.phase) {
     const std::string text = fmt::format("link to the robot: {}", to_string(tick.input.robot.phase));
     const bool lost = tick.input.robot.phase == LinkPhase::Lost;
@@ -101,6 +96,24 @@ void Telemetry::take(const TickRecord& tick) {
   ++newest_.ticks;
   newest_.tick = tick;
   if (recorder_) recorder_->record(tick);
+}
+
+/// Changes of state or reason, and of what the gate holds the robot by: of these at most one a second,
+/// because the noise of an echo at the limit changes them with each packet.
+void Telemetry::take_state(const TickRecord& tick, bool first) {
+  const TimeNs now_ns = tick.input.now_ns;
+  const bool moved = !first && tick.state != newest_.tick.state;
+  const bool stopped = first || moved || tick.stop_reason != newest_.tick.stop_reason;
+  const bool held = tick.hold != logged_hold_ && now_ns - t_hold_logged_ns_ >= kRepeatedEventPeriod_ns;
+  if (!stopped && !held) return;
+  logged_hold_ = tick.hold;
+  t_hold_logged_ns_ = now_ns;
+  const std::string cause =
+      moved ? fmt::format(" ({}: {})", to_string(tick.state), to_string(tick.cause)) : "";
+  const std::string text = state_sentence(tick) + cause;
+  const char* const event = tick.hold != Hold::None ? to_string(tick.hold) : to_string(tick.stop_reason);
+  log_event({.part = "supervisor", .event = event}, spdlog::level::info, text);
+  if (recorder_) recorder_->record_text(now_ns, text);
 }
 
 void Telemetry::take_measurement(const TickRecord& tick) {

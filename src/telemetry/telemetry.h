@@ -50,6 +50,7 @@ class Telemetry {
 
  private:
   void take(const TickRecord& tick);
+  void take_state(const TickRecord& tick, bool first);
   void take_measurement(const TickRecord& tick);
   void take(const Event& event);
   void log_losses(TimeNs now_ns);
@@ -62,6 +63,8 @@ class Telemetry {
   TelemetrySnapshot published_;
 
   std::array<TimeNs, 16> t_logged_ns_{};  // by EventKind: when it was logged last
+  Hold logged_hold_ = Hold::None;
+  TimeNs t_hold_logged_ns_ = 0;
   std::uint32_t template_in_use_ = 0;
   std::string logged_refusal_;  // the last one: a frame refused for another reason is logged again
   TimeNs t_refusal_logged_ns_ = 0;

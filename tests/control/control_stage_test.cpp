@@ -4,77 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include "control/following.h"
 #include "control/law_names.h"
 #include "core/angles.h"
 #include "core/random.h"
-#include "estimate/floor_truth.h"
-#include "robot/p3at_geometry.h"
 #include "support/allocation_count.h"
 #include "support/decisions.h"
 
 namespace heel {
 namespace {
 
-struct Following {
-  Config config;
-  ControlStage stage{config, p3at_geometry()};
-  test::Reference reference;
-  Pose2 robot;
-  Pose2 person{3.0, 0.0, 0.0};
-  double person_v_m_s = 0.5, person_yaw_rate_rad_s = 0.0;
-  bool camera = true, visible = true;
-  double ahead_m = 0.0;  // range of the front sonar just left of the middle; 0: free
-  ControlInput input;
-  TickRecord record;
-  double v_m_s = 0.0, yaw_rate_rad_s = 0.0;
-
-  explicit Following(const std::string& law = "view") : config(config_with(law)) {
-    input.now_ns = 5 * kNsPerS;
-    input.robot.phase = LinkPhase::Running;
-    input.robot.has_sip = true;
-    input.robot.motors_enabled = true;
-    input.robot.odometry = test::odometry(input.now_ns, robot, 0, 0);
-  }
-
-  static Config config_with(const std::string& law) {
-    Config config;
-    config.control.law = law;
-    return config;
-  }
-
-  void tick() {
-    if (input.now_ns % (100 * kNsPerMs) == 0) {
-      input.robot.odometry = test::odometry(input.now_ns, robot, v_m_s, yaw_rate_rad_s);
-      input.robot.sonar.fill({input.now_ns, 5.0});
-      if (ahead_m > 0.0) input.robot.sonar[3].range_m = ahead_m;
-    }
-    if (camera && input.now_ns % (40 * kNsPerMs) == 0) {
-      const std::uint64_t sequence = input.pose.frame_sequence + 1;
-      input.pose = test::measured(person, robot, mount_of(config.camera), reference);
-      if (!visible) input.pose.reason = PoseReason::TooFewMatches;
-      input.pose.frame_sequence = sequence;
-      input.pose.t_capture_ns = input.now_ns;
-      input.has_pose = true;
-    }
-    record = stage.tick(input);
-    v_m_s = record.command.v_m_s;
-    yaw_rate_rad_s = record.command.yaw_rate_rad_s;
-    robot = test::moved(robot, v_m_s, yaw_rate_rad_s, 0.02);
-    person = test::moved(person, person_v_m_s, person_yaw_rate_rad_s, 0.02);
-    input.now_ns += 20 * kNsPerMs;
-  }
-  void run(double seconds) {
-    for (TimeNs end_ns = input.now_ns + ns_from_seconds(seconds); input.now_ns < end_ns;) tick();
-  }
-  /// From the largest speed to rest.
-  double braking_s() const { return config.gate.v_max_m_s / config.gate.deceleration_m_s2; }
-  /// Seconds until the command is zero.
-  double until_rest() {
-    const TimeNs start_ns = input.now_ns;
-    while (v_m_s != 0.0 || yaw_rate_rad_s != 0.0) tick();
-    return seconds_from_ns(input.now_ns - start_ns);
-  }
-};
+using test::Following;
 
 TEST(ControlStage, WaitsForFramesThenStartsWithinTheAccelerationLimit) {
   Following run;

@@ -45,6 +45,30 @@ TEST(Gate, PassesACommandWithinTheLimitsUnchanged) {
   EXPECT_EQ(out.limited_by, 0);
 }
 
+TEST(Gate, NamesWhatHoldsTheRobot) {
+  const auto hold = [](double wanted_m_s, double now_m_s, const Clearances& clearances,
+                       StopStyle style = StopStyle::Go) {
+    return apply_gate(command(wanted_m_s, 0), command(now_m_s, 0, kNow_ns - kTick_ns), style, clearances,
+                      kNow_ns, GateConfig{})
+        .hold;
+  };
+  const double bumper_m = p3at_geometry().centre_to_bumper_m, near_m = bumper_m + kLimits.clearance_m;
+  const Clearances near_person = free_space(kLimits.separation_m - 0.05);
+  EXPECT_EQ(hold(0.5, 0.0, free_space()), Hold::None);
+  EXPECT_EQ(hold(0.0, 0.0, free_space()), Hold::None) << "the law wants to stand";
+  EXPECT_EQ(hold(0.5, 0.0, near_person), Hold::PersonTooNear);
+  EXPECT_EQ(hold(0.0, 0.0, near_person), Hold::PersonTooNear) << "the law wants to stand, and must";
+  EXPECT_EQ(hold(-0.5, -0.4, near_person), Hold::None) << "it gives way";
+  EXPECT_EQ(hold(0.5, 0.5, near_person), Hold::None) << "it still brakes";
+  EXPECT_EQ(hold(0.5, 0.0, free_space(kLimits.separation_m + 0.3)), Hold::None) << "slower, not held";
+  EXPECT_EQ(hold(0.5, 0.0, near_person, StopStyle::ComeToRest), Hold::None) << "the supervisor stops it";
+  EXPECT_EQ(hold(0.5, 0.0, near_person, StopStyle::AtOnce), Hold::None);
+  EXPECT_EQ(hold(0.5, 0.0, obstacle(near_m - 0.05, 0.0)), Hold::ObstacleAhead);
+  EXPECT_EQ(hold(0.5, 0.5, obstacle(near_m - 0.05, 0.0)), Hold::None) << "it still brakes";
+  EXPECT_EQ(hold(0.5, 0.0, obstacle(near_m + 0.5, 0.0)), Hold::None) << "slower, not held";
+  EXPECT_EQ(hold(0.0, 0.0, obstacle(near_m - 0.05, 0.0)), Hold::None) << "the law wants to stand";
+}
+
 TEST(Gate, LimitsTheSpeedAndSetsTheBit) {
   const double v_m_s = kLimits.v_max_m_s, yaw_rate_rad_s = -kLimits.yaw_rate_max_rad_s;
   const auto out = pass(command(9, -9), command(v_m_s, yaw_rate_rad_s, kNow_ns - kTick_ns));

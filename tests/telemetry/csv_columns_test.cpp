@@ -40,6 +40,16 @@ TEST(CsvColumns, ATicksValuesAreUnderTheirColumnNames) {
   tick.input.now_ns = 2'500'000'000;
   tick.input.lateness_ns = 12'500;
   tick.stop_reason = StopReason::Bumper;
+  tick.state = SupervisorState::Stopped;
+  tick.cause = TransitionCause::Bumper;
+  tick.t_transition_ns = 2'250'000'000;
+  tick.hold = Hold::ObstacleAhead;
+  tick.input.request = {3, 2'125'000'000, OperatorCommand::Start};
+  tick.input.t_operator_ns = 2'375'000'000;
+  tick.request_number = 2;
+  tick.outcome = OperatorOutcome::Refused;
+  tick.refused_by = StopReason::Stall;
+  tick.person_m = 1.75;
   tick.input.robot.phase = LinkPhase::Running;
   tick.input.robot.has_sip = true;
   tick.input.robot.odometry = {2'400'000'000, 1.5, -2.5, 7.25, 0.125, -0.5};
@@ -73,6 +83,19 @@ TEST(CsvColumns, ATicksValuesAreUnderTheirColumnNames) {
       {"lateness_us", "12.5"},
       {"stop_reason", "bumper pressed"},
       {"link_phase", "running"},
+      {"state_code", "5"},
+      {"state", "stopped"},
+      {"cause", "bumper pressed"},
+      {"transition_s", "2.250000000"},
+      {"hold", "obstacle ahead"},
+      {"request", "3"},
+      {"request_t_s", "2.125000000"},
+      {"request_command", "start"},
+      {"request_handled", "2"},
+      {"outcome", "refused"},
+      {"refused_by", "wheels stalled"},
+      {"operator_t_s", "2.375000000"},
+      {"person_m", "1.75"},
       {"odom_t_s", "2.400000000"},
       {"odom_x_m", "1.5"},
       {"odom_y_m", "-2.5"},

@@ -56,6 +56,50 @@ TEST_F(TelemetryTest, ChangesOfStopReasonAndLinkAreLoggedOnce) {
   EXPECT_EQ(telemetry.snapshot().tick.tick, 6u);
 }
 
+TEST_F(TelemetryTest, AChangeOfStateIsLoggedWithItsCause) {
+  Telemetry telemetry(queues_, {});
+  TickRecord tick;
+  tick.needs_start = true;
+  queues_.ticks.push(tick);
+  tick.state = SupervisorState::Following;
+  tick.stop_reason = StopReason::None;
+  tick.cause = TransitionCause::TargetGood;
+  queues_.ticks.push(tick);
+  tick.state = SupervisorState::Stopped;
+  tick.stop_reason = StopReason::Bumper;
+  tick.cause = TransitionCause::Bumper;
+  queues_.ticks.push(tick);
+  tick.state = SupervisorState::Idle;
+  tick.cause = TransitionCause::Reset;
+  queues_.ticks.push(tick);
+  telemetry.drain(kNsPerS);
+  EXPECT_EQ(log_.count("at rest: not started; `heel start` lets the robot move"), 1);
+  EXPECT_EQ(log_.count("following (following: target good)"), 1);
+  EXPECT_EQ(log_.count("at rest: bumper pressed; when it is over, `heel start` (stopped: bumper pressed)"),
+            1);
+  EXPECT_EQ(log_.count("(idle: reset by the operator)"), 1);
+}
+
+TEST_F(TelemetryTest, WhatTheGateHoldsByIsLoggedAtMostOnceASecond) {
+  Telemetry telemetry(queues_, {});
+  TickRecord tick;
+  tick.state = SupervisorState::Following;
+  tick.stop_reason = StopReason::None;
+  tick.free_distance_m = 0.416;
+  const auto push = [&](TimeNs now_ns, Hold hold) {
+    tick.input.now_ns = now_ns;
+    tick.hold = hold;
+    queues_.ticks.push(tick);
+  };
+  push(kNsPerS, Hold::None);
+  for (int i = 0; i < 10; ++i)
+    push(2 * kNsPerS + i * kNsPerMs, i % 2 == 0 ? Hold::ObstacleAhead : Hold::None);
+  push(4 * kNsPerS, Hold::None);
+  telemetry.drain(5 * kNsPerS);
+  EXPECT_EQ(log_.count("held: 0.42 m to an echo ahead"), 1);
+  EXPECT_EQ(log_.count("following"), 2);
+}
+
 TEST_F(TelemetryTest, ARefusalIsLoggedWithItsGateWhenItChanges) {
   Telemetry telemetry(queues_, {});
   TickRecord tick;

@@ -21,6 +21,12 @@
 namespace heel::sim {
 namespace {
 
+Config control_config(const LockstepSettings& settings) {
+  Config config = settings.config;
+  if (settings.operator_actions.empty()) config.supervisor.start = "at_once";
+  return config;
+}
+
 class Lockstep {
  public:
   Lockstep(const LockstepSettings& settings, LockstepObserver& observer);
@@ -56,6 +62,7 @@ class Lockstep {
   std::unique_ptr<FrameSupply> frames_;
   std::optional<TemplateSelector> vision_;     ///< with pictures
   std::optional<SampledPoses> sampled_poses_;  ///< without
+  SimulatedOperator operator_;
   ControlStage control_;
   ArcosSession session_;
   P3At robot_;
@@ -76,7 +83,8 @@ Lockstep::Lockstep(const LockstepSettings& settings, LockstepObserver& observer)
     : scenario_(settings.scenario),
       control_rate_hz_(settings.config.control.rate_hz),
       observer_(observer),
-      control_(settings.config, p3at_geometry()),
+      operator_(settings.operator_actions),
+      control_(control_config(settings), p3at_geometry()),
       session_(settings.config.robot),
       robot_(robot_settings(settings.scenario), derived_seed(settings.scenario.seed, 0x60)) {
   if (settings.errors) {
@@ -231,9 +239,12 @@ void Lockstep::tick(TimeNs t_ns, bool shutdown) {
   input.robot = session_.state();
   input.pose = newest_pose_;
   input.has_pose = has_pose_;
+  input.request = operator_.request_at(t_ns);
+  input.t_operator_ns = input.request.t_ns;
   input.shutdown = shutdown;
   const TickRecord record = control_.tick(input);
   ++counts_.ticks;
+  if (record.enable_motors) session_.enable_motors_again(t_ns);
   send(session_.send(record.command, t_ns), t_ns);
   observer_.on_tick(record, truth_at(t_ns));
 }

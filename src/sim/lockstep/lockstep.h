@@ -17,6 +17,7 @@
 #include "core/config.h"
 #include "heel/flow.h"
 #include "heel/shirt_template.h"
+#include "sim/lockstep/simulated_operator.h"
 #include "sim/pose_noise/error_model.h"
 #include "sim/robot/p3at.h"
 #include "sim/scene/scenario.h"
@@ -27,6 +28,8 @@ namespace heel::sim {
 struct LockstepSettings {
   Scenario scenario;
   Config config;
+  /// In the order of time. Without any, supervisor.start counts as at_once.
+  std::vector<OperatorAction> operator_actions;
   ShirtTemplate shirt;                     ///< with `errors` only its distance is used
   std::vector<ShirtTemplate> more_shirts;  ///< further templates of the person: target.more_shirts
   /// Poses are sampled from this model, without pictures: about a hundred times faster, for statistics.

@@ -45,7 +45,8 @@ std::string VideoScene::write_config(double gain_yaw_1_s, const std::string& cam
       "[control]\ngain_yaw_1_s = " +
       std::to_string(gain_yaw_1_s) +
       "\n"
-      "[supervisor]\ntarget_timeout_s = 0.5\nframe_timeout_s = 0.4\n";  // 10 frames a second
+      "[supervisor]\nstart = \"at_once\"\ntarget_timeout_s = 0.5\nframe_timeout_s = 0.4\n";  // 10 frames a
+                                                                                             // second
   if (!camera_source.empty())
     text +=
         "[robot]\naddress = \"pty:robot\"\nsync_retry_s = 0.2\n"

@@ -93,6 +93,7 @@ class SameAnswers : public ::testing::Test {
                      "[camera]\nsource = \"file:frames\"\ninfo = \"camera.yaml\"\nrate_hz = 5\n"
                      "[target]\nshirt = \"shirt.heel\"\ndistance_m = 1.5\n"
                      "[vision]\nmax_features = 700\nmatch_ratio = 0.75\nback_curvature_1_m = 0.2\n"
+                     "[supervisor]\nstart = \"at_once\"\n"
                      "[robot]\naddress = \"pty:robot\"\nsync_retry_s = 0.2\n"
                      "[runtime]\nrealtime = false\n"
                      "[telemetry]\ndirectory = \"run\"\n");

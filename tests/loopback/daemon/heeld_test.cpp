@@ -292,6 +292,22 @@ TEST_F(HeeldWithAShortCameraFile, ComesToRestAtTheEndAndKeepsTheRecording) {
   EXPECT_THAT(read_text(scene_.path("run/capture.csv")), HasSubstr("," + frames + ",0,"));
 }
 
+TEST_F(Heeld, NothingMovesBeforeAStart) {
+  start_robot();
+  start_heeld(scene_.write_config({.start = "operator"}));
+  ASSERT_TRUE(notify_.receives("READY=1")) << logs();
+  EXPECT_TRUE(notify_.receives("STATUS=at rest: not started; `heel start` lets the robot move")) << logs();
+  sleep_s(3.0);
+  EXPECT_EQ(speed(), 0.0) << logs();
+  EXPECT_THAT(daemon_->output(), Not(HasSubstr("at_once")));
+  for (const test::Truth& truth : test::all_truth(scene_.path("truth.csv"))) ASSERT_EQ(truth.v_m_s, 0.0);
+}
+
+TEST_F(Heeld, StartingAtOnceIsSaidInTheLog) {
+  start_heeld(scene_.write_config());
+  EXPECT_TRUE(daemon_->says("[warning] supervisor.start = \"at_once\"")) << logs();
+}
+
 TEST_F(Heeld, StopButtonHoldsTheRobotUntilHeeldIsRestarted) {
   const std::string config = scene_.write_config();
   // The button is pressed at a fixed time after the simulator's start. On a busy machine a later time is

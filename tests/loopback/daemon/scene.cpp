@@ -77,14 +77,13 @@ void Scene::write_pictures(int frames, double distance_m) const {
 
 // Under sanitizers vision is ten times slower: frames come more slowly then, and count as fresh for longer.
 constexpr const char* kRate = kSanitized ? "rate_hz = 5\n" : "rate_hz = 25\n";
-constexpr const char* kSupervisor =
-    kSanitized ? "[supervisor]\nframe_timeout_s = 3\ntarget_timeout_s = 3\n" : "";
+constexpr const char* kTimeouts = kSanitized ? "frame_timeout_s = 3\ntarget_timeout_s = 3\n" : "";
 
 std::string Scene::write_config(const MoreConfig& more) const {
   // Every key that is not named here has its default.
   return write_text(path("heel.toml"),
                     "[camera]\nsource = \"file:frames\"\ninfo = \"camera.yaml\"\n" + std::string(kRate) +
-                        more.camera + kSupervisor +
+                        more.camera + "[supervisor]\nstart = \"" + more.start + "\"\n" + kTimeouts +
                         "[target]\nshirt = \"shirt.heel\"\n"
                         "[robot]\naddress = \"pty:robot\"\nsync_retry_s = 0.2\nreconnect_s = 0.2\n"
                         "[runtime]\nrealtime = false\n" +

@@ -9,9 +9,10 @@
 
 namespace heel::test {
 
-/// Lines added to the scene's configuration.
+/// Lines added to the scene's configuration, and its supervisor.start.
 struct MoreConfig {
   std::string sections{}, camera{}, runtime{};
+  std::string start = "at_once";
 };
 
 class Scene {

@@ -35,6 +35,7 @@ TEST(ControlLoopOverPty, TheRecordedInputsGiveTheRecordedDecisions) {
   Config config;
   config.robot.address = address;
   config.robot.config_wait_s = 0.2;
+  config.supervisor.start = "at_once";
   Mailbox<PoseEstimate> poses;
   TelemetryQueues queues;
   ControlLoop loop(config, poses, queues);
@@ -68,6 +69,93 @@ TEST(ControlLoopOverPty, TheRecordedInputsGiveTheRecordedDecisions) {
   EXPECT_EQ(queues.ticks.dropped(), 0U);
   ASSERT_FALSE(records.empty());
   EXPECT_EQ(records.back().stop_reason, StopReason::Shutdown);
+}
+
+/// The loop on a robot, with a person in each frame and the newest tick.
+class OperatedLoop {
+ public:
+  explicit OperatedLoop(const std::string& address)
+      : config_(config_of(address)), loop_(config_, poses_, queues_) {
+    thread_ = std::jthread([this] { loop_.run(); });
+  }
+  ~OperatedLoop() { loop_.stop(); }
+
+  const TickRecord& record() const { return record_; }
+  /// Until `holds`; false: it never did.
+  template <typename Holds>
+  bool until(Holds holds) {
+    for (const TimeNs t_end_ns = monotonic_now_ns() + ns_from_seconds(test::kPatience_s);
+         monotonic_now_ns() < t_end_ns;) {
+      if (monotonic_now_ns() - t_frame_ns_ > 33 * kNsPerMs) {
+        t_frame_ns_ = monotonic_now_ns();
+        poses_.post(pose_of_frame(++frame_, t_frame_ns_));
+      }
+      for (TickRecord tick; queues_.ticks.pop(tick);) record_ = tick;
+      if (holds()) return true;
+      sleep_until_ns(monotonic_now_ns() + kNsPerMs);
+    }
+    return false;
+  }
+  OperatorOutcome answer_to(OperatorCommand command) {
+    loop_.request({++number_, monotonic_now_ns(), command});
+    TickRecord tick;
+    const bool answered =
+        until([&] { return loop_.take_operator_status(tick) && tick.request_number == number_; });
+    EXPECT_TRUE(answered);
+    return tick.outcome;
+  }
+  bool stays_at_rest(double seconds) {
+    const TimeNs t_end_ns = monotonic_now_ns() + ns_from_seconds(seconds);
+    bool moved = false;
+    return until([&] {
+             moved = moved || record_.command.v_m_s != 0.0;
+             return monotonic_now_ns() >= t_end_ns;
+           }) &&
+           !moved;
+  }
+
+ private:
+  static Config config_of(const std::string& address) {
+    Config config;
+    config.robot.address = address;
+    config.robot.config_wait_s = 0.2;
+    return config;
+  }
+  Config config_;
+  Mailbox<PoseEstimate> poses_;
+  TelemetryQueues queues_;
+  ControlLoop loop_;
+  TickRecord record_;
+  std::uint64_t frame_ = 0, number_ = 0;
+  TimeNs t_frame_ns_ = 0;
+  std::jthread thread_;
+};
+
+TEST(ControlLoopOverPty, MovesAfterAStartAndAfterTheStopButtonByResetAndStart) {
+  const std::string address = test::pty_address("operated");
+  test::RobotThread robot(address);
+  OperatedLoop loop(address);
+  const auto drives = [&] { return robot.truth().v_m_s > 0.1; };
+  ASSERT_TRUE(loop.until([&] { return loop.record().input.robot.phase == LinkPhase::Running; }));
+  EXPECT_TRUE(loop.stays_at_rest(0.5));
+  EXPECT_EQ(loop.answer_to(OperatorCommand::Start), OperatorOutcome::Done);
+  ASSERT_TRUE(loop.until(drives));
+
+  robot.press_stop_button(true);
+  ASSERT_TRUE(loop.until([&] { return loop.record().state == SupervisorState::Stopped; }));
+  EXPECT_EQ(loop.answer_to(OperatorCommand::Reset), OperatorOutcome::Refused);
+  robot.press_stop_button(false);
+  ASSERT_TRUE(loop.until([&] { return !loop.record().input.robot.stop_button; }));
+  EXPECT_EQ(loop.answer_to(OperatorCommand::Start), OperatorOutcome::Refused);
+  EXPECT_EQ(loop.answer_to(OperatorCommand::Reset), OperatorOutcome::Done);
+  ASSERT_TRUE(loop.until([&] { return loop.record().input.robot.phase == LinkPhase::Running; }));
+  EXPECT_TRUE(loop.stays_at_rest(0.5));
+  EXPECT_EQ(loop.answer_to(OperatorCommand::Start), OperatorOutcome::Done);
+  ASSERT_TRUE(loop.until(drives));
+
+  EXPECT_EQ(loop.answer_to(OperatorCommand::EStop), OperatorOutcome::Done);
+  ASSERT_TRUE(loop.until([&] { return loop.record().state == SupervisorState::Emergency; }));
+  EXPECT_TRUE(loop.stays_at_rest(0.5));
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ class RobotThread {
     thread_.join();
   }
   std::string address() const { return transport_->address(); }
+  void press_stop_button(bool pressed) { button_ = pressed; }
   sim::RobotTruth truth() const {
     const std::lock_guard lock(mutex_);
     return truth_;
@@ -41,6 +42,7 @@ class RobotThread {
     sim::RobotServer server(robot_, *transport_, [](TimeNs, const std::string&) {});
     const TimeNs begin_ns = monotonic_now_ns();
     while (!stop_) {
+      robot_.press_stop_button(button_);
       server.step(monotonic_now_ns() - begin_ns);
       {
         const std::lock_guard lock(mutex_);
@@ -53,6 +55,7 @@ class RobotThread {
   std::unique_ptr<sim::Transport> transport_;
   mutable std::mutex mutex_;
   sim::RobotTruth truth_;
+  std::atomic<bool> button_{false};
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

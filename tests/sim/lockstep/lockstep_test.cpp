@@ -100,6 +100,7 @@ TEST(Lockstep, TheRecordedInputsGiveTheRecordedDecisionsAgain) {
   for (const char* fault : {"garble@1.2+1=0.02", "bumper@1.6+0.3=4"})
     settings.scenario.robot.faults.emplace_back(fault);
   settings.config.supervisor.bumper_hold_s = 0.2;
+  settings.config.supervisor.start = "at_once";
   Records run;
   run_lockstep(settings, run);
 
@@ -117,6 +118,53 @@ TEST(Lockstep, TheRecordedInputsGiveTheRecordedDecisionsAgain) {
   EXPECT_GT(counts.stop_reasons(), 3U);
   EXPECT_GT(run.ticks.back().input.robot.checksum_errors, 0U);
   EXPECT_EQ(run.ticks.back().stop_reason, StopReason::Shutdown);
+}
+
+/// The short walk with the operator's actions.
+LockstepSettings operated_walk(double duration_s, std::vector<OperatorAction> actions) {
+  LockstepSettings settings = short_walk();
+  settings.scenario.duration_s = duration_s;
+  settings.operator_actions = std::move(actions);
+  return settings;
+}
+
+TEST(Lockstep, NothingMovesBeforeTheOperatorStarts) {
+  if (test::kSanitized) GTEST_SKIP() << "the same threads as above, for a longer time";
+  Records run;
+  run_lockstep(operated_walk(5.0, {{2.5, OperatorCommand::Start}, {4.0, OperatorCommand::EStop}}), run);
+  int moving = 0;
+  for (const TickRecord& tick : run.ticks) {
+    const double t_s = seconds_from_ns(tick.input.now_ns);
+    const bool allowed = t_s >= 2.5 && t_s < 4.0;
+    ASSERT_TRUE(allowed || tick.command.v_m_s == 0.0) << t_s;
+    moving += tick.command.v_m_s > 0.1;
+  }
+  EXPECT_GT(moving, 25);
+  EXPECT_EQ(run.ticks.back().state, SupervisorState::Emergency);
+}
+
+TEST(Lockstep, AfterTheStopButtonAResetEnablesTheMotorsAgain) {
+  if (test::kSanitized) GTEST_SKIP() << "the same threads as above, for a longer time";
+  LockstepSettings settings = operated_walk(6.0, {{1.0, OperatorCommand::Start},
+                                                  {3.4, OperatorCommand::Reset},
+                                                  {4.0, OperatorCommand::Start},
+                                                  {4.4, OperatorCommand::Reset},
+                                                  {5.2, OperatorCommand::Start}});
+  settings.scenario.robot.faults.emplace_back("stop_button@3+0.8");
+  Records run;
+  run_lockstep(settings, run);
+  const auto at = [&run](double t_s) { return run.ticks.at(static_cast<std::size_t>(t_s * 50.0 + 0.5)); };
+  EXPECT_GT(at(2.9).command.v_m_s, 0.1);
+  for (int tick = 160; tick < 260; ++tick) ASSERT_EQ(run.ticks.at(tick).command.v_m_s, 0.0) << tick;
+  EXPECT_EQ(at(3.3).state, SupervisorState::Stopped);
+  EXPECT_EQ(at(3.6).refused_by, StopReason::StopButton) << "a reset while the button is pressed";
+  EXPECT_EQ(at(4.2).outcome, OperatorOutcome::Refused) << "a start before the reset";
+  EXPECT_EQ(at(4.2).refused_by, StopReason::MotorsOff);
+  EXPECT_FALSE(at(4.3).input.robot.motors_enabled);
+  EXPECT_TRUE(at(5.1).input.robot.motors_enabled);
+  EXPECT_EQ(at(5.1).state, SupervisorState::Idle);
+  EXPECT_NE(at(5.3).state, SupervisorState::Idle);
+  EXPECT_EQ(at(5.3).outcome, OperatorOutcome::Done);
 }
 
 TEST(Lockstep, FollowsAWalkingPerson) {

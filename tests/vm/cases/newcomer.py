@@ -29,7 +29,7 @@ def run(bench):
     bench.check("found in 1 of 1" in told, "and found in the picture")
     # Changes only what differs here from the package's configuration file.
     guest.run("sed -i -e 's/^width_px = .*/width_px = 320/' -e 's/^height_px = .*/height_px = 180/' -e 's/^rate_hz = 30.*/rate_hz = 10.0/' "
-              "-e 's/^octaves = .*/octaves = 1/' -e 's/^max_features = .*/max_features = 150/' "
+              "-e 's/^octaves = .*/octaves = 1/' -e 's/^start = .*/start = \"at_once\"/' -e 's/^max_features = .*/max_features = 150/' "
               "-e 's/^frame_timeout_s = .*/frame_timeout_s = 1.5/' -e 's/^target_timeout_s = .*/target_timeout_s = 1.5/' "
               "-e 's/^setpoint_t_z_m = .*/setpoint_t_z_m = -0.6/' /etc/heel/heel.toml")
     bench.check(": valid" in guest.run("heeld --config /etc/heel/heel.toml --check"), "heeld --check finds the configuration valid")

@@ -25,6 +25,7 @@ max_features = {max_features}
 setpoint_t_z_m = {setpoint_t_z_m}
 bearing_max_rad = {bearing_max_rad}
 [supervisor]
+start = "at_once"
 frame_timeout_s = {frame_timeout_s}
 target_timeout_s = {frame_timeout_s}
 [robot]

@@ -1,0 +1,60 @@
+#include "core/state_sentence.h"
+
+#include <array>
+#include <cstdio>
+
+namespace heel {
+namespace {
+
+std::string with_metres(const char* before, double distance_m, const char* after) {
+  std::array<char, 80> text{};
+  const int size = std::snprintf(text.data(), text.size(), "%s%.2f m%s", before, distance_m, after);
+  return {text.data(), static_cast<std::size_t>(size)};
+}
+
+std::string moving_sentence(const TickRecord& tick) {
+  switch (tick.hold) {
+    case Hold::PersonTooNear:
+      return with_metres("held: the person is ", tick.person_m, " away");
+    case Hold::ObstacleAhead:
+      return with_metres("held: ", tick.free_distance_m, " to an echo ahead");
+    case Hold::None:
+      break;
+  }
+  const std::uint32_t template_index = tick.input.pose.template_index;
+  return template_index == 0 ? "following" : "following by template " + std::to_string(template_index);
+}
+
+/// What is left to do, so that the robot may move.
+const char* remedy(const TickRecord& tick) {
+  switch (tick.stop_reason) {
+    case StopReason::StopButton:
+      return "; release it, then `heel reset`";
+    case StopReason::MotorsOff:
+    case StopReason::EmergencyStop:
+      return "; `heel reset`, then `heel start`";
+    case StopReason::NotStarted:
+      return "; `heel start` lets the robot move";
+    case StopReason::Shutdown:
+      return "";
+    default:
+      return tick.state == SupervisorState::Stopped && tick.needs_start ? "; when it is over, `heel start`"
+                                                                        : "";
+  }
+}
+
+}  // namespace
+
+std::string state_sentence(const TickRecord& tick) {
+  if (tick.stop_reason == StopReason::None) return moving_sentence(tick);
+  const std::string reason = to_string(tick.stop_reason);
+  if (tick.state == SupervisorState::Searching) return "searching: " + reason;
+  const PoseEstimate& pose = tick.input.pose;
+  const bool waits_for_person =
+      tick.stop_reason == StopReason::NoTargetYet || tick.stop_reason == StopReason::TargetLost;
+  if (waits_for_person && tick.input.has_pose && !pose.found())
+    return "at rest: " + reason + " (" + to_string(pose.reason) + ")";
+  return "at rest: " + reason + remedy(tick);
+}
+
+}  // namespace heel

@@ -1,0 +1,13 @@
+// What the robot does now, and why, as one sentence for the status and the log.
+#pragma once
+
+#include <string>
+
+#include "heel/flow.h"
+
+namespace heel {
+
+/// "following", "held: …", "searching: …" or "at rest: …", and what an operator can do about it.
+std::string state_sentence(const TickRecord& tick);
+
+}  // namespace heel

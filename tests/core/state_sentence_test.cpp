@@ -1,0 +1,81 @@
+// The sentence for each state, and the names of all values of the flow enumerations.
+#include "core/state_sentence.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace heel {
+namespace {
+
+TickRecord record_of(SupervisorState state, StopReason reason) {
+  TickRecord tick;
+  tick.state = state;
+  tick.stop_reason = reason;
+  return tick;
+}
+
+TEST(StateSentence, SaysWhatTheRobotDoesAndWhy) {
+  TickRecord tick = record_of(SupervisorState::Following, StopReason::None);
+  EXPECT_EQ(state_sentence(tick), "following");
+  tick.input.pose.template_index = 2;
+  EXPECT_EQ(state_sentence(tick), "following by template 2");
+  tick.free_distance_m = 0.416;
+  tick.hold = Hold::ObstacleAhead;
+  EXPECT_EQ(state_sentence(tick), "held: 0.42 m to an echo ahead");
+  tick.person_m = 0.75;
+  tick.hold = Hold::PersonTooNear;
+  EXPECT_EQ(state_sentence(tick), "held: the person is 0.75 m away");
+  EXPECT_EQ(state_sentence(record_of(SupervisorState::Searching, StopReason::TargetLost)),
+            "searching: target lost");
+}
+
+TEST(StateSentence, NamesWhyNoPersonIsFollowed) {
+  TickRecord tick = record_of(SupervisorState::Armed, StopReason::NoTargetYet);
+  EXPECT_EQ(state_sentence(tick), "at rest: no target seen yet");
+  tick.input.has_pose = true;
+  tick.input.pose.reason = PoseReason::TooFewMatches;
+  EXPECT_EQ(state_sentence(tick), "at rest: no target seen yet (too few matches)");
+  tick.stop_reason = StopReason::StaleFrame;
+  EXPECT_EQ(state_sentence(tick), "at rest: camera silent");
+}
+
+TEST(StateSentence, SaysWhatTheOperatorCanDo) {
+  TickRecord tick = record_of(SupervisorState::Idle, StopReason::NotStarted);
+  EXPECT_EQ(state_sentence(tick), "at rest: not started; `heel start` lets the robot move");
+  tick = record_of(SupervisorState::Emergency, StopReason::EmergencyStop);
+  EXPECT_EQ(state_sentence(tick), "at rest: emergency stop; `heel reset`, then `heel start`");
+  tick = record_of(SupervisorState::Stopped, StopReason::StopButton);
+  EXPECT_EQ(state_sentence(tick), "at rest: stop button pressed; release it, then `heel reset`");
+  tick.stop_reason = StopReason::MotorsOff;
+  EXPECT_EQ(state_sentence(tick), "at rest: motors off; `heel reset`, then `heel start`");
+  tick.stop_reason = StopReason::Bumper;
+  EXPECT_EQ(state_sentence(tick), "at rest: bumper pressed") << "it goes on by itself";
+  tick.needs_start = true;
+  EXPECT_EQ(state_sentence(tick), "at rest: bumper pressed; when it is over, `heel start`");
+  tick.stop_reason = StopReason::Shutdown;
+  EXPECT_EQ(state_sentence(tick), "at rest: shutting down");
+}
+
+/// All values of an enumeration have names, each its own, and the next value has none.
+template <typename Enum>
+void expect_names(std::size_t count) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < count; ++i) names.insert(to_string(static_cast<Enum>(i)));
+  EXPECT_EQ(names.size(), count);
+  EXPECT_EQ(names.count("?"), 0U);
+  EXPECT_STREQ(to_string(static_cast<Enum>(count)), "?");
+}
+
+TEST(FlowNames, EachValueHasAName) {
+  expect_names<SupervisorState>(kSupervisorStates);
+  expect_names<TransitionCause>(kTransitionCauses);
+  expect_names<OperatorCommand>(5);
+  expect_names<OperatorOutcome>(4);
+  expect_names<Hold>(3);
+  expect_names<StopReason>(static_cast<std::size_t>(StopReason::EmergencyStop) + 1);
+}
+
+}  // namespace
+}  // namespace heel
