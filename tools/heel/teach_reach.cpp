@@ -23,7 +23,7 @@ TemplateReach measured_reach(const ShirtTemplate& shirt, const CameraModel& came
   const Clock::time_point start = Clock::now();
   const bool terminal = isatty(STDERR_FILENO) == 1;
   bool shown = false;
-  const TemplateReach reach = measure_reach(shirt, camera, VisionConfig{}, [&](int done, int most) {
+  TemplateReach reach = measure_reach(shirt, camera, VisionConfig{}, [&](int done, int most) {
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
     if (terminal && elapsed_s > kShownAfter_s) {
       fmt::print(stderr, "\rmeasuring how far it is found: picture {} of {} or fewer", done, most);

@@ -84,7 +84,7 @@ class BackSet {
   void add_stills() {
     std::unique_ptr<sim::World> world;
     TaughtBack taught;
-    for (BackPicture picture : back_set_stills(seed_)) {
+    for (const BackPicture& picture : back_set_stills(seed_)) {
       const BackPicture* last = rows_.empty() ? nullptr : &rows_.back().picture;
       if (!last || last->build != picture.build || last->print != picture.print || last->room != picture.room)
         world = std::make_unique<sim::World>(scenario_of(picture, seed_));

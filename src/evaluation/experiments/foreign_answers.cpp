@@ -105,7 +105,9 @@ void write_foreign_rows(const std::vector<ForeignRow>& rows, const std::string& 
       file.number(value, kDecimals);
     file.text(answer.found ? "1" : "0").text(answer.reason).number(answer.certainty, kDecimals);
     file.count(answer.inliers);
-    const auto of_found = [&](double value) { file.number(answer.found ? value : kNoValue, kDecimals); };
+    const auto of_found = [&file, found = answer.found](double value) {
+      file.number(found ? value : kNoValue, kDecimals);
+    };
     const Eigen::Vector3d ray = picture.centre_m.normalized(), off_m = answer.position_m - picture.centre_m;
     of_found(answer.yaw_rad * kDegPerRad);
     of_found(answer.yaw_sigma_rad * kDegPerRad);

@@ -170,7 +170,7 @@ std::string report_experiments(const std::string& directory) {
     parts.push_back({"worlds", "Both worlds on the same scenarios", table});
   if (own_world) parts.push_back({"real", "Real pictures", real_text(directory)});
   parts.push_back({"figures", "Figures", figures.links()});
-  const std::string summary = summary_of(parts);
+  std::string summary = summary_of(parts);
   write_file_atomically(directory + "/summary.md", summary);
   return summary;
 }

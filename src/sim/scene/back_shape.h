@@ -27,8 +27,8 @@ class BackShape {
     double u, v, height_m, half_u, half_v;
   };
   double u1_, u2_, u4_, v1_, v2_, v3_, u2v_, uv_;
-  Bump blades_[2];
-  Bump spine_;
+  Bump blades_[2]{};
+  Bump spine_{};
 };
 
 }  // namespace heel::sim

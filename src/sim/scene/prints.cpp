@@ -125,11 +125,16 @@ void draw_lights(Canvas& canvas, double left, double right, double top, double b
         canvas,
         {static_cast<int>(x), static_cast<int>(roof), static_cast<int>(x + width), static_cast<int>(bottom)},
         wall, [](int, int) { return -1.0; }, 0.7f);
-    for (double wy = roof + 6; wy < bottom - 8; wy += 8)
-      for (double wx = x + 4; wx < x + width - 3; wx += 6)
-        if (random.uniform() < 0.36)
-          paint(canvas, box_around(wx, wy, 3), grey_between(110, 225, random),
-                [&](int px, int py) { return rectangle_distance(px - wx, py - wy, 1.5, 2.0); });
+    const int floors = static_cast<int>(std::ceil((bottom - roof - 14) / 8));
+    const int windows = static_cast<int>(std::ceil((width - 7) / 6));  // on each floor
+    for (int floor = 0; floor < floors; ++floor) {
+      for (int window = 0; window < windows; ++window) {
+        if (random.uniform() >= 0.36) continue;
+        const double wx = x + 4 + 6 * window, wy = roof + 6 + 8 * floor;
+        paint(canvas, box_around(wx, wy, 3), grey_between(110, 225, random),
+              [&](int px, int py) { return rectangle_distance(px - wx, py - wy, 1.5, 2.0); });
+      }
+    }
     x += width + random.uniform(0, 8);
   }
 }

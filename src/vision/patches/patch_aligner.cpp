@@ -27,10 +27,11 @@ struct Candidate {
 };
 
 double gradient_of(const GreyPyramid& reference, const Eigen::Vector2d& centre_px, double half_size_px) {
+  const int half_px = static_cast<int>(half_size_px);
   const auto at = [&](double dx, double dy) { return reference.at(centre_px + Eigen::Vector2d(dx, dy)); };
   double sum = 0.0, count = 0.0;
-  for (double dy = -half_size_px; dy <= half_size_px; dy += 1.0) {
-    for (double dx = -half_size_px; dx <= half_size_px; dx += 1.0) {
+  for (int dy = -half_px; dy <= half_px; ++dy) {
+    for (int dx = -half_px; dx <= half_px; ++dx) {
       const double gx = 0.5 * (at(dx + 1.0, dy) - at(dx - 1.0, dy));
       const double gy = 0.5 * (at(dx, dy + 1.0) - at(dx, dy - 1.0));
       sum += gx * gx + gy * gy;
@@ -43,12 +44,15 @@ double gradient_of(const GreyPyramid& reference, const Eigen::Vector2d& centre_p
 std::vector<Eigen::Vector2d> choose_centres(const GreyPyramid& reference, const Region& roi,
                                             const PatchSettings& settings) {
   std::vector<Candidate> candidates;
-  for (double y = roi.y_px + 0.5 * settings.spacing_px; y < roi.y_px + roi.height_px;
-       y += settings.spacing_px) {
-    for (double x = roi.x_px + 0.5 * settings.spacing_px; x < roi.x_px + roi.width_px;
-         x += settings.spacing_px) {
-      const double gradient = gradient_of(reference, {x, y}, settings.half_size_px);
-      if (gradient >= settings.min_gradient) candidates.push_back({gradient, {x, y}});
+  // Of the cells of a grid, those whose centre lies inside.
+  const int rows = static_cast<int>(std::ceil(roi.height_px / settings.spacing_px - 0.5));
+  const int columns = static_cast<int>(std::ceil(roi.width_px / settings.spacing_px - 0.5));
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const Eigen::Vector2d px(roi.x_px + (column + 0.5) * settings.spacing_px,
+                               roi.y_px + (row + 0.5) * settings.spacing_px);
+      const double gradient = gradient_of(reference, px, settings.half_size_px);
+      if (gradient >= settings.min_gradient) candidates.push_back({gradient, px});
     }
   }
   std::stable_sort(candidates.begin(), candidates.end(),

@@ -203,12 +203,13 @@ std::optional<PatchComparison> PatchModel::compare(const FrameView& frame,
   const auto stride = static_cast<std::ptrdiff_t>(frame.stride_bytes);
   const std::uint8_t* first = frame.grey + top * stride + left;
   const float fx = static_cast<float>(first_px.x() - left), fy = static_cast<float>(first_px.y() - top);
+  const std::ptrdiff_t middle = side_ / 2;
   PatchSamples samples;
   HWY_DYNAMIC_DISPATCH(SampleFrame)
   ({first,
     stride,
     {(1.f - fx) * (1.f - fy), fx * (1.f - fy), (1.f - fx) * fy, fx * fy},
-    static_cast<float>(first[(side_ / 2) * stride + side_ / 2])},
+    static_cast<float>(first[middle * stride + middle])},
    side_, samples.data());
   clear_padding(samples, static_cast<std::size_t>(side_ * side_), padded_);
 

@@ -36,7 +36,7 @@ class PatchModel {
   int side_;
   std::size_t padded_;  // a whole number of vectors; samples beyond the patch are 0
   double count_;
-  PatchSamples value_, by_x_, by_y_;
+  PatchSamples value_{}, by_x_{}, by_y_{};
   double squares_, xx_, xy_, yy_, value_x_, value_y_;
 };
 

@@ -69,7 +69,7 @@ SurfacePoseRefiner::SurfacePoseRefiner(const ShirtTemplate& shirt, const CameraM
     std::stable_sort(nearest.begin(), nearest.end(), [&](std::size_t a, std::size_t b) {
       return (centres_px[a] - px).squaredNorm() < (centres_px[b] - px).squaredNorm();
     });
-    std::array<std::size_t, kNeighbours> neighbours;  // without the patch itself, which is the nearest
+    std::array<std::size_t, kNeighbours> neighbours{};  // without the patch itself, which is the nearest
     for (std::size_t k = 0; k < kNeighbours; ++k)
       neighbours[k] = nearest[std::min(k + 1, nearest.size() - 1)];
     neighbours_.push_back(neighbours);

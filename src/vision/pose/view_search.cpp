@@ -116,8 +116,7 @@ std::optional<SurfacePose> ViewSearch::refine_mirrored(const FrameView& frame, c
   start.R_cur_from_ref = mirrored.R_cur_from_ref;
   start.t_over_d = mirrored.t_over_d;
   const std::optional<ConfirmedView> confirmed = confirmer_.confirm(start, features, magnification);
-  const std::optional<SurfacePose> by_patches =
-      patch_refiner_.refine(frame, surface_, {}, start, kViewPatchRounds);
+  std::optional<SurfacePose> by_patches = patch_refiner_.refine(frame, surface_, {}, start, kViewPatchRounds);
   if (!confirmed) return by_patches;
   const std::optional<SurfacePose> with_pairs =
       patch_refiner_.refine(frame, surface_, confirmed->pairs, confirmed->motion, kViewPatchRounds);

@@ -111,8 +111,7 @@ double ViewVoter::support(const Vote& seed) const {
 }
 
 /// The mean of the votes that agree with `seed`, fitted to their pairs. Uses them up.
-FrontalMotion ViewVoter::candidate_of(const Vote& seed_vote) {
-  const Vote seed = seed_vote;
+FrontalMotion ViewVoter::candidate_of(const Vote& seed) {
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
   double log_scale = 0.0, yaw_rad = 0.0, count = 0.0;
   observations_.clear();
