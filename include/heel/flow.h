@@ -118,6 +118,14 @@ struct SonarEcho {
 };
 inline constexpr std::size_t kSonars = 16;  ///< 0…7 front from left to right, 8…15 rear from right to left
 
+/// What the robot's controller does with the accelerations that heeld asks for. CONFIGpac limits them;
+/// without it the smaller values of the factory are assumed.
+struct DriveLimits {
+  bool known = false;  ///< from CONFIGpac
+  double acceleration_m_s2 = 0.3;
+  double deceleration_m_s2 = 0.3;
+};
+
 /// The newest standard information packet in SI units, and the state of the line.
 struct RobotState {
   LinkPhase phase = LinkPhase::Closed;
@@ -132,6 +140,7 @@ struct RobotState {
   std::uint8_t bumpers_rear = 0;
   std::array<SonarEcho, kSonars> sonar{};
   double battery_v = 0.0;
+  DriveLimits limits;
   std::uint64_t sips = 0;
   std::uint64_t checksum_errors = 0;
   std::uint64_t bytes_discarded = 0;
@@ -354,7 +363,9 @@ struct TickRecord {
   /// once.
   double free_distance_m = 0.0;
   Hold hold = Hold::None;
-  VelocityCommand command;  ///< after the gate, as sent
+  double planned_deceleration_m_s2 = 0.0;  ///< with which the gate plans a stop before people and obstacles
+  bool brakes_are_weaker = false;  ///< … because the robot slowed down with less than its controller allows
+  VelocityCommand command;         ///< after the gate, as sent
 };
 
 /// What a real-time thread reports to the user. It pushes the record; the telemetry thread formats it, logs

@@ -1,8 +1,10 @@
 #include "control/control_stage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "control/brake_monitor.h"
 #include "control/conditions.h"
 #include "control/follow_law_factory.h"
 #include "control/gate.h"
@@ -12,6 +14,8 @@
 
 namespace heel {
 namespace {
+
+constexpr double kAsPromised = 0.8;  // of the deceleration: less is not the noise of a measurement
 
 void copy_verdict(const Verdict& verdict, TickRecord& record) {
   record.state = verdict.state;
@@ -38,6 +42,10 @@ struct ControlStage::Impl {
   void update_robot(const RobotState& robot);
   MeasurementStatus update_target(const ControlInput& input);
   double person_range_m(const TargetState& target) const;
+  bool brakes_are_weaker(const RobotState& robot) const {
+    return brake_monitor.seen_m_s2() < kAsPromised * robot.limits.deceleration_m_s2;
+  }
+  double brakes_m_s2(const RobotState& robot) const;
   VelocityCommand wanted(const FollowInput& input) const;
 
   // The parts of the configuration in use. They hold no text that is longer than a std::string keeps in
@@ -49,6 +57,7 @@ struct ControlStage::Impl {
 
   TargetEstimator estimator;
   SonarObstacleMap obstacle_map;
+  BrakeMonitor brake_monitor;
   std::unique_ptr<FollowLaw> law;
   ConditionMonitor condition_monitor;
   Supervisor supervisor;
@@ -75,11 +84,13 @@ void ControlStage::Impl::update_robot(const RobotState& robot) {
     reconnects = robot.reconnects;
     estimator.reset();
     obstacle_map.clear();
+    brake_monitor.reset();
     law->reset();
   }
   if (!robot.has_sip) return;
   estimator.add_odometry(robot.odometry);
   if (sonar_on) obstacle_map.update(robot);
+  brake_monitor.update(robot, last_command);
 }
 
 MeasurementStatus ControlStage::Impl::update_target(const ControlInput& input) {
@@ -99,6 +110,11 @@ double ControlStage::Impl::person_range_m(const TargetState& target) const {
   const double y_m = target.y_m - mount.y_m;
   if (!target.known || x_m <= 0.0) return std::numeric_limits<double>::infinity();
   return std::hypot(x_m, y_m);
+}
+
+/// The deceleration that a stop can be planned with: what the controller allows, or less if it was seen.
+double ControlStage::Impl::brakes_m_s2(const RobotState& robot) const {
+  return brakes_are_weaker(robot) ? brake_monitor.seen_m_s2() : robot.limits.deceleration_m_s2;
 }
 
 /// What the law wants, as a command that expires.
@@ -139,7 +155,11 @@ TickRecord ControlStage::tick(const ControlInput& input) {
   copy_verdict(verdict, record);
   record.person_m = impl.person_range_m(record.target);
   const Clearances clearances{record.person_m,
-                              impl.obstacle_map.obstacles_at(input.now_ns, input.robot.odometry)};
+                              impl.obstacle_map.obstacles_at(input.now_ns, input.robot.odometry),
+                              impl.brakes_m_s2(input.robot)};
+  record.planned_deceleration_m_s2 =
+      std::min(clearances.deceleration_m_s2, impl.gate_config.deceleration_m_s2);
+  record.brakes_are_weaker = impl.brakes_are_weaker(input.robot);
   record.wanted = impl.wanted({input.now_ns, record.target, input.robot, clearances.obstacles});
   const GateResult gated =
       apply_gate(record.wanted, impl.last_command, verdict.style, clearances, input.now_ns, impl.gate_config);

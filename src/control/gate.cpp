@@ -31,10 +31,10 @@ double slewed(double from, double to, double speed_up_step, double slow_down_ste
   return sign * std::clamp(goal, std::max(now - slow_down_step, 0.0), now + speed_up_step);
 }
 
-/// The largest speed from which half the deceleration stops the robot `nearest_m` short.
-double approach_limit(double range_m, double nearest_m, const GateConfig& limits) {
-  if (!(range_m > nearest_m)) return 0.0;
-  return std::sqrt(limits.deceleration_m_s2 * (range_m - nearest_m));
+/// The largest speed from which half of `deceleration_m_s2` stops the robot `nearest_m` short.
+double approach_limit(double range_m, double nearest_m, double deceleration_m_s2) {
+  if (!(range_m > nearest_m) || !(deceleration_m_s2 > 0.0)) return 0.0;
+  return std::sqrt(deceleration_m_s2 * (range_m - nearest_m));
 }
 
 Velocity velocity_at(const VelocityCommand& previous, TimeNs now_ns, const GateConfig& limits) {
@@ -67,13 +67,15 @@ GateResult apply_gate(const VelocityCommand& wanted, const VelocityCommand& prev
   goal.v_m_s = clamped(goal.v_m_s, -limits.v_max_m_s, limits.v_max_m_s, kGateSpeed, limited_by);
   goal.yaw_rate_rad_s = clamped(goal.yaw_rate_rad_s, -limits.yaw_rate_max_rad_s, limits.yaw_rate_max_rad_s,
                                 kGateSpeed, limited_by);
-  const double person_limit_m_s = approach_limit(clearances.person_m, limits.separation_m, limits);
+  // An unknown deceleration (NaN) permits no motion.
+  const double brakes_m_s2 = std::min(clearances.deceleration_m_s2, limits.deceleration_m_s2);
+  const double person_limit_m_s = approach_limit(clearances.person_m, limits.separation_m, brakes_m_s2);
   goal.v_m_s = clamped(goal.v_m_s, -limits.v_max_m_s, person_limit_m_s, kGateSeparation, limited_by);
   // Two arcs must be free: the one to drive, and the one that is driven until the velocity has changed.
   const Velocity now = velocity_at(previous, now_ns, limits);
   result.free_distance_m = std::min(clearances.obstacles.free_distance_m(goal.v_m_s, goal.yaw_rate_rad_s),
                                     clearances.obstacles.free_distance_m(now.v_m_s, now.yaw_rate_rad_s));
-  const double obstacle_limit_m_s = approach_limit(result.free_distance_m, limits.clearance_m, limits);
+  const double obstacle_limit_m_s = approach_limit(result.free_distance_m, limits.clearance_m, brakes_m_s2);
   goal.v_m_s = clamped(goal.v_m_s, -obstacle_limit_m_s, obstacle_limit_m_s, kGateObstacle, limited_by);
   const bool obstacle_holds = (limited_by & kGateObstacle) != 0 && obstacle_limit_m_s < kHeld_m_s;
 

@@ -20,6 +20,8 @@ inline constexpr double kHeld_m_s = 0.05;
 struct Clearances {
   double person_m = std::numeric_limits<double>::infinity();  ///< camera to back, when the person is ahead
   SonarObstacles obstacles;
+  /// The deceleration that the robot is known to reach; the gate plans its stops with no more than that.
+  double deceleration_m_s2 = std::numeric_limits<double>::infinity();
 };
 
 struct GateResult {

@@ -111,6 +111,7 @@ class ArcosSession {
   void rate_confirmed(TimeNs t_ns);
 
   void ask_sync(Step step, TimeNs now_ns, bool close_first = false);
+  DriveLimits limits_in_force() const;
   void queue_limits();
   void queue_enable();
   void flush_queue(TimeNs now_ns);

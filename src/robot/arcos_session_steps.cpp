@@ -1,8 +1,10 @@
 // The steps of the session that are due at a time, and the commands that they send.
 #include <algorithm>
+#include <cmath>
 
 #include "arcos/command_codec.h"
 #include "robot/arcos_session.h"
+#include "robot/wire_units.h"
 
 namespace heel {
 namespace {
@@ -128,6 +130,11 @@ void ArcosSession::finish_opening(TimeNs now_ns) {
   const bool waited = in_step_ns >= ns_from_seconds(config_.config_wait_s);
   if (config_.request_config && !config_seen_ && !waited) return;
   if (config_.request_config && !config_seen_) events_.push(now_ns, Kind::ConfigMissing);
+  state_.limits = limits_in_force();
+  const auto deceleration_mm_s2 =
+      static_cast<std::int64_t>(std::lround(state_.limits.deceleration_m_s2 * 1e3));
+  if (state_.limits.known && deceleration_mm_s2 < config_.deceleration_mm_s2)
+    events_.push(now_ns, Kind::BrakesLimited, deceleration_mm_s2);
   if (rate_can_rise()) return ask_rate(Step::AskingRate, target_baud_, now_ns);
   queue_limits();
   if (hold_disabled_) {
@@ -170,6 +177,20 @@ void ArcosSession::disconnect_silent(TimeNs now_ns) {
   queue_.push(arcos::encode_plain(CommandId::Stop));
   queue_.push(arcos::encode_plain(CommandId::Close));
   enter(Step::Silent, now_ns);
+}
+
+/// The smaller of what is asked for and of what CONFIGpac allows; without CONFIGpac, of what every controller
+/// allows.
+DriveLimits ArcosSession::limits_in_force() const {
+  DriveLimits limits;
+  limits.known = config_seen_ && controller_.trans_acc_top > 0;
+  const DriveLimits of_factory;
+  const double top_m_s2 = controller_.trans_acc_top * wire::kMetresPerMm;
+  limits.acceleration_m_s2 = std::min(config_.acceleration_mm_s2 * wire::kMetresPerMm,
+                                      limits.known ? top_m_s2 : of_factory.acceleration_m_s2);
+  limits.deceleration_m_s2 = std::min(config_.deceleration_mm_s2 * wire::kMetresPerMm,
+                                      limits.known ? top_m_s2 : of_factory.deceleration_m_s2);
+  return limits;
 }
 
 void ArcosSession::queue_limits() {

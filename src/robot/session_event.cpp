@@ -19,7 +19,11 @@ const char* to_string(SessionEventKind kind) {
     case SessionEventKind::ConfigReceived:
       return "robot sent its configuration; its watchdog time is {} ms";
     case SessionEventKind::ConfigMissing:
-      return "robot sent no valid configuration; the configured limits are used";
+      return "robot sent no valid configuration: its limits are unknown, stops are planned with 300 mm/s²";
+    case SessionEventKind::BrakesLimited:
+      return "robot's controller brakes with {} mm/s² at most, less than robot.deceleration_mm_s2: speeds "
+             "near people "
+             "and obstacles are lower";
     case SessionEventKind::FirstSip:
       return "robot sends information packets (SIP)";
     case SessionEventKind::RateRaised:
@@ -58,6 +62,8 @@ bool is_warning(SessionEventKind kind) {
   switch (kind) {
     case SessionEventKind::LineLost:
     case SessionEventKind::NoAnswer:
+    case SessionEventKind::ConfigMissing:
+    case SessionEventKind::BrakesLimited:
     case SessionEventKind::RateRefused:
     case SessionEventKind::EnableFailed:
     case SessionEventKind::StopButton:

@@ -17,7 +17,8 @@ enum class SessionEventKind : std::uint8_t {
   NoAnswer,    ///< value: baud
   Synchronised,
   ConfigReceived,  ///< value: watchdog, ms
-  ConfigMissing,   ///< the configured limits are used
+  ConfigMissing,   ///< the limits of the factory are assumed
+  BrakesLimited,   ///< value: mm/s²; CONFIGpac allows less than is asked for
   FirstSip,
   RateRaised,   ///< value: baud
   RateRefused,  ///< value: the baud rate that the robot did not change to

@@ -116,6 +116,7 @@ std::vector<CsvColumn<TickRecord>> make_tick_columns() {
       {"limited_by", [](L& l, const T& t, int) { l.integer(std::uint64_t{t.command.limited_by}); }},
       {"person_m", [](L& l, const T& t, int) { l.number(t.person_m); }},
       {"free_distance_m", [](L& l, const T& t, int) { l.number(t.free_distance_m); }},
+      {"planned_deceleration_m_s2", [](L& l, const T& t, int) { l.number(t.planned_deceleration_m_s2); }},
   };
   add_array<T>(columns, "sonar_t_s", kSonars, [](L& l, const T& t, int i) {
     l.seconds(t.input.robot.sonar[static_cast<std::size_t>(i)].t_ns);

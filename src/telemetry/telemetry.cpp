@@ -92,6 +92,7 @@ void Telemetry::take(const TickRecord& tick) {
               lost ? spdlog::level::warn : spdlog::level::info, text);
     if (recorder_) recorder_->record_text(tick.input.now_ns, text);
   }
+  take_brakes(tick);
   take_measurement(tick);
   ++newest_.ticks;
   newest_.tick = tick;
@@ -114,6 +115,21 @@ void Telemetry::take_state(const TickRecord& tick, bool first) {
   const char* const event = tick.hold != Hold::None ? to_string(tick.hold) : to_string(tick.stop_reason);
   log_event({.part = "supervisor", .event = event}, spdlog::level::info, text);
   if (recorder_) recorder_->record_text(now_ns, text);
+}
+
+/// The robot slowed down with less than its controller allows.
+void Telemetry::take_brakes(const TickRecord& tick) {
+  constexpr double kNews = 0.9;  // of what was logged
+  const double brakes_m_s2 = tick.planned_deceleration_m_s2;
+  if (!tick.brakes_are_weaker) logged_brakes_m_s2_ = std::numeric_limits<double>::infinity();
+  if (!tick.brakes_are_weaker || brakes_m_s2 >= kNews * logged_brakes_m_s2_) return;
+  logged_brakes_m_s2_ = brakes_m_s2;
+  const std::string text = fmt::format(
+      "the robot slowed down with {:.2f} m/s² where {:.2f} were planned: speeds near people and obstacles "
+      "are lower now; check its brakes and the slope",
+      brakes_m_s2, tick.input.robot.limits.deceleration_m_s2);
+  log_event({.part = "robot", .event = "brakes"}, spdlog::level::warn, text);
+  if (recorder_) recorder_->record_text(tick.input.now_ns, text);
 }
 
 void Telemetry::take_measurement(const TickRecord& tick) {

@@ -11,6 +11,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -51,6 +52,7 @@ class Telemetry {
  private:
   void take(const TickRecord& tick);
   void take_state(const TickRecord& tick, bool first);
+  void take_brakes(const TickRecord& tick);
   void take_measurement(const TickRecord& tick);
   void take(const Event& event);
   void log_losses(TimeNs now_ns);
@@ -67,6 +69,7 @@ class Telemetry {
   TimeNs t_hold_logged_ns_ = 0;
   std::uint32_t template_in_use_ = 0;
   std::string logged_refusal_;  // the last one: a frame refused for another reason is logged again
+  double logged_brakes_m_s2_ = std::numeric_limits<double>::infinity();
   TimeNs t_refusal_logged_ns_ = 0;
   std::uint64_t losses_logged_ = 0;
   TimeNs t_losses_logged_ns_ = 0;

@@ -122,6 +122,16 @@ TEST(ControlStage, StopsBeforeAnObstacle) {
   EXPECT_NEAR(run.ahead_m * std::cos(0.1745) - 0.068, run.config.gate.clearance_m, 0.07);
 }
 
+TEST(ControlStage, PlansItsStopsWithTheBrakesThatTheControllerAllows) {
+  Following run;
+  run.input.robot.limits.deceleration_m_s2 = 0.3;
+  run.tick();
+  EXPECT_EQ(run.record.planned_deceleration_m_s2, 0.3);
+  run.input.robot.limits.deceleration_m_s2 = 5.0;
+  run.tick();
+  EXPECT_EQ(run.record.planned_deceleration_m_s2, run.config.gate.deceleration_m_s2);
+}
+
 TEST(ControlStage, RestsWhenTheSonarsAreSilentUnlessTheyAreOff) {
   for (const bool sonar : {true, false}) {
     Following run;

@@ -32,6 +32,7 @@ struct Following {
     input.robot.phase = LinkPhase::Running;
     input.robot.has_sip = true;
     input.robot.motors_enabled = true;
+    input.robot.limits = {.known = true, .acceleration_m_s2 = 0.6, .deceleration_m_s2 = 1.5};
     input.robot.odometry = odometry(input.now_ns, robot, 0, 0);
   }
 

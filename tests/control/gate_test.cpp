@@ -156,6 +156,26 @@ TEST(Gate, StopsShortOfTheSeparation) {
             0.0);
 }
 
+TEST(Gate, PlansItsStopsWithTheBrakesOfTheRobot) {
+  for (const double brakes_m_s2 : {0.1, 0.3, 1.0}) {
+    Clearances ahead = free_space(2.0);
+    ahead.deceleration_m_s2 = brakes_m_s2;
+    const VelocityCommand last = command(0.7, 0, kNow_ns - kTick_ns);
+    VelocityCommand now = pass(command(0.7, 0), last, StopStyle::Go, ahead);
+    for (int i = 0; i < 100; ++i)
+      now = pass(command(0.7, 0), {kNow_ns - kTick_ns, kNow_ns + kTick_ns, now.v_m_s, 0, 0}, StopStyle::Go,
+                 ahead);
+    // Half of it is left when the robot brakes from this speed to the distance of separation.
+    EXPECT_LE(now.v_m_s * now.v_m_s, brakes_m_s2 * (2.0 - GateConfig{}.separation_m) + 1e-9);
+    EXPECT_GT(now.v_m_s, 0.3);
+  }
+  for (const double unknown : {kNaN, 0.0, -1.0}) {
+    Clearances ahead = free_space();
+    ahead.deceleration_m_s2 = unknown;
+    EXPECT_EQ(pass(command(0.5, 0), command(0, 0, kNow_ns - kTick_ns), StopStyle::Go, ahead).v_m_s, 0.0);
+  }
+}
+
 TEST(Gate, ReturnsTheFreeDistanceItUsed) {
   const auto free_distance_m = [](StopStyle style, const Clearances& clearances) {
     return apply_gate(command(0.5, 0), command(0.5, 0, kNow_ns - kTick_ns), style, clearances, kNow_ns,
@@ -216,6 +236,7 @@ VelocityCommand any_command() {
 
 Clearances any_clearances() {
   Clearances clearances = free_space(any_double());
+  clearances.deceleration_m_s2 = any_double();
   for (std::size_t i = *rc::gen::inRange<std::size_t>(0, kSonars + 1); i > 0; --i)
     clearances.obstacles.add({any_double(), any_double()});
   return clearances;

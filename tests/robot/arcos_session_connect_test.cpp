@@ -199,6 +199,8 @@ TEST(ArcosSessionConfig, ConnectsAlsoWhenItIsMissingOrDamaged) {
     bench.robot.config_damaged = damaged;
     ASSERT_TRUE(bench.run_until(LinkPhase::Running));
     EXPECT_EQ(bench.count(Kind::ConfigMissing), 1);
+    EXPECT_FALSE(bench.session.state().limits.known);
+    EXPECT_EQ(bench.session.state().limits.deceleration_m_s2, 0.3);
     EXPECT_EQ(bench.session.state().checksum_errors, damaged ? 1u : 0u);
     EXPECT_TRUE(
         bench.robot.log[bench.robot.find(CommandId::SetV)].is(CommandId::SetV, bench_config().v_limit_mm_s));
@@ -216,6 +218,10 @@ TEST(ArcosSessionConfig, ControllersOwnLimitsAreNotExceeded) {
   EXPECT_EQ(sent(CommandId::SetV, 0), 500);
   EXPECT_EQ(sent(CommandId::SetA, 0), bench_config().acceleration_mm_s2);
   EXPECT_EQ(sent(CommandId::SetA, 1), -1000);
+  EXPECT_TRUE(bench.session.state().limits.known);
+  EXPECT_EQ(bench.session.state().limits.deceleration_m_s2, 1.0);
+  EXPECT_EQ(bench.session.state().limits.acceleration_m_s2, bench_config().acceleration_mm_s2 * 1e-3);
+  EXPECT_EQ(bench.count(Kind::BrakesLimited), 1);
   EXPECT_EQ(sent(CommandId::SetRv, 0), 90);
   EXPECT_EQ(sent(CommandId::SetRa, 0), bench_config().yaw_acceleration_deg_s2);
 }

@@ -63,6 +63,7 @@ TEST(CsvColumns, ATicksValuesAreUnderTheirColumnNames) {
   tick.measurement = MeasurementStatus::Outlier;
   tick.conditions = kBumper | kTargetLost;
   tick.free_distance_m = 1.125;
+  tick.planned_deceleration_m_s2 = 0.375;
   tick.target.known = true;
   tick.target.x_m = 2.0;
   tick.target.yaw_rad = -0.75;
@@ -114,6 +115,7 @@ TEST(CsvColumns, ATicksValuesAreUnderTheirColumnNames) {
       {"measurement", "outlier"},
       {"conditions", "1056"},
       {"free_distance_m", "1.125"},
+      {"planned_deceleration_m_s2", "0.375"},
       {"target_x_m", "2"},
       {"target_yaw_rad", "-0.75"},
       {"target_travel_yaw_rad", "-0.5"},

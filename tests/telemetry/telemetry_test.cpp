@@ -100,6 +100,21 @@ TEST_F(TelemetryTest, WhatTheGateHoldsByIsLoggedAtMostOnceASecond) {
   EXPECT_EQ(log_.count("following"), 2);
 }
 
+TEST_F(TelemetryTest, WeakBrakesAreLoggedAgainOnlyWhenTheyAreWeaker) {
+  Telemetry telemetry(queues_, {});
+  TickRecord tick;
+  tick.input.robot.limits.deceleration_m_s2 = 1.5;
+  for (const double planned_m_s2 : {1.5, 0.5, 0.5, 0.48, 0.3, 0.3}) {
+    tick.planned_deceleration_m_s2 = planned_m_s2;
+    tick.brakes_are_weaker = planned_m_s2 < 1.0;
+    queues_.ticks.push(tick);
+  }
+  telemetry.drain(kNsPerS);
+  EXPECT_EQ(log_.count("[warning] the robot slowed down with"), 2);
+  EXPECT_EQ(log_.count("slowed down with 0.50 m/s² where 1.50 were planned"), 1);
+  EXPECT_EQ(log_.count("slowed down with 0.30 m/s² where 1.50 were planned"), 1);
+}
+
 TEST_F(TelemetryTest, ARefusalIsLoggedWithItsGateWhenItChanges) {
   Telemetry telemetry(queues_, {});
   TickRecord tick;

@@ -7,6 +7,9 @@ void apply_robot(const ScenarioRobot& robot, P3AtSettings& settings) {
   settings.chassis.true_track_m = robot.true_track_m;
   settings.chassis.left_scale_error = robot.left_scale_error;
   settings.chassis.right_scale_error = robot.right_scale_error;
+  settings.translation_top.acceleration = settings.translation_top.deceleration = robot.acceleration_top_m_s2;
+  settings.chassis.wheel_deceleration_max_m_s2 = robot.brakes_m_s2;
+  settings.sends_config = robot.sends_config;
   for (const std::string& fault : robot.faults) settings.faults.push_back(parse_fault(fault));
 }
 

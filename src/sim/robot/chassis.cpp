@@ -30,10 +30,17 @@ ChassisSettings exact_chassis() {
   return settings;
 }
 
+/// One wheel's speed a step later.
+double Chassis::driven(double speed_m_s, double target_m_s, double dt_s) const {
+  const bool slows_down = (target_m_s - speed_m_s) * speed_m_s < 0.0;
+  const double limit_m_s2 =
+      slows_down ? settings_.wheel_deceleration_max_m_s2 : settings_.wheel_acceleration_max_m_s2;
+  return approach(speed_m_s, target_m_s, limit_m_s2 * dt_s);
+}
+
 void Chassis::drive(const WheelSpeeds& target, double dt_s) {
-  const double step = settings_.wheel_acceleration_max_m_s2 * dt_s;
-  wheels_.left_m_s = approach(wheels_.left_m_s, target.left_m_s, step);
-  wheels_.right_m_s = approach(wheels_.right_m_s, target.right_m_s, step);
+  wheels_.left_m_s = driven(wheels_.left_m_s, target.left_m_s, dt_s);
+  wheels_.right_m_s = driven(wheels_.right_m_s, target.right_m_s, dt_s);
   move(dt_s);
 }
 

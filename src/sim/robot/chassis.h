@@ -21,6 +21,7 @@ struct ChassisSettings {
   double drift_per_sqrt_m = 0.0075;  ///< random walk along the path: 0.75 % after one metre, 1 σ
   double heading_drift_rad_per_sqrt_m = 0.003;  ///< random walk of the heading, 1 σ after one metre
   double wheel_acceleration_max_m_s2 = 6.0;     ///< limit of motors and tyres, above that of every profile
+  double wheel_deceleration_max_m_s2 = 6.0;     ///< less: weak brakes, which no packet reports
   double coast_deceleration_m_s2 = 3.0;         ///< by the gears, with the motors off
 };
 
@@ -56,6 +57,7 @@ class Chassis {
   double true_yaw_rate_rad_s() const;
 
  private:
+  double driven(double speed_m_s, double target_m_s, double dt_s) const;
   void move(double dt_s);
 
   ChassisSettings settings_;

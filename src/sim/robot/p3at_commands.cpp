@@ -109,7 +109,7 @@ bool P3At::execute_requests(const arcos::Command& command) {
   };
   switch (static_cast<CommandId>(command.id)) {
     case CommandId::Config:
-      config_request_ = Request::Once;
+      if (settings_.sends_config) config_request_ = Request::Once;
       break;
     case CommandId::Encoder:
       encoder_request_ = request();

@@ -23,6 +23,7 @@ struct P3AtSettings {
   // Wire.
   double mm_per_position_unit = 1.0;  ///< DistConvFactor
   bool heading_from_zero = false;     ///< THPOS 0…4095 instead of −2048…2047
+  bool sends_config = true;           ///< answers CONFIG
   bool sends_fault_flags = true;      ///< the last SIP field of newer firmware
   int boot_baud = 9600;
   int autobaud = 2;                    ///< CONFIGpac Autobaud; 0: HOSTBAUD is ignored

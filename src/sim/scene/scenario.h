@@ -54,8 +54,11 @@ struct ScenarioRobot {
   double true_track_m = 0.62;  ///< track with which the robot turns on this floor; the firmware assumes 0.588
   double left_scale_error = -0.002;
   double right_scale_error = 0.002;
-  std::vector<FloorPatch> patches;  ///< the first that contains the robot's centre is used
-  std::vector<std::string> faults;  ///< "KIND@START[+DURATION][=AMOUNT]", as for heel-sim --fault
+  double acceleration_top_m_s2 = 2.0;  ///< of the controller, in CONFIGpac; it obeys no larger SETA
+  double brakes_m_s2 = 6.0;            ///< largest deceleration of the wheels, which no packet reports
+  bool sends_config = true;            ///< answers CONFIG
+  std::vector<FloorPatch> patches;     ///< the first that contains the robot's centre is used
+  std::vector<std::string> faults;     ///< "KIND@START[+DURATION][=AMOUNT]", as for heel-sim --fault
 };
 
 /// Which shirt a passer-by wears.

@@ -5,6 +5,7 @@ namespace heel::sim {
 namespace {
 
 constexpr NumberRange kSize{0.01, 1000, "m"};
+constexpr NumberRange kAcceleration{0.05, 10, "m/s²"};
 constexpr NumberRange kTrack{0.4, 1.0, "m"};
 
 }  // namespace
@@ -16,6 +17,9 @@ void read_robot(TomlSection robot, ScenarioRobot& out) {
   out.true_track_m = robot.number("true_track_m", out.true_track_m, kTrack);
   out.left_scale_error = robot.number("left_scale_error", out.left_scale_error, {-0.2, 0.2, ""});
   out.right_scale_error = robot.number("right_scale_error", out.right_scale_error, {-0.2, 0.2, ""});
+  out.acceleration_top_m_s2 = robot.number("acceleration_top_m_s2", out.acceleration_top_m_s2, kAcceleration);
+  out.brakes_m_s2 = robot.number("brakes_m_s2", out.brakes_m_s2, kAcceleration);
+  out.sends_config = robot.boolean("sends_config", out.sends_config);
   for (TomlSection& patch : robot.sections("floor")) {
     FloorPatch floor;
     floor.x_m = patch.required_number("x_m", kMetres);
