@@ -19,6 +19,7 @@
 #include "evaluation/experiments/real_images.h"
 #include "evaluation/experiments/still_image_cases.h"
 #include "evaluation/experiments/still_image_file.h"
+#include "evaluation/experiments/stop_distances.h"
 #include "evaluation/reports/foreign_tables.h"
 #include "files/folder.h"
 #include "files/image_file.h"
@@ -34,6 +35,7 @@ constexpr const char* kPlanar = "foreign-planar";
 constexpr const char* kFalse = "foreign-false";
 constexpr const char* kOtherPeople = "/person/one-by-one.mp4";
 constexpr const char* kStills = "stills";
+constexpr const char* kStopping = "stopping";
 constexpr int kVideoStep = 3;  ///< ten frames a second show how certainty rises and falls
 
 struct ExperimentOptions {
@@ -46,6 +48,7 @@ struct ExperimentOptions {
   std::uint64_t seed = 1;
   std::string data;
   std::string foreign_set;
+  std::string error_model;
 
   bool wants(const char* name) const { return std::find(names.begin(), names.end(), name) != names.end(); }
 };
@@ -212,10 +215,25 @@ void write_stills(const ExperimentOptions& options) {
   std::fflush(stdout);
 }
 
+/// Stops by each trigger at each speed, in the world without pictures.
+void measure_stopping(const ExperimentOptions& options) {
+  if (options.error_model.empty())
+    throw Error("stopping needs --error-model FILE (expected as for heel simulate)");
+  const Config config = options.config_file.empty() ? Config{} : load_config(options.config_file).config;
+  const auto stops =
+      evaluation::measure_stops(config, sim::read_error_model(options.error_model), options.seed);
+  const std::string file = options.out + "/" + kStopping + ".csv";
+  evaluation::write_stop_distances(stops, file);
+  fmt::print("{}{:<10} {} stops: {}\n", evaluation::stop_distance_table(stops, config), kStopping,
+             stops.size(), file);
+  std::fflush(stdout);
+}
+
 void run_experiments(const ExperimentOptions& options) {
   require_given_folders(options);
   make_folder(options.out);
   if (options.wants(kStills)) write_stills(options);
+  if (options.wants(kStopping)) measure_stopping(options);
   if (options.wants(kReal)) run_real_image_experiment(options);
   if (options.wants(kForeign) || options.wants(kPlanar) || options.wants(kFalse))
     run_foreign_experiments(options);
@@ -240,6 +258,8 @@ void add_experiment_command(CLI::App& app) {
   names.emplace_back(kStills);
   help += std::string("\n  ") + kStills +
           ": writes pictures of backs with truth: images/, truth.csv, camera.yaml";
+  names.emplace_back(kStopping);
+  help += std::string("\n  ") + kStopping + ": how far the robot rolls after each kind of stop, by speed";
   names.emplace_back(kReal);
   help += std::string("\n  ") + kReal + ": homography error on real pairs, certainty over a real video";
   names.insert(names.end(), {kForeign, kPlanar, kFalse});
@@ -264,6 +284,8 @@ void add_experiment_command(CLI::App& app) {
   command->add_option(
       "--scenario", options->scenario,
       "uses the camera, light and person of this scenario (default: the simulator's defaults)");
+  command->add_option("--error-model", options->error_model,
+                      "of `stopping`: the file that poses are sampled from, as for heel simulate");
   command->add_option("--config", options->config_file,
                       "the daemon's configuration file (default: every key at its default)");
   command->add_option("--teach-distance", options->teach_distance_m, "of the reference view, metres")
