@@ -85,13 +85,6 @@ class ValueSetter {
   Config& config_;
 };
 
-std::optional<std::size_t> index_of_key(std::string_view full_name) {
-  for (std::size_t i = 0; i < config_keys().size(); ++i) {
-    if (config_keys()[i].full_name() == full_name) return i;
-  }
-  return std::nullopt;
-}
-
 std::vector<std::string> key_names() {
   std::vector<std::string> names;
   for (const auto& key : config_keys()) names.push_back(key.full_name());

@@ -1,4 +1,5 @@
-// Every configuration key, once: name, type (by the member it fills), unit, range, reload, effect.
+// Every configuration key, once: name, type (by the member it fills), unit, range, reload or the safer
+// direction, effect.
 #include "config/config_table.h"
 
 namespace heel {
@@ -8,6 +9,7 @@ namespace {
 #define HEEL_KEY(section, name) #section, #name, [](Config & c) { return &c.section.name; }
 
 using enum Reload;
+using enum Tighter;
 
 struct Range {
   double min, max;
@@ -17,29 +19,43 @@ using Name = std::string_view;
 
 constexpr ConfigKey number(Name section, Name name, double* (*field)(Config&), Name unit, Range range,
                            Reload reload, Name effect) {
-  return {section, name, field, unit, range.min, range.max, ConfigText::Choice, "", reload, effect};
+  return {section, name,   field,         unit,  range.min, range.max, ConfigText::Choice,
+          "",      reload, Tighter::None, effect};
 }
 constexpr ConfigKey number(Name section, Name name, int* (*field)(Config&), Name unit, Range range,
                            Reload reload, Name effect) {
-  return {section, name, field, unit, range.min, range.max, ConfigText::Choice, "", reload, effect};
+  return {section, name,   field,         unit,  range.min, range.max, ConfigText::Choice,
+          "",      reload, Tighter::None, effect};
 }
 constexpr ConfigKey flag(Name section, Name name, bool* (*field)(Config&), Reload reload, Name effect) {
-  return {section, name, field, "", 0, 0, ConfigText::Choice, "", reload, effect};
+  return {section, name, field, "", 0, 0, ConfigText::Choice, "", reload, Tighter::None, effect};
+}
+/// A limit of the robot's motion, or of what it may know too little of to move. It reloads.
+constexpr ConfigKey limit(Name section, Name name, double* (*field)(Config&), Name unit, Range range,
+                          Tighter tighter, Name effect) {
+  return {section, name, field, unit, range.min, range.max, ConfigText::Choice, "", Yes, tighter, effect};
+}
+constexpr ConfigKey limit(Name section, Name name, int* (*field)(Config&), Name unit, Range range,
+                          Tighter tighter, Name effect) {
+  return {section, name, field, unit, range.min, range.max, ConfigText::Choice, "", Yes, tighter, effect};
+}
+constexpr ConfigKey limit(Name section, Name name, bool* (*field)(Config&), Tighter tighter, Name effect) {
+  return {section, name, field, "", 0, 0, ConfigText::Choice, "", Yes, tighter, effect};
 }
 constexpr ConfigKey choice(Name section, Name name, std::string* (*field)(Config&), Name choices,
                            Reload reload, Name effect) {
-  return {section, name, field, "", 0, 0, ConfigText::Choice, choices, reload, effect};
+  return {section, name, field, "", 0, 0, ConfigText::Choice, choices, reload, Tighter::None, effect};
 }
 constexpr ConfigKey path(Name section, Name name, std::string* (*field)(Config&), Name effect) {
-  return {section, name, field, "", 0, 0, ConfigText::Path, "", No, effect};
+  return {section, name, field, "", 0, 0, ConfigText::Path, "", No, Tighter::None, effect};
 }
 constexpr ConfigKey paths(Name section, Name name, std::vector<std::string>* (*field)(Config&), double most,
                           Name effect) {
-  return {section, name, field, "", 0, most, ConfigText::Path, "", No, effect};
+  return {section, name, field, "", 0, most, ConfigText::Path, "", No, Tighter::None, effect};
 }
 constexpr ConfigKey address(Name section, Name name, std::string* (*field)(Config&), Name schemes,
                             Name effect) {
-  return {section, name, field, "", 0, 0, ConfigText::Address, schemes, No, effect};
+  return {section, name, field, "", 0, 0, ConfigText::Address, schemes, No, Tighter::None, effect};
 }
 
 constexpr ConfigSection kSections[] = {
@@ -109,33 +125,33 @@ const ConfigKey kKeys[] = {
     number(HEEL_KEY(control, setpoint_t_x_m), "m", {-5, 5}, Yes, "Sideways offset; positive drives to the left of the person."),
     number(HEEL_KEY(control, setpoint_yaw_rad), "rad", {-1.2, 1.2}, Yes, "Direction from which to follow; positive moves the robot around the person to their right side, still facing the person."),
     number(HEEL_KEY(control, deadband_distance_m), "m", {0, 1}, Yes, "Distance errors smaller than this cause no motion."),
-    flag(HEEL_KEY(control, reverse), Yes, "Whether the robot may drive backwards when the person comes nearer."),
+    limit(HEEL_KEY(control, reverse), Smaller, "Whether the robot may drive backwards when the person comes nearer."),
     number(HEEL_KEY(control, bearing_max_rad), "rad", {0.05, 1.5}, Yes, "Largest angle between the person and the optical axis, whatever the other gains command; smaller than half the field of view."),
     number(HEEL_KEY(control, bearing_gain_1_s), "1/s", {0.1, 20}, Yes, "How fast the person's bearing may approach control.bearing_max_rad: rad/s per radian that is left."),
 
     choice(HEEL_KEY(supervisor, start), "operator|at_once", No, "What lets the robot move: operator is the command `heel start`, needed after each start of heeld and after each fault; at_once, for test benches, needs no command, also not after a fault."),
-    number(HEEL_KEY(supervisor, certainty_follow), "", {0, 1}, Yes, "Certainty at which following starts."),
-    number(HEEL_KEY(supervisor, certainty_drop), "", {0, 1}, Yes, "While following, a frame below this certainty is not a good frame."),
-    number(HEEL_KEY(supervisor, frames_to_follow), "frames", {1, 1000}, Yes, "Good frames in a row that are needed before the robot moves."),
-    number(HEEL_KEY(supervisor, target_timeout_s), "s", {0.05, 5}, Yes, "Time without a good frame after which the target counts as lost."),
-    number(HEEL_KEY(supervisor, frame_timeout_s), "s", {0.05, 5}, Yes, "Time without any frame after which the camera counts as silent."),
-    number(HEEL_KEY(supervisor, sip_timeout_s), "s", {0.15, 5}, Yes, "Time without a packet from the robot after which the robot counts as silent; it sends one every 0.1 s."),
-    number(HEEL_KEY(supervisor, bumper_hold_s), "s", {0, 60}, Yes, "Time at rest after a bumper or a stall has cleared."),
-    number(HEEL_KEY(supervisor, sonar_timeout_s), "s", {0.4, 5}, Yes, "Time without a reading of the front sonars after which they count as silent, if robot.sonar is true; each is read every 0.32 s."),
-    number(HEEL_KEY(supervisor, search_s), "s", {0, 60}, Yes, "Longest time for which a control law that can drive on without the target may do so."),
-    number(HEEL_KEY(supervisor, battery_low_v), "V", {0, 60}, Yes, "Voltage below which, for 2 s, the robot's battery counts as low and the robot stops; 0: never."),
-    number(HEEL_KEY(supervisor, battery_ok_v), "V", {0, 60}, Yes, "Voltage from which a low battery no longer counts as low."),
-    number(HEEL_KEY(supervisor, lateness_max_s), "s", {0, 5}, Yes, "A control tick that runs later than this stops the robot; 0: none does."),
-    number(HEEL_KEY(supervisor, operator_timeout_s), "s", {0, 600}, Yes, "Time without a sign of the operator after which the robot stops; 0: none is needed."),
+    limit(HEEL_KEY(supervisor, certainty_follow), "", {0, 1}, Larger, "Certainty at which following starts."),
+    limit(HEEL_KEY(supervisor, certainty_drop), "", {0, 1}, Larger, "While following, a frame below this certainty is not a good frame."),
+    limit(HEEL_KEY(supervisor, frames_to_follow), "frames", {1, 1000}, Larger, "Good frames in a row that are needed before the robot moves."),
+    limit(HEEL_KEY(supervisor, target_timeout_s), "s", {0.05, 5}, Smaller, "Time without a good frame after which the target counts as lost."),
+    limit(HEEL_KEY(supervisor, frame_timeout_s), "s", {0.05, 5}, Smaller, "Time without any frame after which the camera counts as silent."),
+    limit(HEEL_KEY(supervisor, sip_timeout_s), "s", {0.15, 5}, Smaller, "Time without a packet from the robot after which the robot counts as silent; it sends one every 0.1 s."),
+    limit(HEEL_KEY(supervisor, bumper_hold_s), "s", {0, 60}, Larger, "Time at rest after a bumper or a stall has cleared."),
+    limit(HEEL_KEY(supervisor, sonar_timeout_s), "s", {0.4, 5}, Smaller, "Time without a reading of the front sonars after which they count as silent, if robot.sonar is true; each is read every 0.32 s."),
+    limit(HEEL_KEY(supervisor, search_s), "s", {0, 60}, Smaller, "Longest time for which a control law that can drive on without the target may do so."),
+    limit(HEEL_KEY(supervisor, battery_low_v), "V", {0, 60}, Larger, "Voltage below which, for 2 s, the robot's battery counts as low and the robot stops; 0: never."),
+    limit(HEEL_KEY(supervisor, battery_ok_v), "V", {0, 60}, Larger, "Voltage from which a low battery no longer counts as low."),
+    limit(HEEL_KEY(supervisor, lateness_max_s), "s", {0, 5}, Neither, "A control tick that runs later than this stops the robot; 0: none does."),
+    limit(HEEL_KEY(supervisor, operator_timeout_s), "s", {0, 600}, Neither, "Time without a sign of the operator after which the robot stops; 0: none is needed."),
 
-    number(HEEL_KEY(gate, v_max_m_s), "m/s", {0, 1.2}, Yes, "Largest speed commanded."),
-    number(HEEL_KEY(gate, yaw_rate_max_rad_s), "rad/s", {0, 4}, Yes, "Largest yaw rate commanded."),
-    number(HEEL_KEY(gate, acceleration_m_s2), "m/s²", {0.05, 5}, Yes, "Largest increase of speed."),
-    number(HEEL_KEY(gate, deceleration_m_s2), "m/s²", {0.05, 5}, Yes, "Largest decrease of speed, also when braking to rest."),
-    number(HEEL_KEY(gate, separation_m), "m", {0, 5}, Yes, "The robot does not drive nearer to the person than this, measured from the camera to the back."),
-    number(HEEL_KEY(gate, clearance_m), "m", {0, 2}, Yes, "The robot does not drive nearer than this to an obstacle that its sonars detect, measured from the bumper to the echo."),
-    number(HEEL_KEY(gate, yaw_acceleration_rad_s2), "rad/s²", {0.05, 50}, Yes, "Largest change of yaw rate."),
-    number(HEEL_KEY(gate, command_lifetime_s), "s", {0.02, 1}, Yes, "Time after which a velocity command that was not renewed counts as zero."),
+    limit(HEEL_KEY(gate, v_max_m_s), "m/s", {0, 1.2}, Smaller, "Largest speed commanded."),
+    limit(HEEL_KEY(gate, yaw_rate_max_rad_s), "rad/s", {0, 4}, Smaller, "Largest yaw rate commanded."),
+    limit(HEEL_KEY(gate, acceleration_m_s2), "m/s²", {0.05, 5}, Smaller, "Largest increase of speed."),
+    limit(HEEL_KEY(gate, deceleration_m_s2), "m/s²", {0.05, 5}, Neither, "Largest decrease of speed, also when braking to rest."),
+    limit(HEEL_KEY(gate, separation_m), "m", {0, 5}, Larger, "The robot does not drive nearer to the person than this, measured from the camera to the back."),
+    limit(HEEL_KEY(gate, clearance_m), "m", {0, 2}, Larger, "The robot does not drive nearer than this to an obstacle that its sonars detect, measured from the bumper to the echo."),
+    limit(HEEL_KEY(gate, yaw_acceleration_rad_s2), "rad/s²", {0.05, 50}, Neither, "Largest change of yaw rate."),
+    limit(HEEL_KEY(gate, command_lifetime_s), "s", {0.02, 1}, Smaller, "Time after which a velocity command that was not renewed counts as zero."),
 
     address(HEEL_KEY(robot, address), "serial|pty|tcp", "The robot's controller: serial:DEVICE@BAUD, pty:PATH@BAUD or tcp:HOST:PORT. BAUD (38400 if missing) is tried first, then the robot's other rates; a controller that answers at a slower rate and can change it is switched to BAUD."),
     flag(HEEL_KEY(robot, sonar), No, "Whether the sonars are on; they click audibly. When they are off, only the bumpers detect obstacles."),
@@ -192,6 +208,13 @@ std::span<const ConfigSection> config_sections() {
 
 std::span<const ConfigKey> config_keys() {
   return kKeys;
+}
+
+std::optional<std::size_t> index_of_key(std::string_view full_name) {
+  for (std::size_t i = 0; i < std::size(kKeys); ++i) {
+    if (kKeys[i].full_name() == full_name) return i;
+  }
+  return std::nullopt;
 }
 
 std::span<const ConfigRelation> config_relations() {

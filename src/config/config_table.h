@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +32,15 @@ enum class Reload : std::uint8_t {
   Yes,  ///< applied at a tick boundary
 };
 
+/// Which values of a key are safer. `heel set` makes a running daemon safer than its file, never less safe.
+enum class Tighter : std::uint8_t {
+  None,     ///< no limit: any value in range
+  Smaller,  ///< at most the file's value; of two flags, false is the smaller one
+  Larger,   ///< at least the file's value
+  Neither,  ///< a limit of which both a smaller and a larger value can be the less safe one: only the file
+            ///< sets it
+};
+
 struct ConfigKey {
   std::string_view section;
   std::string_view name;
@@ -41,8 +51,11 @@ struct ConfigKey {
   ConfigText text = ConfigText::Choice;
   std::string_view choices;  ///< "a|b|c"
   Reload reload = Reload::No;
+  Tighter tighter = Tighter::None;
   std::string_view effect;  ///< one or a few sentences
 
+  /// `heel set` may change it.
+  bool can_be_set() const { return reload == Reload::Yes && tighter != Tighter::Neither; }
   std::string full_name() const { return std::string(section) + "." + std::string(name); }
 };
 
@@ -60,6 +73,8 @@ struct ConfigRelation {
 
 std::span<const ConfigSection> config_sections();
 std::span<const ConfigKey> config_keys();
+/// Its index in config_keys().
+std::optional<std::size_t> index_of_key(std::string_view full_name);
 std::span<const ConfigRelation> config_relations();
 
 /// A key of an earlier version. A file that still sets it is refused with the reason.

@@ -25,11 +25,27 @@ constexpr std::string_view kManualIntroduction = R"(# Configuration
 - Relative paths start at the folder of the file.
 - *Reload* says whether a new value is applied on SIGHUP (`systemctl reload heeld`). Where it says no, the new value needs a
   restart.
+- *Set* says whether `heel set` may change the value of the running daemon. *smaller* and *larger* are limits: they can be made
+  tighter than the file has them, in that direction, and brought back to the file's value, never made looser than it. Some limits are
+  not set at all, because neither direction is always the safer one. See [operator.md](operator.md).
 - A reload is all or nothing: `heeld` refuses a file that has an error or changes a key without reload, and keeps the old
   values.
 
 This page is generated: change `src/config/config_table.cpp`, then run `heeld --print-config-manual > docs/configuration.md`.
 )";
+
+/// The values that `heel set` may give the key of a running daemon.
+std::string_view settable_values(const ConfigKey& key) {
+  if (!key.can_be_set()) return "no";
+  switch (key.tighter) {
+    case Tighter::Smaller:
+      return "smaller";
+    case Tighter::Larger:
+      return "larger";
+    default:
+      return "yes";
+  }
+}
 
 }  // namespace
 
@@ -53,12 +69,12 @@ std::string config_manual_text() {
   std::string text(kManualIntroduction);
   for (const auto& section : config_sections()) {
     text += fmt::format("\n## [{}]\n{}\n\n", section.name, section.about);
-    text += "| key | unit | range | default | reload | effect |\n|---|---|---|---|---|---|\n";
+    text += "| key | unit | range | default | reload | set | effect |\n|---|---|---|---|---|---|---|\n";
     for (const auto& key : config_keys()) {
       if (key.section != section.name) continue;
-      text +=
-          fmt::format("| `{}` | {} | {} | `{}` | {} | {} |\n", key.full_name(), key.unit, value_range(key),
-                      toml_value(key, defaults), key.reload == Reload::Yes ? "yes" : "no", key.effect);
+      text += fmt::format("| `{}` | {} | {} | `{}` | {} | {} | {} |\n", key.full_name(), key.unit,
+                          value_range(key), toml_value(key, defaults),
+                          key.reload == Reload::Yes ? "yes" : "no", settable_values(key), key.effect);
     }
   }
   text += "\n## Rules between keys\n\n";

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <type_traits>
+
 namespace heel {
 namespace {
 
@@ -47,6 +49,16 @@ struct TomlWriter {
 std::string toml_value(const ConfigKey& key, const Config& config) {
   // The accessors are shared with the parser and take a Config that can be written; this only reads.
   return std::visit(TomlWriter{const_cast<Config&>(config)}, key.field);
+}
+
+double number_value(const ConfigKey& key, const Config& config) {
+  const auto number = [&](auto field) -> double {
+    const auto& value = *field(const_cast<Config&>(config));
+    if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(value)>>)
+      return static_cast<double>(value);
+    return 0.0;
+  };
+  return std::visit(number, key.field);
 }
 
 std::string expected_value(const ConfigKey& key) {

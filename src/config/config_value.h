@@ -13,6 +13,9 @@ namespace heel {
 /// A key's value as TOML writes it: 0.7, true, "auto".
 std::string toml_value(const ConfigKey& key, const Config& config);
 
+/// A number as it is, true as 1 and false as 0; 0 for text.
+double number_value(const ConfigKey& key, const Config& config);
+
 /// What a value of this key must be: "a number 0…10 1/s", "true or false", "stop or loop", "a path in
 /// quotes".
 std::string expected_value(const ConfigKey& key);

@@ -30,6 +30,7 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
 
 std::string toml_message(const std::string& file, toml::source_position at, const std::string& key,
                          const std::string& found) {
+  if (file.empty()) return fmt::format("{}: {}", key, found);
   if (at.line == 0) return fmt::format("{}: {}: {}", file, key, found);
   return fmt::format("{}:{}:{}: {}: {}", file, at.line, at.column, key, found);
 }

@@ -16,7 +16,8 @@ std::string read_toml_text(const std::string& path, const std::string& expected)
 /// Throws heel::Error for a syntax error. `file` is the name used in the message.
 toml::table parse_toml(std::string_view text, const std::string& file);
 
-/// "FILE:LINE:COLUMN: KEY: FOUND"; line and column are left out when `at` has none.
+/// "FILE:LINE:COLUMN: KEY: FOUND"; line and column are left out when `at` has none, the file when it is
+/// empty.
 std::string toml_message(const std::string& file, toml::source_position at, const std::string& key,
                          const std::string& found);
 
