@@ -68,6 +68,7 @@ constexpr ConfigSection kSections[] = {
     {"gate", "The limits of every command that is sent to the robot."},
     {"robot", "The line to the P3-AT, and the limits set in the robot's own controller."},
     {"telemetry", "The recording of a run."},
+    {"operator", "The commands of operators."},
     {"runtime", "The process: log, start-up and real-time priorities."},
 };
 
@@ -167,6 +168,9 @@ const ConfigKey kKeys[] = {
     number(HEEL_KEY(robot, yaw_acceleration_deg_s2), "deg/s²", {1, 5000}, No, "Yaw acceleration and deceleration set in the robot's controller (SETRA)."),
 
     path(HEEL_KEY(telemetry, directory), "Folder for recordings; with an empty name nothing is recorded."),
+
+    // "operator" is a word of C++: its member has another name.
+    path("operator", "socket", [](Config& c) { return &c.operators.socket; }, "The local socket that `heel status`, `heel start` and the like connect to; the user and the group that heeld runs under may. With an empty name there is none, and with supervisor.start = \"operator\" the robot then never moves."),
 
     choice(HEEL_KEY(runtime, log_level), "trace|debug|info|warn|error", Yes, "Lowest level of the messages that are logged."),
     choice(HEEL_KEY(runtime, ready_after), "all|robot|start", No, "When systemd receives READY: all is after the robot has answered and the first frame has come, robot is after the robot has answered, start is at once."),

@@ -107,6 +107,10 @@ struct TelemetryConfig {
   std::string directory;  ///< empty: nothing is recorded
 };
 
+struct OperatorConfig {
+  std::string socket = "/run/heel/control.sock";  ///< of the operators; empty: none
+};
+
 struct RuntimeConfig {
   std::string log_level = "info";
   std::string ready_after =
@@ -127,6 +131,7 @@ struct Config {
   GateConfig gate;
   RobotConfig robot;
   TelemetryConfig telemetry;
+  OperatorConfig operators;
   RuntimeConfig runtime;
 };
 

@@ -34,8 +34,8 @@ class ControlLoop {
   /// For the operator thread: true and the newest tick, when there is one not taken before.
   bool take_operator_status(TickRecord& out) { return operator_status_.take(out); }
 
-  /// From the main thread: offers a configuration, taken over before the next tick. `config` must live until
-  /// the call returns. False: the loop did not take it within the timeout.
+  /// From the settings thread: offers a configuration, taken over before the next tick. `config` must live
+  /// until the call returns. False: the loop did not take it within the timeout.
   bool reconfigure(const Config& config, TimeNs timeout_ns);
 
   // For the main thread:
@@ -68,8 +68,8 @@ class ControlLoop {
   std::atomic<TimeNs> t_operator_ns_{0};         // operator → control
   Mailbox<TickRecord> operator_status_;          // control → operator
   Mailbox<TickRecord> status_;                   // control → main
-  std::atomic<const Config*> offered_{nullptr};  // main → control
-  std::atomic<const Config*> taken_{nullptr};    // control → main
+  std::atomic<const Config*> offered_{nullptr};  // settings → control
+  std::atomic<const Config*> taken_{nullptr};    // control → settings
   std::atomic<bool> stop_{false};
   std::atomic<TimeNs> heartbeat_ns_{0};
 };

@@ -13,13 +13,17 @@
 #include "config/config_load.h"
 #include "daemon/capture_loop.h"
 #include "daemon/control_loop.h"
+#include "daemon/control_port.h"
 #include "daemon/inputs.h"
 #include "daemon/loop_thread.h"
-#include "daemon/reload.h"
 #include "daemon/signals.h"
 #include "daemon/status_reporter.h"
 #include "daemon/vision_loop.h"
+#include "heel/error.h"
 #include "logging/logging.h"
+#include "operator/operator_server.h"
+#include "operator/settings.h"
+#include "operator/settings_loop.h"
 #include "realtime/clock.h"
 #include "realtime/schedule.h"
 #include "telemetry/telemetry.h"
@@ -30,6 +34,7 @@ namespace {
 
 constexpr TimeNs kMainPeriod_ns = 100 * kNsPerMs;
 constexpr TimeNs kRestTimeout_ns = 3 * kNsPerS;  // for coming to rest after the end of a file camera
+constexpr TimeNs kReconfigureTimeout_ns = kNsPerS;
 
 class Daemon {
  public:
@@ -40,12 +45,14 @@ class Daemon {
   void start();
   std::thread start_thread(ThreadRole role, std::function<void()> loop);
   void serve_until_stopped();
-  void reload();
+  void start_reload();
+  void end_reload();
+  void apply(const Config& config);
   bool finished_and_stopped(TimeNs now_ns);
   void stop();
   void log_counters() const;
 
-  LoadedConfig loaded_;
+  const LoadedConfig loaded_;  // at the start
   Inputs inputs_;
   Signals& signals_;
   StatusReporter status_;
@@ -59,8 +66,14 @@ class Daemon {
   VisionLoop vision_;
   ControlLoop control_;
   Telemetry telemetry_;
-  std::thread capture_thread_, vision_thread_, control_thread_, telemetry_thread_;
+  Settings settings_;
+  SettingsLoop settings_loop_;
+  ControlPort control_port_;
+  std::unique_ptr<OperatorServer> operators_;  // null: no socket
+  std::thread capture_thread_, vision_thread_, control_thread_, telemetry_thread_, settings_thread_,
+      operator_thread_;
 
+  std::uint64_t reloads_started_ = 0, reloads_ended_ = 0;
   TimeNs t_ended_ns_ = 0;            // when a file camera gave its last frame; 0: not yet
   std::atomic<bool> failed_{false};  // a thread has ended by an exception
 };
@@ -99,7 +112,15 @@ Daemon::Daemon(LoadedConfig loaded, Signals& signals)
                {.restart_at_end = loaded_.config.camera.at_end == "loop"}),
       vision_(frames_, templates_, poses_, queues_.poses),
       control_(loaded_.config, poses_, queues_),
-      telemetry_(queues_, loaded_.config.telemetry) {}
+      telemetry_(queues_, loaded_.config.telemetry),
+      settings_(loaded_, {[this](const Config& config) { check_against_camera(config, inputs_.camera); },
+                          [this](const Config& config) { apply(config); }}),
+      settings_loop_(settings_),
+      control_port_(control_, capture_) {
+  const std::string& socket = loaded_.config.operators.socket;
+  if (!socket.empty())
+    operators_ = std::make_unique<OperatorServer>(socket, control_port_, settings_, settings_loop_);
+}
 
 int Daemon::run() {
   log_configuration(loaded_, inputs_);
@@ -119,8 +140,11 @@ void Daemon::start() {
           std::strerror(error));
     }
   }
-  // Telemetry first, to record what the others report; control before capture, to connect to the robot early.
+  // Telemetry first, to record what the others report; operators before control, so that an emergency stop is
+  // served whenever the wheels can turn; control before capture, to connect to the robot early.
   telemetry_thread_ = start_thread(ThreadRole::Telemetry, [this] { telemetry_.run(); });
+  settings_thread_ = start_thread(ThreadRole::Settings, [this] { settings_loop_.run(); });
+  if (operators_) operator_thread_ = start_thread(ThreadRole::Operator, [this] { operators_->run(); });
   control_thread_ = start_thread(ThreadRole::Control, [this] { control_.run(); });
   vision_thread_ = start_thread(ThreadRole::Vision, [this] { vision_.run(); });
   capture_thread_ = start_thread(ThreadRole::Capture, [this] { capture_.run(); });
@@ -135,7 +159,8 @@ std::thread Daemon::start_thread(ThreadRole role, std::function<void()> loop) {
 void Daemon::serve_until_stopped() {
   while (!failed_ && !finished_and_stopped(monotonic_now_ns())) {
     const Signal signal = signals_.wait(kMainPeriod_ns);
-    if (signal == Signal::Reload) reload();
+    if (signal == Signal::Reload) start_reload();
+    end_reload();
     status_.update(control_, frames_.captured() > 0, monotonic_now_ns());
     if (signal == Signal::Stop) {
       spdlog::info("stop signal received");
@@ -144,14 +169,30 @@ void Daemon::serve_until_stopped() {
   }
 }
 
-void Daemon::reload() {
+void Daemon::start_reload() {
   status_.reload_started(monotonic_now_ns());
-  if (reload_configuration(loaded_, inputs_.camera, control_)) {
-    spdlog::info("reloaded {}", loaded_.file);
-  } else {
-    spdlog::error("reload refused: the old configuration stays in use");
-  }
+  ++reloads_started_;
+  if (settings_loop_.post({SettingsJobKind::Reload})) return;
+  spdlog::error("reload refused: too many changes of settings wait already");
+  --reloads_started_;
   status_.reload_ended();
+}
+
+/// The settings thread reloads, which may wait for the disk: this thread feeds the watchdog.
+void Daemon::end_reload() {
+  const std::uint64_t ended = settings_loop_.reloads();
+  if (ended == reloads_ended_) return;
+  reloads_ended_ = ended;
+  if (reloads_ended_ == reloads_started_) status_.reload_ended();
+}
+
+/// In the settings thread.
+void Daemon::apply(const Config& config) {
+  if (!control_.reconfigure(config, kReconfigureTimeout_ns)) {
+    throw Error(fmt::format("the control loop did not take the new configuration within {:.1f} s",
+                            seconds_from_ns(kReconfigureTimeout_ns)));
+  }
+  set_log_level(config.runtime.log_level);
 }
 
 /// True: a file camera has ended, and the robot has been brought to rest.
@@ -167,6 +208,13 @@ void Daemon::stop() {
   control_.stop();
   control_thread_.join();
   control_.shut_robot_down();  // in case its thread ended by an exception
+  settings_loop_.stop();
+  settings_thread_.join();
+  if (operators_) {
+    operators_->stop();
+    operator_thread_.join();
+    operators_.reset();
+  }
   capture_.stop();
   vision_.stop();
   capture_thread_.join();

@@ -43,8 +43,14 @@ class TemporaryFile {
     }
     return true;
   }
-  /// The permissions of an ordinary new file; mkstemp gives 0600.
-  bool set_usual_mode() const {
+  /// The permissions of the file that is replaced, or of an ordinary new file; mkstemp gives 0600.
+  bool set_mode(const std::string& final_path) const {
+    struct stat replaced {};
+    if (stat(final_path.c_str(), &replaced) == 0 && S_ISREG(replaced.st_mode)) {
+      // Its group as well, where this process may give it.
+      const bool group_kept = fchown(fd_, static_cast<uid_t>(-1), replaced.st_gid) == 0;
+      return fchmod(fd_, replaced.st_mode & (group_kept ? 0777u : 0707u)) == 0;
+    }
     const mode_t mask = umask(0);
     umask(mask);
     return fchmod(fd_, 0666 & ~mask) == 0;
@@ -76,7 +82,7 @@ void sync_folder_of(const std::string& path) {
 
 void write_file_atomically(const std::string& path, std::string_view bytes) {
   TemporaryFile temporary(path);
-  if (!temporary.write_all(bytes) || !temporary.set_usual_mode() || !temporary.sync() ||
+  if (!temporary.write_all(bytes) || !temporary.set_mode(path) || !temporary.sync() ||
       !temporary.rename_to(path)) {
     throw file_error(path, "cannot write");
   }

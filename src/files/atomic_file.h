@@ -6,8 +6,8 @@
 
 namespace heel {
 
-/// Writes `bytes` beside `path`, syncs, and renames over `path`. Throws heel::Error naming the file; then
-/// nothing has changed and no temporary file is left.
+/// Writes `bytes` beside `path`, syncs, and renames over `path`. Permissions and group of a file that was
+/// there stay. Throws heel::Error naming the file; then nothing has changed and no temporary file is left.
 void write_file_atomically(const std::string& path, std::string_view bytes);
 
 /// The whole of a regular file. Throws heel::Error naming the file, or when it is larger than `max_bytes`.

@@ -51,6 +51,8 @@ Schedule make_schedule(const Config& config) {
       {ThreadRole::Vision, "heel-vision", config.camera.rate_hz, rt.priority_vision, frame_ns},
       {ThreadRole::Control, "heel-control", config.control.rate_hz, rt.priority_control, tick_ns},
       {ThreadRole::Telemetry, "heel-telemetry", kTelemetryRate_Hz, 0, period_ns(kTelemetryRate_Hz)},
+      {ThreadRole::Operator, "heel-operator", 0.0, 0, 0},
+      {ThreadRole::Settings, "heel-settings", 0.0, 0, 0},
   }};
 }
 

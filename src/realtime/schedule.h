@@ -9,17 +9,17 @@
 
 namespace heel {
 
-enum class ThreadRole : std::uint8_t { Capture, Vision, Control, Telemetry };
+enum class ThreadRole : std::uint8_t { Capture, Vision, Control, Telemetry, Operator, Settings };
 
 struct ThreadPlan {
   ThreadRole role = ThreadRole::Telemetry;
   const char* name = "";   ///< as `ps -T` shows it; at most 15 characters
-  double rate_hz = 0.0;    ///< how often its loop body runs; capture and vision follow the camera
+  double rate_hz = 0.0;    ///< of its loop; capture and vision follow the camera; 0: when there is work
   int priority = 0;        ///< SCHED_FIFO priority, 1…99; 0: not a real-time thread
-  TimeNs deadline_ns = 0;  ///< the loop body must end within this time of its start
+  TimeNs deadline_ns = 0;  ///< the loop body must end within this time of its start; 0: none
 };
 
-using Schedule = std::array<ThreadPlan, 4>;
+using Schedule = std::array<ThreadPlan, 6>;
 
 /// The table with the configured rates and priorities.
 Schedule make_schedule(const Config& config);

@@ -37,6 +37,8 @@ TEST(Schedule, RowsFollowTheConfiguration) {
   EXPECT_EQ(plan_of(schedule, ThreadRole::Capture).priority, 52);
   EXPECT_EQ(plan_of(schedule, ThreadRole::Telemetry).priority, 0)
       << "telemetry writes to disk and formats text";
+  EXPECT_EQ(plan_of(schedule, ThreadRole::Operator).priority, 0) << "its load comes from outside";
+  EXPECT_EQ(plan_of(schedule, ThreadRole::Settings).priority, 0) << "it waits for the disk";
 }
 
 TEST(Schedule, NamesAreDistinctAndFitTheKernelsFifteenCharacters) {

@@ -51,6 +51,7 @@ std::string VideoScene::write_config(double gain_yaw_1_s, const std::string& cam
     text +=
         "[robot]\naddress = \"pty:robot\"\nsync_retry_s = 0.2\n"
         "[telemetry]\ndirectory = \"run\"\n"
+        "[operator]\nsocket = \"control.sock\"\n"
         "[runtime]\nrealtime = false\n";
   return test::write_text(file("heel.toml"), text);
 }

@@ -95,6 +95,7 @@ class SameAnswers : public ::testing::Test {
                      "[vision]\nmax_features = 700\nmatch_ratio = 0.75\nback_curvature_1_m = 0.2\n"
                      "[supervisor]\nstart = \"at_once\"\n"
                      "[robot]\naddress = \"pty:robot\"\nsync_retry_s = 0.2\n"
+                     "[operator]\nsocket = \"control.sock\"\n"
                      "[runtime]\nrealtime = false\n"
                      "[telemetry]\ndirectory = \"run\"\n");
   }

@@ -17,6 +17,7 @@
 #include "support/full_notify_socket.h"
 #include "support/process.h"
 #include "support/sanitized.h"
+#include "support/socket_client.h"
 #include "support/temporary_folder.h"
 #include "support/text.h"
 
@@ -250,9 +251,14 @@ TEST_F(Heeld, ReloadIsAllOrNothing) {
 TEST_F(Heeld, ReloadChangesTheLogLevel) {
   start_heeld(scene_.write_config());
   ASSERT_TRUE(notify_.receives("STATUS=waiting for the robot")) << daemon_->output();
-  scene_.write_config({.runtime = "log_level = \"error\"\n"});
+  scene_.write_config({.sections = "[gate]\nv_max_m_s = 0.125\n", .runtime = "log_level = \"error\"\n"});
   daemon_->signal(SIGHUP);
   ASSERT_TRUE(notify_.receives("RELOADING=1")) << daemon_->output();
+  // A reload is done by the settings thread: only its values show that it has ended.
+  test::SocketClient client(scene_.path("control.sock"));
+  ASSERT_TRUE(eventually([&] {
+    return client.ask("{\"do\":\"status\"}").find("\"gate.v_max_m_s\":0.125") != std::string::npos;
+  })) << daemon_->output();
   daemon_->signal(SIGTERM);
   EXPECT_EQ(daemon_->wait(), 0);
   EXPECT_THAT(daemon_->output(), HasSubstr("configuration: "));

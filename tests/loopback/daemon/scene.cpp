@@ -86,6 +86,7 @@ std::string Scene::write_config(const MoreConfig& more) const {
                         more.camera + "[supervisor]\nstart = \"" + more.start + "\"\n" + kTimeouts +
                         "[target]\nshirt = \"shirt.heel\"\n"
                         "[robot]\naddress = \"pty:robot\"\nsync_retry_s = 0.2\nreconnect_s = 0.2\n"
+                        "[operator]\nsocket = \"control.sock\"\n"
                         "[runtime]\nrealtime = false\n" +
                         more.runtime + more.sections);
 }

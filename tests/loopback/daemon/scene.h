@@ -21,9 +21,9 @@ class Scene {
   explicit Scene(int frames = 1000, double distance_m = 3.0);
 
   std::string path(const std::string& name) const { return folder_.file(name); }
-  /// Writes heel.toml and returns its path. The sections [camera], [supervisor], [target], [robot] and
-  /// [runtime] are in it: `more.camera` and `more.runtime` are lines of their sections, `more.sections` comes
-  /// at the end.
+  /// Writes heel.toml and returns its path. The sections [camera], [supervisor], [target], [robot],
+  /// [operator] and [runtime] are in it: `more.camera` and `more.runtime` are lines of their sections,
+  /// `more.sections` comes at the end.
   std::string write_config(const MoreConfig& more = {}) const;
 
  private:

@@ -1,0 +1,29 @@
+// The lines that the operator thread sends: docs/operator.md.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "operator/commands.h"
+#include "operator/request.h"
+#include "operator/settings_loop.h"
+#include "operator/status.h"
+
+namespace heel {
+
+/// {"v":1,"id":7,"ok":false,"error":"one line"}
+std::string error_line(std::optional<std::int64_t> id, const std::string& error);
+/// {"v":1,"id":7,"ok":true}
+std::string done_line(const Request& request);
+/// The table of requests.
+std::string help_line(const Request& request);
+/// The whole status; a line of a watch has "event":"status".
+std::string status_line(const Request& request, const StatusInput& input, const SettingsView& settings,
+                        bool watched);
+/// What became of start, stop, estop or reset, and the state after it.
+std::string command_line(const Request& request, const CommandResult& result, const StatusInput& input);
+/// What set or save has changed.
+std::string settings_line(const Request& request, const SettingsAnswer& answer);
+
+}  // namespace heel

@@ -1,0 +1,20 @@
+// What the operator thread needs of the daemon. None of it waits.
+#pragma once
+
+#include "heel/flow.h"
+
+namespace heel {
+
+class OperatorPort {
+ public:
+  virtual ~OperatorPort() = default;
+  /// Hands the newest request to the control loop; an emergency stop is never replaced by a later request.
+  virtual void request(const OperatorRequest& request) = 0;
+  /// A sign that the operator is there.
+  virtual void alive(TimeNs t_ns) = 0;
+  /// True and the newest tick, when there is one not taken before.
+  virtual bool take_tick(TickRecord& out) = 0;
+  virtual CaptureCounters camera() = 0;
+};
+
+}  // namespace heel

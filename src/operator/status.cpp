@@ -1,0 +1,160 @@
+#include "operator/status.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "config/config_table.h"
+#include "config/config_value.h"
+
+namespace heel {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+/// Four decimals are enough for people and plots; what is not finite is null.
+json number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::round(value * 1e4) / 1e4;
+}
+
+json seconds_since(TimeNs t_ns, TimeNs now_ns) {
+  return t_ns == 0 ? json(nullptr) : number(seconds_from_ns(now_ns - t_ns));
+}
+
+json robot_json(const RobotState& robot, TimeNs now_ns) {
+  json out = {{"link", to_string(robot.phase)}};
+  out["packet_age_s"] = robot.has_sip ? seconds_since(robot.odometry.t_ns, now_ns) : json(nullptr);
+  out["motors"] = robot.motors_enabled;
+  out["stop_button"] = robot.stop_button;
+  out["bumpers"] = robot.bumpers_front != 0 || robot.bumpers_rear != 0;
+  out["stall"] = robot.stall_left || robot.stall_right || robot.e_stall;
+  out["battery_v"] = number(robot.battery_v);
+  out["x_m"] = number(robot.odometry.x_m);
+  out["y_m"] = number(robot.odometry.y_m);
+  out["heading_rad"] = number(robot.odometry.heading_rad);
+  out["v_m_s"] = number(robot.odometry.v_m_s);
+  out["yaw_rate_rad_s"] = number(robot.odometry.yaw_rate_rad_s);
+  out["reconnects"] = robot.reconnects;
+  return out;
+}
+
+json camera_json(const StatusInput& input) {
+  const ControlInput& tick = input.tick.input;
+  json out = {{"frames", input.camera.captured}};
+  out["frame_age_s"] = tick.has_pose ? seconds_since(tick.pose.t_capture_ns, input.now_ns) : json(nullptr);
+  out["dropped"] = input.camera.dropped_by_driver + input.camera.dropped_unread;
+  out["reopened"] = input.camera.reopened;
+  return out;
+}
+
+json target_json(const TickRecord& tick) {
+  const PoseEstimate& pose = tick.input.pose;
+  const TargetState& target = tick.target;
+  json out = {{"found", tick.input.has_pose && pose.found()}};
+  out["reason"] = tick.input.has_pose ? json(to_string(pose.reason)) : json(nullptr);
+  out["certainty"] = number(pose.certainty);
+  out["template"] = pose.template_index;
+  out["known"] = target.known;
+  if (!target.known) return out;
+  out["distance_m"] = number(tick.person_m);
+  out["x_m"] = number(target.x_m);
+  out["y_m"] = number(target.y_m);
+  out["yaw_rad"] = number(target.yaw_rad);
+  out["travel_yaw_rad"] = number(target.travel_yaw_rad);
+  return out;
+}
+
+json command_json(const TickRecord& tick) {
+  return {{"v_m_s", number(tick.command.v_m_s)},
+          {"yaw_rate_rad_s", number(tick.command.yaw_rate_rad_s)},
+          {"hold", to_string(tick.hold)},
+          {"free_distance_m", number(tick.free_distance_m)}};
+}
+
+/// The limits in force: every number of the table that has a safer direction.
+json limits_json(const Config& config) {
+  json out = json::object();
+  for (const ConfigKey& key : config_keys()) {
+    if (key.tighter == Tighter::None) continue;
+    const std::string_view type = type_name(key);
+    out[key.full_name()] =
+        type == "bool" ? json(number_value(key, config) != 0.0) : number(number_value(key, config));
+  }
+  return out;
+}
+
+/// What the state means where no condition or hold says more.
+const char* meaning(SupervisorState state) {
+  switch (state) {
+    case SupervisorState::Idle:
+      return "At rest: it waits for a start";
+    case SupervisorState::Armed:
+      return "At rest: started, it waits for the person to follow";
+    case SupervisorState::Following:
+      return "Following the person";
+    case SupervisorState::Searching:
+      return "The person is lost: it drives on to where they were seen last";
+    case SupervisorState::Waiting:
+      return "At rest: it goes on by itself when the person is seen";
+    case SupervisorState::Stopped:
+      return "Stopped by a fault: it needs a start";
+    case SupervisorState::Emergency:
+      return "Emergency stop: it needs a reset, then a start";
+  }
+  return "?";
+}
+
+}  // namespace
+
+std::string sentence_of(const StatusInput& input) {
+  if (!input.any_tick) return "The control loop has not run yet.";
+  constexpr TimeNs kLate_ns = 500 * kNsPerMs;
+  const TickRecord& tick = input.tick;
+  if (input.now_ns - tick.input.now_ns > kLate_ns) {
+    return fmt::format("The control loop has not run for {:.1f} s.",
+                       seconds_from_ns(input.now_ns - tick.input.now_ns));
+  }
+  if (tick.state == SupervisorState::Following && tick.hold != Hold::None)
+    return fmt::format("Held at rest while following: {}.", to_string(tick.hold));
+  const bool has_reason = tick.stop_reason != StopReason::None &&
+                          tick.stop_reason != StopReason::NotStarted &&
+                          tick.stop_reason != StopReason::EmergencyStop;
+  return fmt::format("{}{}.", meaning(tick.state),
+                     has_reason ? fmt::format(" ({})", to_string(tick.stop_reason)) : "");
+}
+
+json state_json(const StatusInput& input) {
+  return {{"state", to_string(input.tick.state)}, {"sentence", sentence_of(input)}};
+}
+
+json status_json(const StatusInput& input, const SettingsView& settings) {
+  const TickRecord& tick = input.tick;
+  json out = state_json(input);
+  out["reason"] = to_string(tick.stop_reason);
+  out["cause"] = to_string(tick.cause);
+  out["in_state_s"] = seconds_since(tick.t_transition_ns, input.now_ns);
+  out["tick"] = tick.tick;
+  out["tick_age_s"] = input.any_tick ? seconds_since(tick.input.now_ns, input.now_ns) : json(nullptr);
+  out["robot"] = robot_json(tick.input.robot, input.now_ns);
+  out["camera"] = camera_json(input);
+  out["target"] = target_json(tick);
+  out["command"] = command_json(tick);
+  out["limits"] = limits_json(settings.in_use);
+  out["set"] = changes_json(changes_between(settings.file, settings.in_use));
+  return out;
+}
+
+bool differs_to_a_watcher(const TickRecord& a, const TickRecord& b) {
+  return a.state != b.state || a.stop_reason != b.stop_reason || a.hold != b.hold || a.cause != b.cause ||
+         a.input.robot.phase != b.input.robot.phase;
+}
+
+json changes_json(const std::vector<ConfigChange>& changes) {
+  json out = json::array();
+  for (const ConfigChange& change : changes)
+    out.push_back({{"key", change.key}, {"before", change.before}, {"after", change.after}});
+  return out;
+}
+
+}  // namespace heel

@@ -1,0 +1,374 @@
+// The operator thread on a real socket, with a control loop that the test plays: what clients may do, and
+// what they cannot do to each other.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "operator/operator_server.h"
+#include "realtime/clock.h"
+#include "support/complaint.h"
+#include "support/process.h"
+#include "support/socket_client.h"
+#include "support/temporary_folder.h"
+
+namespace heel {
+namespace {
+
+using nlohmann::json;
+using test::eventually;
+using test::SocketClient;
+using ::testing::HasSubstr;
+
+/// A control loop that does what it is asked at once: in the tick after the request.
+class PlayedLoop final : public OperatorPort {
+ public:
+  void request(const OperatorRequest& request) override {
+    const std::lock_guard lock(mutex_);
+    requests_.push_back(request.command);
+    if (deaf_) return;
+    tick_.request_number = request.number;
+    tick_.outcome = OperatorOutcome::Done;
+    switch (request.command) {
+      case OperatorCommand::Start:
+        if (tick_.state == SupervisorState::Emergency) {
+          tick_.outcome = OperatorOutcome::Refused;
+          tick_.refused_by = StopReason::EmergencyStop;
+        } else {
+          tick_.state = SupervisorState::Armed;
+        }
+        break;
+      case OperatorCommand::EStop:
+        tick_.state = SupervisorState::Emergency;
+        break;
+      default:
+        tick_.state = SupervisorState::Idle;
+        break;
+    }
+  }
+  void alive(TimeNs) override {}
+  bool take_tick(TickRecord& out) override {
+    const std::lock_guard lock(mutex_);
+    tick_.input.now_ns = monotonic_now_ns();
+    ++tick_.tick;
+    out = tick_;
+    return true;
+  }
+  CaptureCounters camera() override { return {.captured = 42}; }
+
+  void be_deaf() {
+    const std::lock_guard lock(mutex_);
+    deaf_ = true;
+  }
+  std::vector<OperatorCommand> requests() {
+    const std::lock_guard lock(mutex_);
+    return requests_;
+  }
+
+ private:
+  std::mutex mutex_;
+  TickRecord tick_;
+  std::vector<OperatorCommand> requests_;
+  bool deaf_ = false;
+};
+
+class Server : public ::testing::Test {
+ protected:
+  Server()
+      : settings_(parse_config("[gate]\nv_max_m_s = 0.5\n", folder_.file("heel.toml")),
+                  {[](const Config&) {},
+                   [this](const Config&) {
+                     while (held_.load()) sleep_until_ns(monotonic_now_ns() + kNsPerMs);
+                   }}),
+        settings_loop_(settings_),
+        server_(path_, loop_, settings_, settings_loop_),
+        thread_([this] { server_.run(); }),
+        settings_thread_([this] { settings_loop_.run(); }) {
+    test::write_text(folder_.file("heel.toml"), "[gate]\nv_max_m_s = 0.5\n");
+  }
+  ~Server() override {
+    held_ = false;
+    settings_loop_.stop();
+    server_.stop();
+    settings_thread_.join();
+    thread_.join();
+  }
+
+  const test::TemporaryFolder folder_;
+  const std::string path_ = folder_.file("control.sock");
+  PlayedLoop loop_;
+  std::atomic<bool> held_{false};  ///< the settings thread waits in `apply`
+  Settings settings_;
+  SettingsLoop settings_loop_;
+  OperatorServer server_;
+  std::thread thread_, settings_thread_;
+};
+
+json ask(SocketClient& client, const std::string& request) {
+  const std::string answer = client.ask(request);
+  EXPECT_NE(answer, "") << "no answer to " << request;
+  return json::parse(answer, nullptr, false);
+}
+json next(SocketClient& client) {
+  return json::parse(client.line(), nullptr, false);
+}
+
+TEST_F(Server, TheSocketIsForTheUserAndTheGroup) {
+  struct stat status {};
+  ASSERT_EQ(stat(path_.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777u, 0660u);
+}
+
+TEST_F(Server, AnswersWithWhatBecameTrue) {
+  SocketClient client(path_);
+  json answer = ask(client, R"({"v":1,"id":7,"do":"start"})");
+  EXPECT_EQ(answer["v"], 1);
+  EXPECT_EQ(answer["id"], 7);
+  EXPECT_EQ(answer["ok"], true);
+  EXPECT_EQ(answer["state"], "armed");
+  EXPECT_EQ(answer["outcome"], "done");
+  EXPECT_NE(answer["sentence"], "");
+  EXPECT_EQ(ask(client, R"({"do":"estop"})")["state"], "emergency");
+  answer = ask(client, R"({"id":8,"do":"start"})");
+  EXPECT_EQ(answer["ok"], false);
+  EXPECT_EQ(answer["error"], "refused: emergency stop");
+  EXPECT_EQ(answer["state"], "emergency");
+  EXPECT_EQ(ask(client, R"({"do":"reset"})")["state"], "idle");
+  EXPECT_EQ(ask(client, R"({"do":"stop"})")["state"], "idle");
+}
+
+TEST_F(Server, TheStatusHoldsRobotCameraTargetAndLimits) {
+  SocketClient client(path_);
+  ask(client, R"({"do":"set","values":{"gate.v_max_m_s":0.25}})");
+  const json status = ask(client, R"({"id":1,"do":"status"})");
+  for (const char* field :
+       {"state", "sentence", "reason", "robot", "camera", "target", "command", "limits", "set"})
+    EXPECT_TRUE(status.contains(field)) << field;
+  EXPECT_EQ(status["camera"]["frames"], 42);
+  EXPECT_EQ(status["limits"]["gate.v_max_m_s"], 0.25);
+  ASSERT_EQ(status["set"].size(), 1u);
+  EXPECT_EQ(status["set"][0]["before"], "0.5");
+  EXPECT_EQ(status["set"][0]["after"], "0.25");
+}
+
+TEST_F(Server, SetAndSaveAnswerWithTheDifference) {
+  SocketClient client(path_);
+  json answer = ask(client, R"({"do":"set","values":{"gate.v_max_m_s":0.25,"control.reverse":false}})");
+  EXPECT_EQ(answer["changes"], json::parse(R"([{"key":"gate.v_max_m_s","before":"0.5","after":"0.25"}])"));
+  answer = ask(client, R"({"do":"set","values":{"gate.v_max_m_s":0.6,"gate.speed":1}})");
+  EXPECT_EQ(answer["ok"], false);
+  EXPECT_THAT(answer["error"].get<std::string>(), HasSubstr("gate.speed: no such key"));
+  answer = ask(client, R"({"do":"save"})");
+  EXPECT_EQ(answer["changes"].size(), 1u);
+  EXPECT_EQ(test::read_text(folder_.file("heel.toml")), "[gate]\nv_max_m_s = 0.25\n");
+  EXPECT_EQ(ask(client, R"({"do":"save"})")["changes"].size(), 0u);
+}
+
+TEST_F(Server, HelpAndAlive) {
+  SocketClient client(path_);
+  EXPECT_EQ(ask(client, R"({"do":"help"})")["requests"].size(), request_table().size());
+  EXPECT_EQ(ask(client, R"({"id":3,"do":"alive"})"), json::parse(R"({"v":1,"id":3,"ok":true})"));
+}
+
+TEST_F(Server, ALineThatIsWrongGetsAnErrorAndTheNextOneIsServed) {
+  SocketClient client(path_);
+  for (const std::string& wrong : {std::string("hello"), std::string("{}"), std::string("{\"do\":\"\xff\"}"),
+                                   std::string("\0\x01", 2), std::string(100000, 'x')}) {
+    const json answer = ask(client, wrong);
+    EXPECT_EQ(answer["ok"], false);
+    EXPECT_EQ(answer["error"].get<std::string>().find('\n'), std::string::npos);
+  }
+  EXPECT_EQ(ask(client, R"({"do":"stop"})")["ok"], true);
+}
+
+TEST_F(Server, EverySplitPointOfARequestGivesTheSameAnswer) {
+  const std::string request = "{\"id\":5,\"do\":\"stop\"}\r\n";
+  for (std::size_t cut = 1; cut < request.size(); ++cut) {
+    SocketClient client(path_);
+    client.send(request.substr(0, cut));
+    std::this_thread::yield();
+    client.send(request.substr(cut));
+    const json answer = next(client);
+    ASSERT_EQ(answer["id"], 5) << cut;
+    ASSERT_EQ(answer["state"], "idle") << cut;
+  }
+}
+
+TEST_F(Server, AClientThatClosesWithinALineHasAskedForNothing) {
+  {
+    SocketClient client(path_);
+    client.send("{\"do\":\"start\"}");
+  }
+  {
+    SocketClient client(path_);
+    client.send("{\"do\":\"start\"}");
+    client.end_output();
+    EXPECT_THAT(client.line(), HasSubstr("the last line has no end"));
+    EXPECT_TRUE(client.closed());
+  }
+  SocketClient client(path_);
+  EXPECT_EQ(ask(client, R"({"do":"status"})")["state"], "idle");
+  EXPECT_THAT(loop_.requests(), testing::IsEmpty());
+}
+
+TEST_F(Server, ARequestIsAnsweredAfterTheEndOfTheInput) {
+  SocketClient client(path_);
+  client.send("{\"id\":1,\"do\":\"start\"}\n{\"id\":2,\"do\":\"stop\"}\n");
+  client.end_output();
+  EXPECT_EQ(next(client)["id"], 1);
+  EXPECT_EQ(next(client)["id"], 2);
+  EXPECT_TRUE(client.closed());
+}
+
+TEST_F(Server, AnEmergencyStopIsServedBeforeTheRequestsThatCameWithIt) {
+  SocketClient client(path_);
+  client.send("{\"id\":1,\"do\":\"start\"}\n{\"id\":2,\"do\":\"reset\"}\n{\"id\":3,\"do\":\"estop\"}\n");
+  bool stopped = false;
+  for (int i = 0; i < 3; ++i) {
+    const json answer = next(client);
+    if (answer["id"] == 3) stopped = answer["ok"] == true && answer["state"] == "emergency";
+  }
+  EXPECT_TRUE(stopped);
+  EXPECT_EQ(loop_.requests().front(), OperatorCommand::EStop);
+}
+
+TEST_F(Server, TwoEmergencyStopsAreServedWhileASettingsJobHangs) {
+  held_ = true;
+  SocketClient setter(path_);
+  setter.send("{\"id\":1,\"do\":\"set\",\"values\":{\"gate.v_max_m_s\":0.1}}\n{\"id\":2,\"do\":\"save\"}\n");
+  SocketClient one(path_), two(path_);
+  EXPECT_EQ(ask(one, R"({"do":"estop"})")["state"], "emergency");
+  EXPECT_EQ(ask(two, R"({"do":"estop"})")["state"], "emergency");
+  EXPECT_EQ(setter.line(0.05), "") << "the job hangs";
+  setter.send("{\"id\":3,\"do\":\"estop\"}\n");
+  EXPECT_EQ(next(setter)["id"], 3) << "the same client, too";
+  held_ = false;
+  EXPECT_EQ(next(setter)["id"], 1);
+  EXPECT_EQ(next(setter)["id"], 2);
+}
+
+TEST_F(Server, SettingsJobsThatWaitAreBounded) {
+  held_ = true;
+  SocketClient client(path_);
+  const int many = static_cast<int>(SettingsLoop::kMaxWaiting) + 3;
+  for (int i = 0; i < many; ++i)
+    client.send("{\"id\":" + std::to_string(i) + ",\"do\":\"set\",\"values\":{\"gate.v_max_m_s\":0." +
+                std::to_string(i + 10) + "}}\n");
+  EXPECT_THAT(client.line(), HasSubstr("changes of settings wait already"));
+  held_ = false;
+}
+
+TEST_F(Server, FiftyClientsThatHangDoNotKeepOutAnEmergencyStop) {
+  std::vector<std::unique_ptr<SocketClient>> hanging;
+  for (int i = 0; i < 50; ++i) {
+    hanging.push_back(std::make_unique<SocketClient>(path_));
+    hanging.back()->send("{\"do\":");
+  }
+  SocketClient client(path_);
+  EXPECT_EQ(ask(client, R"({"do":"estop"})")["state"], "emergency");
+  int closed = 0;
+  for (const auto& one : hanging) closed += one->closed(0.0) || one->closed(0.01);
+  EXPECT_GE(closed, 50 - static_cast<int>(OperatorServer::kMaxClients));
+}
+
+TEST_F(Server, AWatcherIsToldOfAChangeAtOnceAndOtherwiseOncePerPeriod) {
+  SocketClient watcher(path_), client(path_);
+  watcher.send("{\"id\":4,\"do\":\"watch\",\"period_s\":60}\n");
+  json line = next(watcher);
+  EXPECT_EQ(line["id"], 4);
+  EXPECT_EQ(line["event"], "status");
+  EXPECT_EQ(line["state"], "idle");
+  ask(client, R"({"do":"start"})");
+  EXPECT_EQ(next(watcher)["state"], "armed");
+  ask(client, R"({"do":"set","values":{"gate.v_max_m_s":0.25}})");
+  EXPECT_EQ(next(watcher)["set"].size(), 1u);
+  watcher.send("{\"id\":5,\"do\":\"watch\",\"period_s\":0.1}\n");
+  while (line["id"] != 5) line = next(watcher);
+  const std::uint64_t tick = line["tick"];
+  EXPECT_GT(next(watcher)["tick"], tick) << "nothing has changed";
+}
+
+TEST_F(Server, WatchersAreBounded) {
+  std::vector<std::unique_ptr<SocketClient>> watchers;
+  for (std::size_t i = 0; i < OperatorServer::kMaxWatchers; ++i) {
+    watchers.push_back(std::make_unique<SocketClient>(path_));
+    EXPECT_EQ(ask(*watchers.back(), R"({"do":"watch"})")["event"], "status");
+  }
+  SocketClient client(path_);
+  EXPECT_EQ(ask(client, R"({"do":"watch"})")["error"], "8 clients watch already");
+}
+
+TEST_F(Server, AClientThatDoesNotReadIsDroppedAndTheOthersAreServed) {
+  SocketClient slow(path_), client(path_);
+  // Help is the longest answer for a short request; a second's requests fill the socket and the bound.
+  bool dropped = false;
+  for (int i = 0; i < 10000 && !dropped; ++i) {
+    dropped = !slow.send("{\"do\":\"status\"}\n");
+    if (i % 50 == 0) {
+      ASSERT_EQ(ask(client, R"({"do":"alive"})")["ok"], true);
+      test::sleep_s(0.6);  // less than the bound on requests a second
+    }
+  }
+  EXPECT_TRUE(dropped);
+}
+
+TEST_F(Server, AClientThatFloodsIsClosedAndItsEmergencyStopIsServed) {
+  SocketClient client(path_);
+  std::string flood;
+  for (int i = 0; i < 130; ++i) flood += "{\"do\":\"alive\"}\n";
+  client.send(flood + "{\"id\":99,\"do\":\"estop\"}\n");
+  bool closed_for_it = false, stopped = false;
+  for (std::string line = client.line(); !line.empty(); line = client.line()) {
+    closed_for_it |= line.find("too many requests (expected at most 100 a second)") != std::string::npos;
+    const json answer = json::parse(line);
+    stopped |= answer.value("id", 0) == 99 && answer["state"] == "emergency";
+  }
+  EXPECT_TRUE(closed_for_it);
+  EXPECT_TRUE(stopped);
+  EXPECT_TRUE(client.closed());
+}
+
+TEST_F(Server, AControlLoopThatDoesNotAnswerIsNamed) {
+  loop_.be_deaf();
+  SocketClient client(path_);
+  EXPECT_THAT(ask(client, R"({"do":"start"})")["error"].get<std::string>(),
+              HasSubstr("the control loop did not answer"));
+}
+
+TEST(OperatorSocket, AStaleSocketIsReplacedAndALiveOneIsNot) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("control.sock");
+  {
+    const LocalSocket live(path);
+    EXPECT_THAT(test::complaint_of([&] { LocalSocket second(path); }),
+                HasSubstr("operator.socket: " + path + ": another process serves it"));
+    EXPECT_TRUE(std::filesystem::exists(path)) << "the refused one must not remove it";
+    std::filesystem::rename(path, folder.file("stale.sock"));
+  }
+  // The first socket could not remove its file under the new name: nobody serves it any more.
+  ASSERT_TRUE(std::filesystem::exists(folder.file("stale.sock")));
+  std::filesystem::rename(folder.file("stale.sock"), path);
+  {
+    const LocalSocket next(path);
+    const SocketClient client(path);
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(OperatorSocket, WhatIsNoSocketIsNotRemoved) {
+  const test::TemporaryFolder folder;
+  const std::string path = test::write_text(folder.file("control.sock"), "mine");
+  EXPECT_THAT(test::complaint_of([&] { LocalSocket socket(path); }), HasSubstr("exists and is no socket"));
+  EXPECT_EQ(test::read_text(path), "mine");
+  EXPECT_THAT(test::complaint_of([&] { LocalSocket socket(folder.file("no/control.sock")); }),
+              HasSubstr("cannot be made: No such file or directory (expected a folder that exists"));
+  EXPECT_THAT(test::complaint_of([&] { LocalSocket socket(folder.file(std::string(200, 'x'))); }),
+              HasSubstr("(expected at most 107)"));
+}
+
+}  // namespace
+}  // namespace heel
