@@ -5,11 +5,11 @@
 #include <sys/stat.h>
 
 #include <filesystem>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "operator/operator_server.h"
+#include "operator/played_loop.h"
 #include "realtime/clock.h"
 #include "support/complaint.h"
 #include "support/process.h"
@@ -20,61 +20,9 @@ namespace heel {
 namespace {
 
 using nlohmann::json;
-using test::eventually;
+using test::PlayedLoop;
 using test::SocketClient;
 using ::testing::HasSubstr;
-
-/// A control loop that does what it is asked at once: in the tick after the request.
-class PlayedLoop final : public OperatorPort {
- public:
-  void request(const OperatorRequest& request) override {
-    const std::lock_guard lock(mutex_);
-    requests_.push_back(request.command);
-    if (deaf_) return;
-    tick_.request_number = request.number;
-    tick_.outcome = OperatorOutcome::Done;
-    switch (request.command) {
-      case OperatorCommand::Start:
-        if (tick_.state == SupervisorState::Emergency) {
-          tick_.outcome = OperatorOutcome::Refused;
-          tick_.refused_by = StopReason::EmergencyStop;
-        } else {
-          tick_.state = SupervisorState::Armed;
-        }
-        break;
-      case OperatorCommand::EStop:
-        tick_.state = SupervisorState::Emergency;
-        break;
-      default:
-        tick_.state = SupervisorState::Idle;
-        break;
-    }
-  }
-  void alive(TimeNs) override {}
-  bool take_tick(TickRecord& out) override {
-    const std::lock_guard lock(mutex_);
-    tick_.input.now_ns = monotonic_now_ns();
-    ++tick_.tick;
-    out = tick_;
-    return true;
-  }
-  CaptureCounters camera() override { return {.captured = 42}; }
-
-  void be_deaf() {
-    const std::lock_guard lock(mutex_);
-    deaf_ = true;
-  }
-  std::vector<OperatorCommand> requests() {
-    const std::lock_guard lock(mutex_);
-    return requests_;
-  }
-
- private:
-  std::mutex mutex_;
-  TickRecord tick_;
-  std::vector<OperatorCommand> requests_;
-  bool deaf_ = false;
-};
 
 class Server : public ::testing::Test {
  protected:

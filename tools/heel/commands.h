@@ -6,6 +6,7 @@
 //   throws heel::Error          bad usage or input: one line "heel NAME: …" on stderr, exit status 2
 //   throws CLI::RuntimeError(1) it worked and the answer is no (template refused, limit not met);
 //                               the command has printed the reason
+//   throws CLI::RuntimeError(69) heeld cannot be reached (EX_UNAVAILABLE of sysexits(3)); the same
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,6 +18,7 @@ namespace heel::cli {
 
 inline constexpr int kExitNo = 1;
 inline constexpr int kExitBadInput = 2;
+inline constexpr int kExitUnreachable = 69;
 
 /// Adds the options --max-out-of-view-s, --max-rms-m and --min-path-m. A run that does not meet them ends
 /// with exit status 1.
@@ -39,5 +41,13 @@ void add_experiment_command(CLI::App& app);
 void add_fit_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_bench_vision_command(CLI::App& bench);
+void add_status_command(CLI::App& app);
+void add_start_command(CLI::App& app);
+void add_stop_command(CLI::App& app);
+void add_estop_command(CLI::App& app);
+void add_reset_command(CLI::App& app);
+void add_set_command(CLI::App& app);
+void add_save_command(CLI::App& app);
+void add_watch_command(CLI::App& app);
 
 }  // namespace heel::cli

@@ -25,6 +25,14 @@ void add_commands(CLI::App& app) {
   add_fit_command(app);
   add_report_command(app);
   add_bench_command(app);
+  add_status_command(app);
+  add_start_command(app);
+  add_stop_command(app);
+  add_estop_command(app);
+  add_reset_command(app);
+  add_set_command(app);
+  add_save_command(app);
+  add_watch_command(app);
 }
 
 /// Refuses the empty value that an unset variable of a shell gives, of every option and argument.
@@ -106,7 +114,9 @@ int run_command(CLI::App& app, int argc, char** argv) {
 int run(int argc, char** argv) {
   CLI::App app{
       "heel: a Pioneer P3-AT follows one person by the back of the person's shirt.\n"
-      "Exit status: 0 done; 1 the answer is no (not found, template refused); 2 bad usage or input."};
+      "Exit status: 0 done; 1 the answer is no (not found, template refused, command refused); 2 bad usage "
+      "or\n"
+      "input; 69 heeld cannot be reached."};
   app.name("heel");
   app.set_version_flag("--version", "heel " HEEL_VERSION);
   app.require_subcommand(1);

@@ -1,0 +1,72 @@
+// A control loop that a test plays, for the operator thread.
+#pragma once
+
+#include <mutex>
+#include <vector>
+
+#include "operator/operator_port.h"
+#include "realtime/clock.h"
+
+namespace heel::test {
+
+/// A control loop that does what it is asked at once: in the tick after the request.
+class PlayedLoop final : public OperatorPort {
+ public:
+  void request(const OperatorRequest& request) override {
+    const std::lock_guard lock(mutex_);
+    requests_.push_back(request.command);
+    if (deaf_) return;
+    tick_.request_number = request.number;
+    tick_.outcome = OperatorOutcome::Done;
+    switch (request.command) {
+      case OperatorCommand::Start:
+        if (tick_.state == SupervisorState::Emergency) {
+          tick_.outcome = OperatorOutcome::Refused;
+          tick_.refused_by = StopReason::EmergencyStop;
+        } else {
+          tick_.state = SupervisorState::Armed;
+        }
+        break;
+      case OperatorCommand::EStop:
+        tick_.state = SupervisorState::Emergency;
+        break;
+      default:
+        tick_.state = SupervisorState::Idle;
+        break;
+    }
+  }
+  void alive(TimeNs) override {
+    const std::lock_guard lock(mutex_);
+    ++signs_of_life_;
+  }
+  bool take_tick(TickRecord& out) override {
+    const std::lock_guard lock(mutex_);
+    tick_.input.now_ns = monotonic_now_ns();
+    ++tick_.tick;
+    out = tick_;
+    return true;
+  }
+  CaptureCounters camera() override { return {.captured = 42}; }
+
+  void be_deaf() {
+    const std::lock_guard lock(mutex_);
+    deaf_ = true;
+  }
+  int signs_of_life() {
+    const std::lock_guard lock(mutex_);
+    return signs_of_life_;
+  }
+  std::vector<OperatorCommand> requests() {
+    const std::lock_guard lock(mutex_);
+    return requests_;
+  }
+
+ private:
+  std::mutex mutex_;
+  TickRecord tick_;
+  std::vector<OperatorCommand> requests_;
+  int signs_of_life_ = 0;
+  bool deaf_ = false;
+};
+
+}  // namespace heel::test

@@ -1,0 +1,161 @@
+// heel status, start, stop, estop, reset, set, save, watch: with an operator thread whose control loop the
+// test plays, and without heeld.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "operator/operator_server.h"
+#include "operator/played_loop.h"
+#include "tools/heel/refusals.h"
+#include "tools/heel/run_heel.h"
+
+namespace heel {
+namespace {
+
+using test::Outcome;
+using test::run_heel;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class HeelOperator : public ::testing::Test {
+ protected:
+  HeelOperator()
+      : settings_(load_config(test::write_text(config_, "# mine\n[gate]\nv_max_m_s = 0.5 # slow\n")),
+                  {[](const Config&) {}, [](const Config&) {}}),
+        settings_loop_(settings_),
+        server_(socket_, loop_, settings_, settings_loop_),
+        thread_([this] { server_.run(); }),
+        settings_thread_([this] { settings_loop_.run(); }) {}
+  ~HeelOperator() override {
+    settings_loop_.stop();
+    settings_thread_.join();
+    server_.stop();
+    thread_.join();
+  }
+
+  Outcome heel(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), {"--socket", socket_});
+    return run_heel(arguments);
+  }
+
+  const test::TemporaryFolder folder_;
+  const std::string socket_ = folder_.file("control.sock"), config_ = folder_.file("heel.toml");
+  test::PlayedLoop loop_;
+  Settings settings_;
+  SettingsLoop settings_loop_;
+  OperatorServer server_;
+  std::thread thread_, settings_thread_;
+};
+
+TEST_F(HeelOperator, CommandsPrintTheStateTheyLeadTo) {
+  EXPECT_THAT(heel({"start"}).out, StartsWith("ARMED: "));
+  EXPECT_THAT(heel({"stop"}).out, StartsWith("IDLE: "));
+  const Outcome estop = heel({"estop"});
+  EXPECT_EQ(estop.status, 0);
+  EXPECT_THAT(estop.out, StartsWith("EMERGENCY: "));
+  const Outcome refused = heel({"start"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_THAT(refused.err,
+              AllOf(StartsWith("heel start: refused: emergency stop\n"), HasSubstr("EMERGENCY: ")));
+  EXPECT_THAT(heel({"reset"}).out, StartsWith("IDLE: "));
+}
+
+TEST_F(HeelOperator, TheStatusIsForPeopleOrForPrograms) {
+  const Outcome people = heel({"status"});
+  EXPECT_EQ(people.status, 0);
+  EXPECT_THAT(people.out, StartsWith("IDLE\n"));
+  for (const char* part : {"\nrobot ", "\ncamera ", "\nperson ", "\nlimits ", "speed 0.50 m/s", "battery"})
+    EXPECT_THAT(people.out, HasSubstr(part));
+  const nlohmann::json status = nlohmann::json::parse(heel({"status", "--json"}).out);
+  EXPECT_EQ(status["state"], "idle");
+  EXPECT_EQ(status["limits"]["gate.v_max_m_s"], 0.5);
+}
+
+TEST_F(HeelOperator, SetAndSaveShowTheDifference) {
+  const Outcome set = heel({"set", "gate.v_max_m_s=0.25", "runtime.log_level=warn", "control.reverse=false"});
+  EXPECT_EQ(set.status, 0) << set.err;
+  EXPECT_THAT(set.out, StartsWith("gate.v_max_m_s: 0.5 -> 0.25\nruntime.log_level: \"info\" -> \"warn\"\n"));
+  EXPECT_THAT(heel({"status"}).out, HasSubstr("gate.v_max_m_s = 0.25 (in the file 0.5; not saved)"));
+  const Outcome saved = heel({"save"});
+  EXPECT_EQ(saved.out, "gate.v_max_m_s: 0.5 -> 0.25\nruntime.log_level: \"info\" -> \"warn\"\n");
+  EXPECT_EQ(test::read_text(config_),
+            "# mine\n[gate]\nv_max_m_s = 0.25 # slow\n\n[runtime]\nlog_level = \"warn\"\n");
+  EXPECT_EQ(heel({"save"}).out, "nothing to save: no value was set\n");
+
+  const Outcome refused = heel({"set", "gate.v_max_m_s=fast"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.err, "heel set: gate.v_max_m_s: 'fast' (expected a number 0…1.2 m/s)\n");
+}
+
+TEST_F(HeelOperator, WatchPrintsALineAtEachChange) {
+  const test::Process watch({HEEL_PROGRAM, "watch", "--socket", socket_, "--period", "60", "--alive"});
+  const auto says = [&](const char* text) {
+    return test::eventually([&] { return watch.output().find(text) != std::string::npos; });
+  };
+  ASSERT_TRUE(says("IDLE: ")) << watch.output();
+  EXPECT_EQ(heel({"start"}).status, 0);
+  EXPECT_TRUE(says("ARMED: ")) << watch.output();
+  EXPECT_TRUE(test::eventually([&] { return loop_.signs_of_life() > 5; })) << "--alive";
+}
+
+TEST_F(HeelOperator, TheSocketIsNamedByAVariable) {
+  test::Process heel({HEEL_PROGRAM, "status"}, "", {{"HEEL_SOCKET", socket_}});
+  EXPECT_EQ(heel.wait(), 0);
+  EXPECT_THAT(heel.output(), StartsWith("IDLE\n"));
+}
+
+TEST(HeelOperatorWithoutHeeld, TheLikelyCauseIsNamedWithStatus69) {
+  const test::TemporaryFolder folder;
+  const std::string missing = folder.file("no.sock"), dead = folder.file("dead.sock");
+  {
+    const LocalSocket left(dead + ".then");
+    ASSERT_EQ(rename((dead + ".then").c_str(), dead.c_str()), 0);
+  }
+  int commands = 0;
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"status"},
+                                             {"start"},
+                                             {"stop"},
+                                             {"estop"},
+                                             {"reset"},
+                                             {"save"},
+                                             {"watch"},
+                                             {"set", "gate.v_max_m_s=0.3"}}) {
+    ++commands;
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"--socket", missing});
+    Outcome outcome = run_heel(arguments);
+    EXPECT_EQ(outcome.status, 69) << command.front();
+    EXPECT_EQ(outcome.err,
+              "heel " + command.front() + ": " + missing +
+                  ": no such socket (is heeld running? systemctl status heeld; another socket: --socket)\n");
+    arguments.back() = dead;
+    outcome = run_heel(arguments);
+    EXPECT_EQ(outcome.status, 69);
+    EXPECT_THAT(outcome.err, HasSubstr("nobody serves it (heeld is not running"));
+    const Outcome help = run_heel({command.front(), "--help"});
+    EXPECT_THAT(help.out, HasSubstr("Exit status: 0 done; 1 refused")) << command.front();
+  }
+  EXPECT_EQ(commands, 8);
+}
+
+TEST(HeelOperatorWithoutHeeld, BadUsageIsRefused) {
+  test::expect_refused({
+      {{"set"}, "heel set: ", "assignments"},
+      {{"set", "gate.v_max_m_s"}, "heel set: ", "(expected KEY=VALUE, as gate.v_max_m_s=0.3)"},
+      {{"set", "=1"}, "heel set: ", "(expected KEY=VALUE"},
+      {{"set", "a.b=1", "a.b=2"}, "heel set: ", "a.b: given twice"},
+      {{"watch", "--period", "0"}, "heel watch: ", "expected a number, 0.1…60"},
+      {{"start", "now"}, "heel start: ", "now"},
+      {{"status", "--socket", std::string(200, 'x')}, "heel status: ", "(expected at most 107)"},
+  });
+}
+
+}  // namespace
+}  // namespace heel

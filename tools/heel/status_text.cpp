@@ -1,0 +1,96 @@
+#include "status_text.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace heel::cli {
+namespace {
+
+constexpr double kDegPerRad = 57.29577951308232;
+
+/// A number of the status as `format` writes it, or "unknown" where it is null or missing.
+std::string number(const Json& object, std::string_view field, fmt::format_string<double> format) {
+  const auto found = object.find(field);
+  if (found == object.end() || !found->is_number()) return "unknown";
+  return fmt::format(format, found->get<double>());
+}
+
+bool flag(const Json& object, std::string_view field) {
+  const auto found = object.find(field);
+  return found != object.end() && found->is_boolean() && found->get<bool>();
+}
+
+std::string text(const Json& object, std::string_view field) {
+  const auto found = object.find(field);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "unknown";
+}
+
+const Json& part(const Json& status, std::string_view name) {
+  static const Json kNone = Json::object();
+  const auto found = status.find(name);
+  return found == status.end() || !found->is_object() ? kNone : *found;
+}
+
+std::string robot_text(const Json& robot) {
+  std::string out = fmt::format("link {}, motors {}, battery {}", text(robot, "link"),
+                                flag(robot, "motors") ? "on" : "off", number(robot, "battery_v", "{:.1f} V"));
+  out += fmt::format(", speed {}", number(robot, "v_m_s", "{:.2f} m/s"));
+  if (flag(robot, "stop_button")) out += ", STOP button pressed";
+  if (flag(robot, "bumpers")) out += ", bumper pressed";
+  if (flag(robot, "stall")) out += ", wheels stalled";
+  return out + fmt::format(", newest packet {} ago", number(robot, "packet_age_s", "{:.2f} s"));
+}
+
+std::string camera_text(const Json& camera) {
+  return fmt::format("{} frames, {} dropped; the frame in use is {} old", number(camera, "frames", "{:.0f}"),
+                     number(camera, "dropped", "{:.0f}"), number(camera, "frame_age_s", "{:.2f} s"));
+}
+
+std::string target_text(const Json& target) {
+  std::string out = flag(target, "found")
+                        ? fmt::format("in view, certainty {}", number(target, "certainty", "{:.2f}"))
+                        : fmt::format("not in view ({})", text(target, "reason"));
+  if (flag(target, "known")) out += fmt::format("; {} away", number(target, "distance_m", "{:.2f} m"));
+  return out;
+}
+
+std::string limits_text(const Json& limits) {
+  const auto turn = limits.find("gate.yaw_rate_max_rad_s");
+  return fmt::format(
+      "speed {}, turn {}, separation {}, clearance {}", number(limits, "gate.v_max_m_s", "{:.2f} m/s"),
+      turn == limits.end() || !turn->is_number()
+          ? "unknown"
+          : fmt::format("{:.0f} °/s", turn->get<double>() * kDegPerRad),
+      number(limits, "gate.separation_m", "{:.2f} m"), number(limits, "gate.clearance_m", "{:.2f} m"));
+}
+
+}  // namespace
+
+std::string status_text(const Json& status) {
+  std::string out = state_line(status);
+  out.replace(out.find(": "), 2, "\n");
+  out += "\n\n";
+  const auto row = [&out](std::string_view name, const std::string& what) {
+    out += fmt::format("{:<9}{}\n", name, what);
+  };
+  row("robot", robot_text(part(status, "robot")));
+  row("camera", camera_text(part(status, "camera")));
+  row("person", target_text(part(status, "target")));
+  row("limits", limits_text(part(status, "limits")));
+  if (const auto set = status.find("set"); set != status.end()) {
+    for (const Json& change : *set)
+      row("set", fmt::format("{} = {} (in the file {}; not saved)", text(change, "key"),
+                             text(change, "after"), text(change, "before")));
+  }
+  return out;
+}
+
+std::string watch_text(const Json& status) {
+  const Json& robot = part(status, "robot");
+  const Json& target = part(status, "target");
+  return fmt::format("{} [{}, person {}, {}]", state_line(status), number(robot, "v_m_s", "{:.2f} m/s"),
+                     number(target, "distance_m", "{:.2f} m"), number(robot, "battery_v", "{:.1f} V"));
+}
+
+}  // namespace heel::cli
