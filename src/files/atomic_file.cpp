@@ -47,9 +47,10 @@ class TemporaryFile {
   bool set_mode(const std::string& final_path) const {
     struct stat replaced {};
     if (stat(final_path.c_str(), &replaced) == 0 && S_ISREG(replaced.st_mode)) {
-      // Its group as well, where this process may give it.
+      // Its group as well, where this process may give it; otherwise the group may what everybody may.
       const bool group_kept = fchown(fd_, static_cast<uid_t>(-1), replaced.st_gid) == 0;
-      return fchmod(fd_, replaced.st_mode & (group_kept ? 0777u : 0707u)) == 0;
+      const mode_t everybodys = (replaced.st_mode & 07u) << 3u;
+      return fchmod(fd_, replaced.st_mode & (group_kept ? 0777u : 0707u | everybodys)) == 0;
     }
     const mode_t mask = umask(0);
     umask(mask);

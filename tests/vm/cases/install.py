@@ -22,6 +22,7 @@ def run(bench):
     groups = guest.run("id -nG heel").split()
     bench.check({"dialout", "video"} <= set(groups), "the account heel is in dialout and video")
     bench.check(guest.status_of("ls /etc/heel/heel.toml")[0] == 0, "/etc/heel/heel.toml is there")
+    bench.check(guest.run("stat -c '%G %a' /etc/heel").strip() == "heel 2775", "heel save can write in /etc/heel")
     guest.run("systemd-analyze verify heeld.service", 60)
     bench.check(True, "systemd-analyze finds nothing wrong with the unit")
 
