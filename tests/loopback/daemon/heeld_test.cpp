@@ -13,7 +13,7 @@
 #include <memory>
 
 #include "core/config.h"
-#include "loopback/daemon/scene.h"
+#include "loopback/daemon/heeld_fixture.h"
 #include "support/full_notify_socket.h"
 #include "support/process.h"
 #include "support/sanitized.h"
@@ -30,11 +30,8 @@ using test::eventually;
 using test::last_received_s;
 using test::monotonic_s;
 using test::newest_truth;
-using test::NotifySocket;
 using test::occurrences;
-using test::Process;
 using test::read_text;
-using test::Scene;
 using test::sleep_s;
 using test::Truth;
 using test::write_text;
@@ -51,54 +48,13 @@ bool reloaded_and_ready(const std::vector<std::string>& messages) {
   return std::find_if(reloading, messages.end(), starts("READY=1")) != messages.end();
 }
 
-/// The camera file lasts longer than any test waits.
-constexpr int kFramesOfALongFile = 4000;
 constexpr int kFramesOfAShortFile = test::kSanitized ? 100 : 400;  // 20 s, or 16 s
 constexpr double kWatchdog_s = 2.0;                                // of the P3-AT's firmware
 constexpr double kStopTimeout_s = 5.0;  // TimeoutStopSec of heeld.service: systemd then kills heeld
 
-class Heeld : public ::testing::Test {
+class Heeld : public test::HeeldFixture {
  protected:
-  explicit Heeld(int frames = kFramesOfALongFile) : scene_(frames) {}
-
-  void start_robot(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> argv = {HEEL_SIM_PROGRAM,
-                                     "--robot",
-                                     "pty:" + scene_.path("robot"),
-                                     "--exact",
-                                     "--truth",
-                                     scene_.path("truth.csv"),
-                                     "--truth-rate",
-                                     "500",
-                                     "--wire",
-                                     scene_.path("wire.hex")};
-    argv.insert(argv.end(), more.begin(), more.end());
-    robot_started_s_ = monotonic_s();
-    robot_ = std::make_unique<Process>(argv, scene_.path("robot.log"));
-    ASSERT_TRUE(robot_->says("ready at")) << robot_->output();
-  }
-  void start_heeld(const std::string& config) { start_heeld(config, notify_.path()); }
-  void start_heeld(const std::string& config, const std::string& notify_socket) {
-    daemon_ = std::make_unique<Process>(std::vector<std::string>{HEELD_PROGRAM, "--config", config},
-                                        scene_.path("heeld.log"),
-                                        std::map<std::string, std::string>{{"NOTIFY_SOCKET", notify_socket}});
-  }
-  double speed() const { return newest_truth(scene_.path("truth.csv")).v_m_s; }
-  bool starts_to_drive() {
-    return eventually([this] { return speed() > 0.2; });
-  }
-  bool comes_to_rest() {
-    return eventually([this] { return speed() == 0.0; });
-  }
-  std::string logs() {
-    return (daemon_ ? daemon_->output() : "") + "\n--- robot\n" + (robot_ ? robot_->output() : "");
-  }
-
-  Scene scene_;
-  NotifySocket notify_{scene_.path("notify")};
-  std::unique_ptr<Process> robot_, daemon_;
-  double robot_started_s_ = 0.0;  ///< CLOCK_MONOTONIC at the zero of the simulator's time, or just before
-  const Config defaults_;
+  using HeeldFixture::HeeldFixture;
 };
 
 TEST_F(Heeld, GetsReadyFollowsAndStopsOnSigterm) {
