@@ -93,6 +93,8 @@ TEST_F(Commands, AnEmergencyStopGoesAtOnceAndGivesUpWhatWaits) {
   EXPECT_EQ(results[0].outcome, OperatorOutcome::Done);
   ASSERT_THAT(port_.requests, SizeIs(3));
   EXPECT_EQ(port_.requests[2].command, OperatorCommand::Reset);
+  EXPECT_EQ(tickets_of(commands_.settle(handled(3, SupervisorState::Idle), kNow_ns)), Tickets{4});
+  EXPECT_FALSE(commands_.busy()) << "what was given up is not done later";
 }
 
 TEST_F(Commands, TwoEmergencyStopsInOneTickAreBothAnswered) {
