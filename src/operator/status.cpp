@@ -6,6 +6,7 @@
 
 #include "config/config_table.h"
 #include "config/config_value.h"
+#include "core/state_sentence.h"
 
 namespace heel {
 namespace {
@@ -84,44 +85,17 @@ json limits_json(const Config& config) {
   return out;
 }
 
-/// What the state means where no condition or hold says more.
-const char* meaning(SupervisorState state) {
-  switch (state) {
-    case SupervisorState::Idle:
-      return "At rest: it waits for a start";
-    case SupervisorState::Armed:
-      return "At rest: started, it waits for the person to follow";
-    case SupervisorState::Following:
-      return "Following the person";
-    case SupervisorState::Searching:
-      return "The person is lost: it drives on to where they were seen last";
-    case SupervisorState::Waiting:
-      return "At rest: it goes on by itself when the person is seen";
-    case SupervisorState::Stopped:
-      return "Stopped by a fault: it needs a start";
-    case SupervisorState::Emergency:
-      return "Emergency stop: it needs a reset, then a start";
-  }
-  return "?";
-}
-
 }  // namespace
 
 std::string sentence_of(const StatusInput& input) {
-  if (!input.any_tick) return "The control loop has not run yet.";
+  if (!input.any_tick) return "the control loop has not run yet";
   constexpr TimeNs kLate_ns = 500 * kNsPerMs;
   const TickRecord& tick = input.tick;
   if (input.now_ns - tick.input.now_ns > kLate_ns) {
-    return fmt::format("The control loop has not run for {:.1f} s.",
+    return fmt::format("the control loop has not run for {:.1f} s",
                        seconds_from_ns(input.now_ns - tick.input.now_ns));
   }
-  if (tick.state == SupervisorState::Following && tick.hold != Hold::None)
-    return fmt::format("Held at rest while following: {}.", to_string(tick.hold));
-  const bool has_reason = tick.stop_reason != StopReason::None &&
-                          tick.stop_reason != StopReason::NotStarted &&
-                          tick.stop_reason != StopReason::EmergencyStop;
-  return fmt::format("{}{}.", meaning(tick.state),
-                     has_reason ? fmt::format(" ({})", to_string(tick.stop_reason)) : "");
+  return state_sentence(tick);
 }
 
 json state_json(const StatusInput& input) {

@@ -26,7 +26,7 @@ nlohmann::ordered_json status_json(const StatusInput& input, const SettingsView&
 /// True: watchers get a line about the difference at once.
 bool differs_to_a_watcher(const TickRecord& a, const TickRecord& b);
 
-/// What the robot does and why, for people: "At rest: the robot waits for a start."
+/// What the robot does and why, for people: "at rest: not started; `heel start` lets the robot move".
 std::string sentence_of(const StatusInput& input);
 
 /// {"key":…,"before":…,"after":…} for each.
