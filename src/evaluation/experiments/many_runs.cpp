@@ -20,6 +20,22 @@ int stops_of(const FollowMetrics& metrics) {
 
 constexpr std::array kFigures{
     RunFigure{"path_rms_m", [](const FollowMetrics& m) { return m.lateral_m.rms; }},
+    RunFigure{"path_p95_m", [](const FollowMetrics& m) { return m.following.path_p95_m; }},
+    RunFigure{"path_max_m", [](const FollowMetrics& m) { return m.following.path_max_m; }},
+    RunFigure{"along_p95_m", [](const FollowMetrics& m) { return m.following.along_p95_m; }},
+    RunFigure{"along_within_share", [](const FollowMetrics& m) { return m.following.along_within_share; }},
+    RunFigure{"separation_entries",
+              [](const FollowMetrics& m) { return static_cast<double>(m.following.separation_entries); }},
+    RunFigure{"jerk_p99_m_s3", [](const FollowMetrics& m) { return m.following.jerk_p99_m_s3; }},
+    RunFigure{"straight_yaw_rate_rms_rad_s",
+              [](const FollowMetrics& m) { return m.following.straight_yaw_rate_rms_rad_s; }},
+    RunFigure{"yaw_within_share", [](const FollowMetrics& m) { return m.following.yaw_within_share; }},
+    RunFigure{"out_of_sight_share", [](const FollowMetrics& m) { return m.following.out_of_sight_share; }},
+    RunFigure{"found_again_longest_s",
+              [](const FollowMetrics& m) { return m.following.found_again_s.highest; }},
+    RunFigure{"contacts", [](const FollowMetrics& m) { return static_cast<double>(m.following.contacts); }},
+    RunFigure{"followed_to_end",
+              [](const FollowMetrics& m) { return m.following.followed_to_end ? 1.0 : 0.0; }},
     RunFigure{"separation_mean_m", [](const FollowMetrics& m) { return m.separation_m.mean; }},
     RunFigure{"separation_least_m", [](const FollowMetrics& m) { return m.separation_m.lowest; }},
     RunFigure{"found_share",
@@ -52,11 +68,11 @@ nlohmann::ordered_json to_json(const ManyRuns& many) {
 }
 
 std::string many_runs_table(const ManyRuns& many) {
-  std::string text = fmt::format("{:<24} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "over runs", "mean", "deviation",
+  std::string text = fmt::format("{:<28} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "over runs", "mean", "deviation",
                                  "least", "median", "most");
   for (const RunFigure& figure : kFigures) {
     const Quantiles q = over_runs(many, figure);
-    text += fmt::format("{:<24} {:9.3f} {:9.3f} {:9.3f} {:9.3f} {:9.3f}\n", figure.name, q.mean, q.deviation,
+    text += fmt::format("{:<28} {:9.3f} {:9.3f} {:9.3f} {:9.3f} {:9.3f}\n", figure.name, q.mean, q.deviation,
                         q.lowest, q.p50, q.highest);
   }
   return text;

@@ -14,8 +14,9 @@ struct ManyRuns {
   double simulated_s = 0.0;
 };
 
-/// Mean, deviation and quantiles over the runs of path RMS, separation, smallest separation, share of frames
-/// in which the shirt was found, longest time out of view, robot path and stops.
+/// Mean, deviation and quantiles over the runs of path RMS, the figures of FollowingFigures, separation,
+/// smallest separation, share of frames in which the shirt was found, longest time out of view, robot path
+/// and stops.
 nlohmann::ordered_json to_json(const ManyRuns& many);
 std::string many_runs_table(const ManyRuns& many);
 

@@ -25,6 +25,11 @@ MotionSample motion_sample(const sim::LockstepTruth& truth) {
   sample.person = {truth.world.person.x_m, truth.world.person.y_m, truth.world.person.heading_rad};
   sample.person_speed_m_s = truth.world.person.speed_m_s;
   sample.back_in_view = truth.world.in_view && !truth.world.occluded;
+  sample.back_hidden = truth.world.occluded;
+  sample.has_back = truth.has_world;
+  sample.back_x_m = truth.world.back_m.x();
+  sample.back_y_m = truth.world.back_m.y();
+  sample.back_yaw_rad = truth.world.yaw_rad;
   sample.touching = truth.robot.bumpers_front != 0 || truth.robot.bumpers_rear != 0;
   return sample;
 }
@@ -57,8 +62,19 @@ TickSample tick_sample(const TickRecord& tick) {
   return sample;
 }
 
+FollowReference follow_reference(const sim::LockstepSettings& settings) {
+  const CameraConfig& camera = settings.config.camera;
+  FollowReference reference;
+  reference.set_distance_m =
+      settings.shirt.distance_m + settings.config.control.setpoint_t_z_m + camera.mount_x_m;
+  reference.camera_x_m = camera.mount_x_m;
+  reference.camera_y_m = camera.mount_y_m;
+  reference.separation_m = settings.config.gate.separation_m;
+  return reference;
+}
+
 RunRecord::RunRecord(const std::string& directory, const sim::LockstepSettings& settings)
-    : directory_(directory) {
+    : directory_(directory), metrics_(follow_reference(settings)) {
   if (directory.empty()) return;
   recorder_ = std::make_unique<Recorder>(directory);
   open_truth(settings.scenario.camera.source == "sim");

@@ -17,6 +17,8 @@ namespace heel::evaluation {
 MotionSample motion_sample(const sim::LockstepTruth& truth);
 PoseSample pose_sample(const PoseEstimate& pose, const sim::LockstepTruth& truth);
 TickSample tick_sample(const TickRecord& tick);
+/// The set distance and the gate's limit of a run.
+FollowReference follow_reference(const sim::LockstepSettings& settings);
 
 class RunRecord : public sim::LockstepObserver {
  public:

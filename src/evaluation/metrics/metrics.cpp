@@ -13,43 +13,12 @@ namespace {
 
 const std::string kFollowing = to_string(StopReason::None);
 const std::string kShuttingDown = to_string(StopReason::Shutdown);
-constexpr double kWalking_m_s = 0.05;
-constexpr double kMaxLateral_m = 100.0;  ///< reported when the path is farther away
-constexpr std::size_t kSearchBehind = 100;
-constexpr std::size_t kSearchAhead = 300;
-
-std::vector<Pose2> person_path(const std::vector<MotionSample>& motion) {
-  std::vector<Pose2> path;
-  for (const MotionSample& sample : motion) {
-    if (!sample.has_person) continue;
-    // A standing person adds nothing to the path.
-    if (!path.empty() &&
-        std::hypot(sample.person.x_m - path.back().x_m, sample.person.y_m - path.back().y_m) < 0.01)
-      continue;
-    path.push_back(sample.person);
-  }
-  return path;
-}
 
 double length_m(const std::vector<Pose2>& path) {
   double sum = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i)
     sum += std::hypot(path[i].x_m - path[i - 1].x_m, path[i].y_m - path[i - 1].y_m);
   return sum;
-}
-
-void find_walk(const std::vector<MotionSample>& motion, FollowMetrics& out) {
-  bool found = false;
-  for (const MotionSample& sample : motion) {
-    if (!sample.has_person || sample.person_speed_m_s < kWalking_m_s) continue;
-    if (!found) out.t_walk_begin_s = sample.t_s;
-    out.t_walk_end_s = sample.t_s;
-    found = true;
-  }
-  if (!found && !motion.empty()) {
-    out.t_walk_begin_s = motion.front().t_s;
-    out.t_walk_end_s = motion.back().t_s;
-  }
 }
 
 void measure_paths(const std::vector<MotionSample>& motion, FollowMetrics& out) {
@@ -68,7 +37,11 @@ void measure_paths(const std::vector<MotionSample>& motion, FollowMetrics& out) 
         std::hypot(sample.robot.x_m - robot_path.back().x_m, sample.robot.y_m - robot_path.back().y_m) > 0.01)
       robot_path.push_back(sample.robot);
     if (!sample.has_person) continue;
-    if (path.size() > 1) lateral.push_back(lateral_distance_m(path, sample.robot, near));
+    if (path.size() > 1) {
+      const PathPlace place = place_on_path(path, sample.robot, near);
+      near = place.segment;
+      lateral.push_back(place.lateral_m);
+    }
     separation.push_back(
         std::hypot(sample.robot.x_m - sample.person.x_m, sample.robot.y_m - sample.person.y_m));
     if (sample.t_s <= out.t_walk_end_s) out.separation_end_m = separation.back();
@@ -133,76 +106,17 @@ void count_stops(const std::vector<TickSample>& ticks, FollowMetrics& out) {
   }
 }
 
-nlohmann::ordered_json to_json(const Quantiles& q) {
-  return {{"count", q.count}, {"mean", q.mean},  {"deviation", q.deviation},
-          {"rms", q.rms},     {"min", q.lowest}, {"p05", q.p05},
-          {"p50", q.p50},     {"p95", q.p95},    {"max", q.highest}};
-}
-
-double nearest_rank(const std::vector<double>& sorted, double share) {
-  return sorted[static_cast<std::size_t>(std::lround(share * static_cast<double>(sorted.size() - 1)))];
-}
-
 }  // namespace
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return nearest_rank(values, share);
-}
-
-Quantiles quantiles(std::vector<double> values) {
-  Quantiles q;
-  q.count = values.size();
-  if (values.empty()) return q;
-  std::sort(values.begin(), values.end());
-  double sum = 0.0, squares = 0.0;
-  for (const double value : values) {
-    sum += value;
-    squares += value * value;
-  }
-  const auto n = static_cast<double>(values.size());
-  q.mean = sum / n;
-  q.rms = std::sqrt(squares / n);
-  q.deviation = std::sqrt(std::max(0.0, squares / n - q.mean * q.mean));
-  q.p05 = nearest_rank(values, 0.05);
-  q.p50 = nearest_rank(values, 0.5);
-  q.p95 = nearest_rank(values, 0.95);
-  q.lowest = values.front();
-  q.highest = values.back();
-  return q;
-}
-
-double lateral_distance_m(const std::vector<Pose2>& path, const Pose2& point, std::size_t& near) {
-  const std::size_t from = near > kSearchBehind ? near - kSearchBehind : 0;
-  const std::size_t to = std::min(path.size() - 1, near + kSearchAhead);
-  double best2 = kMaxLateral_m * kMaxLateral_m;
-  double lateral = kMaxLateral_m;
-  for (std::size_t i = from; i < to; ++i) {
-    const Pose2& a = path[i];
-    const double ex = path[i + 1].x_m - a.x_m;
-    const double ey = path[i + 1].y_m - a.y_m;
-    const double length2 = std::max(ex * ex + ey * ey, 1e-18);
-    double along = ((point.x_m - a.x_m) * ex + (point.y_m - a.y_m) * ey) / length2;
-    // The path is extended backwards: the robot starts behind the person.
-    along = std::clamp(along, i == 0 ? -1e9 : 0.0, 1.0);
-    const double dx = point.x_m - a.x_m - along * ex;
-    const double dy = point.y_m - a.y_m - along * ey;
-    const double distance2 = dx * dx + dy * dy;
-    if (distance2 >= best2) continue;
-    best2 = distance2;
-    lateral = std::copysign(std::sqrt(distance2), ex * dy - ey * dx);
-    near = i;
-  }
-  return lateral;
-}
 
 FollowMetrics MetricsCollector::evaluate() const {
   FollowMetrics out;
-  find_walk(motion_, out);
+  const WalkTimes walk = walk_times(motion_);
+  out.t_walk_begin_s = walk.begin_s;
+  out.t_walk_end_s = walk.end_s;
   measure_paths(motion_, out);
   measure_poses(poses_, out);
   count_stops(ticks_, out);
+  out.following = following_figures(motion_, poses_, ticks_, reference_);
   return out;
 }
 
@@ -231,6 +145,7 @@ nlohmann::ordered_json to_json(const FollowMetrics& m) {
   json["touching_s"] = m.touching_s;
   json["frames_wrong"] = m.frames_wrong;
   json["separation_end_m"] = m.separation_end_m;
+  json["following"] = to_json(m.following);
   return json;
 }
 

@@ -9,50 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "core/pose2.h"
+#include "evaluation/metrics/following_figures.h"
+#include "evaluation/metrics/samples.h"
 
 namespace heel::evaluation {
-
-/// One row of the truth.
-struct MotionSample {
-  double t_s = 0.0;
-  Pose2 robot;
-  bool has_person = false;
-  Pose2 person;
-  double person_speed_m_s = 0.0;
-  bool back_in_view = false;  ///< by geometry, independent of vision
-  bool touching = false;      ///< a bumper is pressed
-};
-
-/// One frame: vision's estimate and the truth.
-struct PoseSample {
-  double t_s = 0.0;  ///< of capture
-  bool found = false;
-  std::string reason;
-  double certainty = 0.0;
-  double yaw_rad = 0.0;
-  double yaw_sigma_rad = 0.0;
-  double x_m = 0.0, y_m = 0.0, z_m = 0.0;  ///< middle of the template, camera frame
-  bool has_truth = false;
-  double true_yaw_rad = 0.0;
-  double true_x_m = 0.0, true_y_m = 0.0, true_z_m = 0.0;
-};
-
-struct TickSample {
-  double t_s = 0.0;
-  std::string stop_reason;  ///< "following", or why the robot does not follow
-  double v_m_s = 0.0;
-  double yaw_rate_rad_s = 0.0;
-};
-
-struct Quantiles {
-  std::size_t count = 0;
-  double mean = 0.0, deviation = 0.0, rms = 0.0;
-  double p05 = 0.0, p50 = 0.0, p95 = 0.0, lowest = 0.0, highest = 0.0;
-};
-Quantiles quantiles(std::vector<double> values);
-/// The value of the nearest rank below which `share` of the values lie; 0 when there are none.
-double quantile(std::vector<double> values, double share);
 
 /// A target that is found farther than this from its true place is a wrong one.
 inline constexpr double kWrong_m = 0.5;
@@ -73,10 +33,13 @@ struct FollowMetrics {
   double touching_s = 0.0;  ///< with a bumper pressed
   std::map<std::string, double> rest_s_by_reason;  ///< while the person walked
   std::map<std::string, int> stops_by_reason;      ///< number of stops while the person walked
+  FollowingFigures following;
 };
 
 class MetricsCollector {
  public:
+  explicit MetricsCollector(const FollowReference& reference = {}) : reference_(reference) {}
+
   void add(const MotionSample& sample) { motion_.push_back(sample); }
   void add(const PoseSample& sample) { poses_.push_back(sample); }
   void add(const TickSample& sample) { ticks_.push_back(sample); }
@@ -88,15 +51,11 @@ class MetricsCollector {
   FollowMetrics evaluate() const;
 
  private:
+  FollowReference reference_;
   std::vector<MotionSample> motion_;
   std::vector<PoseSample> poses_;
   std::vector<TickSample> ticks_;
 };
-
-/// Signed distance of a point from the walked path, positive to the left of it. The path is extended
-/// backwards in a straight line. The search begins near point `near` of the path, which is updated, because a
-/// path may cross itself.
-double lateral_distance_m(const std::vector<Pose2>& path, const Pose2& point, std::size_t& near);
 
 nlohmann::ordered_json to_json(const FollowMetrics& metrics);
 

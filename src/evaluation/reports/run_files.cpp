@@ -22,6 +22,7 @@ std::vector<TargetRow> read_truth(const CsvTable& truth, MetricsCollector& run) 
   const std::string time = truth.has("t_monotonic_s") ? "t_monotonic_s" : "t_s";
   const bool has_person = truth.has("person_x_m");
   const bool has_occluded = truth.has("target_occluded");
+  const bool has_back = truth.has("back_x_m");
   for (std::size_t i = 0; i < truth.rows(); ++i) {
     MotionSample sample;
     sample.t_s = truth.number(i, time);
@@ -34,8 +35,14 @@ std::vector<TargetRow> read_truth(const CsvTable& truth, MetricsCollector& run) 
       sample.person = {truth.number(i, "person_x_m"), truth.number(i, "person_y_m"),
                        truth.number(i, "person_heading_rad")};
       sample.person_speed_m_s = truth.number(i, "person_speed_m_s");
-      sample.back_in_view = truth.number(i, "target_in_view") != 0.0 &&
-                            !(has_occluded && truth.number(i, "target_occluded") != 0.0);
+      sample.back_hidden = has_occluded && truth.number(i, "target_occluded") != 0.0;
+      sample.back_in_view = truth.number(i, "target_in_view") != 0.0 && !sample.back_hidden;
+      sample.has_back = has_back;
+      sample.back_yaw_rad = truth.number(i, "target_yaw_rad");
+      if (has_back) {
+        sample.back_x_m = truth.number(i, "back_x_m");
+        sample.back_y_m = truth.number(i, "back_y_m");
+      }
       targets.push_back({sample.t_s, truth.number(i, "target_yaw_rad"), truth.number(i, "target_x_m"),
                          truth.number(i, "target_y_m"), truth.number(i, "target_z_m")});
     }

@@ -33,10 +33,9 @@ PoseSample pose(double t_s, bool found, double yaw_error) {
 
 TEST(Metrics, LateralDistanceIsSignedAlsoBehindTheStart) {
   const std::vector<Pose2> path{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}};
-  std::size_t near = 0;
-  EXPECT_NEAR(lateral_distance_m(path, {-2, 0.3, 0}, near), 0.3, 1e-12);
-  EXPECT_NEAR(lateral_distance_m(path, {0.5, -0.2, 0}, near), -0.2, 1e-12);
-  EXPECT_NEAR(lateral_distance_m(path, {2.1, 0.5, 0}, near), -0.1, 1e-12);
+  EXPECT_NEAR(place_on_path(path, {-2, 0.3, 0}, 0).lateral_m, 0.3, 1e-12);
+  EXPECT_NEAR(place_on_path(path, {0.5, -0.2, 0}, 0).lateral_m, -0.2, 1e-12);
+  EXPECT_NEAR(place_on_path(path, {2.1, 0.5, 0}, 0).lateral_m, -0.1, 1e-12);
 }
 
 TEST(Metrics, PathsAndView) {
