@@ -202,6 +202,15 @@ struct TargetState {
   double travel_yaw_sigma_rad = 0.0;
   double stride_yaw_rad = 0.0;  ///< mean direction of travel over the stride before the frame
   double stride_yaw_sigma_rad = 0.0;
+  // The walk without the sway and swing of the gait; odom, at the time of the frame.
+  double body_odom_x_m = 0.0;  ///< axis of the body
+  double body_odom_y_m = 0.0;
+  double body_sigma_m = 0.0;  ///< one standard deviation, of the less certain direction
+  double walk_m_s = 0.0;      ///< along the direction of travel; negative: backwards
+  double walk_sigma_m_s = 0.0;
+  double aside_m_s = 0.0;        ///< to the left of the direction of travel
+  double walk_turn_rad_s = 0.0;  ///< rate of the direction of travel
+  double walk_turn_sigma_rad_s = 0.0;
   // The goal, where the robot has the reference view again; robot frame at `now`:
   double goal_x_m = 0.0;
   double goal_y_m = 0.0;

@@ -158,6 +158,15 @@ TargetState TargetEstimator::predict(TimeNs now_ns) const {
   target.travel_yaw_sigma_rad = travel.sigma_rad;
   target.stride_yaw_rad = wrap_angle_rad(stride.angle_rad - robot->heading_rad);
   target.stride_yaw_sigma_rad = stride.sigma_rad;
+  const TravelFilter::Walk walk = travel_.walk();
+  target.body_odom_x_m = walk.position_m.x();
+  target.body_odom_y_m = walk.position_m.y();
+  target.body_sigma_m = walk.position_sigma_m;
+  target.walk_m_s = walk.forwards_m_s;
+  target.walk_sigma_m_s = walk.forwards_sigma_m_s;
+  target.aside_m_s = walk.aside_m_s;
+  target.walk_turn_rad_s = walk.turn_rad_s;
+  target.walk_turn_sigma_rad_s = walk.turn_sigma_rad_s;
   target.goal_x_m = goal_m.x();
   target.goal_y_m = goal_m.y();
   return target;

@@ -243,6 +243,19 @@ DirectionEstimate TravelFilter::travel(double ahead_s) const {
   return {state_(kPsi) + turn_s * state_(kTurn), std::sqrt(variance)};
 }
 
+TravelFilter::Walk TravelFilter::walk() const {
+  // The larger eigenvalue of the position's covariance.
+  const double mean = 0.5 * (P_(kX, kX) + P_(kY, kY));
+  const double variance = mean + std::hypot(0.5 * (P_(kX, kX) - P_(kY, kY)), P_(kX, kY));
+  return {state_.head<2>(),
+          std::sqrt(variance),
+          state_(kSpeed),
+          std::sqrt(P_(kSpeed, kSpeed)),
+          state_(kSlip),
+          state_(kTurn),
+          std::sqrt(P_(kTurn, kTurn))};
+}
+
 DirectionEstimate TravelFilter::stride() const {
   return {state_(kMean3), std::sqrt(P_(kMean3, kMean3))};
 }

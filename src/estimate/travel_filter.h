@@ -69,6 +69,16 @@ class TravelFilter {
   DirectionEstimate stride() const;
   double speed_m_s() const { return state_(kSpeed); }
 
+  /// The walk at the last prediction, without sway and swing.
+  struct Walk {
+    Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< axis of the body, odom
+    double position_sigma_m = 0.0;                         ///< of the less certain direction
+    double forwards_m_s = 0.0, forwards_sigma_m_s = 0.0;
+    double aside_m_s = 0.0;  ///< left +
+    double turn_rad_s = 0.0, turn_sigma_rad_s = 0.0;
+  };
+  Walk walk() const;
+
  private:
   enum Index {
     kX,

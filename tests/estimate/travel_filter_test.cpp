@@ -27,6 +27,8 @@ struct Sample {
   WalkTruth truth;
   double measured_rad = 0.0;
   DirectionEstimate travel, stride;
+  Eigen::Vector2d measured_m;
+  TravelFilter::Walk walk;
 };
 
 /// Of one filter over a walk. 5 % of the frames are missing one by one, some for 0.2 to 0.8 s.
@@ -52,7 +54,8 @@ std::vector<Sample> followed(const std::vector<WalkPart>& parts, Random& random,
       filter.correct(back);
     }
     t_seen_s = t_s;
-    samples.push_back({person.truth(), back.yaw_rad, filter.travel(0.0), filter.stride()});
+    samples.push_back(
+        {person.truth(), back.yaw_rad, filter.travel(0.0), filter.stride(), back.position_m, filter.walk()});
   }
   return samples;
 }
@@ -163,6 +166,31 @@ TEST(TravelFilter, StatesTheRightDeviationInEachThirdOfTheStatedOnes) {
     EXPECT_GT(errors.travel.nees(), 0.6) << third;
     EXPECT_LT(errors.travel.nees(), 1.8) << third;
   }
+}
+
+TEST(TravelFilter, TheBodySwaysLessThanTheBackAndItsSpeedIsKnown) {
+  double back = 0.0, body = 0.0, speed = 0.0, shares = 0.0, turn = 0.0;
+  int count = 0;
+  for (const Sample& sample : walks()) {
+    if (!walking(sample)) continue;
+    const WalkTruth& truth = sample.truth;
+    const Eigen::Vector2d n(-std::sin(truth.travel_rad), std::cos(truth.travel_rad));
+    const Eigen::Vector2d truth_m(truth.x_m, truth.y_m);
+    const double speed_error_m_s = sample.walk.forwards_m_s - truth.speed_m_s;
+    back += std::pow(n.dot(sample.measured_m - truth_m), 2);
+    body += std::pow(n.dot(sample.walk.position_m - truth_m), 2);
+    speed += speed_error_m_s * speed_error_m_s;
+    shares += std::pow(speed_error_m_s / sample.walk.forwards_sigma_m_s, 2);
+    turn += std::pow(sample.walk.turn_rad_s - truth.turn_rad_s, 2);
+    ++count;
+  }
+  ASSERT_GT(count, 10'000);
+  const auto rms = [&](double squares) { return std::sqrt(squares / count); };
+  std::printf("across the path: back %.4f m, body %.4f m; speed %.3f m/s (%.2f), turn %.3f rad/s\n",
+              rms(back), rms(body), rms(speed), shares / count, rms(turn));
+  EXPECT_LT(rms(body), 0.6 * rms(back));
+  EXPECT_LT(rms(speed), 0.15);
+  EXPECT_LT(rms(turn), 0.25);
 }
 
 TEST(TravelFilter, FollowsABendWithoutMuchDelay) {

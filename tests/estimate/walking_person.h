@@ -72,6 +72,7 @@ struct WalkTruth {
   double back_rad = 0.0;           ///< yaw of the back
   double speed_m_s = 0.0;
   double turn_rad_s = 0.0;
+  double x_m = 0.0, y_m = 0.0;  ///< axis of the body, without sway
 };
 
 class WalkingPerson {
@@ -138,6 +139,8 @@ class WalkingPerson {
     place_.x_m += kStep_s * (truth_.speed_m_s * t.x() - part.sideways_m_s * t.y());
     place_.y_m += kStep_s * (truth_.speed_m_s * t.y() + part.sideways_m_s * t.x());
     truth_.travel_rad = place_.heading_rad;
+    truth_.x_m = place_.x_m;
+    truth_.y_m = place_.y_m;
     headings_.push_back(place_.heading_rad);
 
     uneven_ = uneven_noise_.next(kStep_s);

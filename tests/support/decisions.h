@@ -22,7 +22,9 @@ inline std::string decision_bytes(const TickRecord& record) {
   append(record.tick, record.measurement, record.conditions, record.stop_reason, record.free_distance_m);
   append(target.known, target.t_capture_ns, target.certainty, target.x_m, target.y_m, target.yaw_rad,
          target.travel_yaw_rad, target.travel_yaw_sigma_rad, target.stride_yaw_rad,
-         target.stride_yaw_sigma_rad, target.goal_x_m, target.goal_y_m);
+         target.stride_yaw_sigma_rad, target.body_odom_x_m, target.body_odom_y_m, target.body_sigma_m,
+         target.walk_m_s, target.walk_sigma_m_s, target.aside_m_s, target.walk_turn_rad_s,
+         target.walk_turn_sigma_rad_s, target.goal_x_m, target.goal_y_m);
   append_command(record.wanted);
   append_command(record.command);
   return bytes;

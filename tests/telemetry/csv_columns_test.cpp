@@ -71,6 +71,14 @@ TEST(CsvColumns, ATicksValuesAreUnderTheirColumnNames) {
   tick.target.travel_yaw_sigma_rad = 0.0625;
   tick.target.stride_yaw_rad = -0.625;
   tick.target.stride_yaw_sigma_rad = 0.03125;
+  tick.target.body_odom_x_m = 3.5;
+  tick.target.body_odom_y_m = -4.5;
+  tick.target.body_sigma_m = 0.125;
+  tick.target.walk_m_s = 0.875;
+  tick.target.walk_sigma_m_s = 0.1875;
+  tick.target.aside_m_s = -0.25;
+  tick.target.walk_turn_rad_s = 0.375;
+  tick.target.walk_turn_sigma_rad_s = 0.4375;
   tick.target.goal_y_m = 0.0625;
   tick.wanted.v_m_s = 0.75;
   tick.command.v_m_s = 0.5;
@@ -122,6 +130,14 @@ TEST(CsvColumns, ATicksValuesAreUnderTheirColumnNames) {
       {"target_travel_yaw_sigma_rad", "0.0625"},
       {"target_stride_yaw_rad", "-0.625"},
       {"target_stride_yaw_sigma_rad", "0.03125"},
+      {"target_body_odom_x_m", "3.5"},
+      {"target_body_odom_y_m", "-4.5"},
+      {"target_body_sigma_m", "0.125"},
+      {"target_walk_m_s", "0.875"},
+      {"target_walk_sigma_m_s", "0.1875"},
+      {"target_aside_m_s", "-0.25"},
+      {"target_walk_turn_rad_s", "0.375"},
+      {"target_walk_turn_sigma_rad_s", "0.4375"},
       {"goal_y_m", "0.0625"},
       {"wanted_v_m_s", "0.75"},
       {"command_v_m_s", "0.5"},
