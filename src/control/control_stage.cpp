@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "control/brake_monitor.h"
+#include "control/comfort_limiter.h"
 #include "control/conditions.h"
 #include "control/follow_law_factory.h"
 #include "control/gate.h"
@@ -46,7 +47,7 @@ struct ControlStage::Impl {
     return brake_monitor.seen_m_s2() < kAsPromised * robot.limits.deceleration_m_s2;
   }
   double brakes_m_s2(const RobotState& robot) const;
-  VelocityCommand wanted(const FollowInput& input) const;
+  VelocityCommand wanted(const FollowInput& input);
 
   // The parts of the configuration in use. They hold no text that is longer than a std::string keeps in
   // itself, so that reconfigure() does not allocate.
@@ -59,8 +60,10 @@ struct ControlStage::Impl {
   SonarObstacleMap obstacle_map;
   BrakeMonitor brake_monitor;
   std::unique_ptr<FollowLaw> law;
+  ComfortLimiter comfort;
   ConditionMonitor condition_monitor;
   Supervisor supervisor;
+  bool search_done = false;  // the last tick's search has come to its end
   VelocityCommand last_command;
   std::uint64_t ticks = 0;
   std::uint64_t reconnects = 0;
@@ -76,6 +79,7 @@ void ControlStage::Impl::reconfigure(const Config& config) {
   sonar_on = config.robot.sonar;
   estimator.reconfigure(config);
   law->reconfigure(config);
+  comfort.reconfigure(config);
 }
 
 /// During an interruption the robot may have moved: after it, what was kept in odom no longer holds.
@@ -117,9 +121,11 @@ double ControlStage::Impl::brakes_m_s2(const RobotState& robot) const {
   return brakes_are_weaker(robot) ? brake_monitor.seen_m_s2() : robot.limits.deceleration_m_s2;
 }
 
-/// What the law wants, as a command that expires.
-VelocityCommand ControlStage::Impl::wanted(const FollowInput& input) const {
-  const WantedVelocity velocity = law->velocity(input);
+/// What the law wants within the limits of comfort, as a command that expires.
+VelocityCommand ControlStage::Impl::wanted(const FollowInput& input) {
+  const WantedVelocity wanted = law->velocity(input);
+  search_done = input.searching && wanted.search_done;
+  const WantedVelocity velocity = comfort.limited(wanted, last_command, input.now_ns);
   VelocityCommand command;
   command.t_issued_ns = input.now_ns;
   command.t_expires_ns = input.now_ns + ns_from_seconds(gate_config.command_lifetime_s);
@@ -150,8 +156,9 @@ TickRecord ControlStage::tick(const ControlInput& input) {
   record.conditions =
       impl.condition_monitor.update(input, record.measurement, impl.supervisor_config, impl.sonar_on,
                                     impl.supervisor.new_command(input.request));
+  const bool may_search = impl.law->may_search() && !impl.search_done;
   const Verdict verdict =
-      impl.supervisor.update(input, record.conditions, impl.law->may_search(), impl.supervisor_config);
+      impl.supervisor.update(input, record.conditions, may_search, impl.supervisor_config);
   copy_verdict(verdict, record);
   record.person_m = impl.person_range_m(record.target);
   const Clearances clearances{record.person_m,
@@ -160,7 +167,8 @@ TickRecord ControlStage::tick(const ControlInput& input) {
   record.planned_deceleration_m_s2 =
       std::min(clearances.deceleration_m_s2, impl.gate_config.deceleration_m_s2);
   record.brakes_are_weaker = impl.brakes_are_weaker(input.robot);
-  record.wanted = impl.wanted({input.now_ns, record.target, input.robot, clearances.obstacles});
+  record.wanted = impl.wanted({input.now_ns, record.target, input.robot, clearances.obstacles,
+                               verdict.state == SupervisorState::Searching});
   const GateResult gated =
       apply_gate(record.wanted, impl.last_command, verdict.style, clearances, input.now_ns, impl.gate_config);
   record.free_distance_m = gated.free_distance_m;

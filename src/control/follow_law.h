@@ -14,6 +14,8 @@ struct FollowInput {
   const TargetState& target;        ///< robot frame at `now_ns`
   const RobotState& robot;          ///< the newest packet, odometry included
   const SonarObstacles& obstacles;  ///< robot frame at `now_ns`
+  /// The person is lost: the law may drive to where they were last seen and look for them. `target` is old.
+  bool searching = false;
 };
 
 /// What a law wants. Supervisor and gate come after it: whatever it wants, they bring the robot to rest and
@@ -21,6 +23,8 @@ struct FollowInput {
 struct WantedVelocity {
   double v_m_s = 0.0;
   double yaw_rate_rad_s = 0.0;  ///< counter-clockwise +
+  /// Of a tick with `searching`: there is nothing left to search. The velocity is zero.
+  bool search_done = false;
 };
 
 /// A law may keep a state between ticks, such as the person's path in odom. It reads no clock, and only its
@@ -33,8 +37,8 @@ class FollowLaw {
   virtual void reconfigure(const Config& config) = 0;
   /// The robot may have moved unobserved (the line was interrupted): forgets everything that is kept in odom.
   virtual void reset() = 0;
-  /// True: without a target the law can drive on, along what it knows of the person's path, and has not come
-  /// to its end. The supervisor limits the time (supervisor.search_s).
+  /// True: with `searching` the law can drive on without a target, along what it knows of the person's path.
+  /// The supervisor limits the time (supervisor.search_s).
   virtual bool may_search() const { return false; }
   /// One tick.
   virtual WantedVelocity velocity(const FollowInput& input) = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/view_bounds.h"
 #include "core/angles.h"
 
 namespace heel {
@@ -12,12 +13,6 @@ namespace {
 double with_deadband(double error, double band) {
   if (std::abs(error) <= band) return 0.0;
   return error - std::copysign(band, error);
-}
-
-/// How far behind the person the goal is, along the heading `psi_rad` to have there.
-double distance_behind_m(const TargetState& target, double psi_rad) {
-  return (target.x_m - target.goal_x_m) * std::cos(psi_rad) +
-         (target.y_m - target.goal_y_m) * std::sin(psi_rad);
 }
 
 }  // namespace
@@ -43,7 +38,9 @@ WantedVelocity ProportionalLaw::velocity(const FollowInput& input) {
   const TargetState& target = input.target;
   if (!target.known) return {};
   const double v_m_s = speed_m_s(target);
-  return {v_m_s, keep_in_view(proportional_yaw_rate_rad_s(target), v_m_s, target)};
+  const YawRateBounds bounds =
+      view_bounds(target, mount_, v_m_s, {}, gains_.bearing_max_rad, gains_.bearing_1_s);
+  return {v_m_s, std::clamp(proportional_yaw_rate_rad_s(target), bounds.least_rad_s, bounds.most_rad_s)};
 }
 
 double ProportionalLaw::speed_m_s(const TargetState& target) const {
@@ -57,18 +54,6 @@ double ProportionalLaw::proportional_yaw_rate_rad_s(const TargetState& target) c
                              ? gains_.lateral_rad_s_m * distance_behind_m(target, psi_rad)
                              : gains_.yaw_1_s;
   return gains_.lateral_rad_s_m * target.goal_y_m + yaw_1_s * psi_rad;
-}
-
-/// The yaw rate, within the bounds that keep the person's bearing within its limit.
-double ProportionalLaw::keep_in_view(double yaw_rate_rad_s, double v_m_s, const TargetState& target) const {
-  constexpr double kLeastRange_m = 0.1;  // a bearing at a smaller range is noise
-  const double x_m = target.x_m - mount_.x_m;
-  const double y_m = target.y_m - mount_.y_m;
-  const double bearing_rad = std::atan2(y_m, x_m);
-  const double passing_rad_s = v_m_s * std::sin(bearing_rad) / std::max(std::hypot(x_m, y_m), kLeastRange_m);
-  const double least = passing_rad_s - gains_.bearing_1_s * (gains_.bearing_max_rad - bearing_rad);
-  const double most = passing_rad_s + gains_.bearing_1_s * (gains_.bearing_max_rad + bearing_rad);
-  return std::clamp(yaw_rate_rad_s, least, most);
 }
 
 }  // namespace heel

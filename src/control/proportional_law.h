@@ -36,10 +36,7 @@
 // where k_x g_y = −k_yaw psi.
 //
 // Two bounds hold for all gains:
-// · bearing: the person stays in the picture. With beta the person's bearing from the camera and D the range,
-//   beta' = −omega + v sin(beta) / D; a control barrier lets |beta| approach its limit no faster than
-//   gain · (distance to the limit), which bounds omega on either side (A. Ames et al., "Control Barrier
-//   Functions: Theory and Applications", ECC 2019, Eq. (17)).
+// · bearing: the person stays in the picture (control/view_bounds.h).
 // · no reverse unless it is allowed.
 #pragma once
 
@@ -76,7 +73,6 @@ class ProportionalLaw final : public FollowLaw {
   };
   double speed_m_s(const TargetState& target) const;
   double proportional_yaw_rate_rad_s(const TargetState& target) const;
-  double keep_in_view(double yaw_rate_rad_s, double v_m_s, const TargetState& target) const;
 
   YawGain yaw_gain_;
   Gains gains_;

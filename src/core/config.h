@@ -58,6 +58,21 @@ struct ControlConfig {
   bool reverse = false;           ///< may drive backwards when the person comes nearer
   double bearing_max_rad = 0.35;  ///< largest angle between the person and the optical axis
   double bearing_gain_1_s = 2.0;  ///< how fast the bearing may approach that angle
+  // Comfort: limits of every law's output. The gate's own stay behind them.
+  double acceleration_m_s2 = 0.6;
+  double deceleration_m_s2 = 1.2;
+  double jerk_m_s3 = 2.8;
+  double yaw_acceleration_rad_s2 = 2.5;
+  double yaw_jerk_rad_s3 = 20.0;
+  // The law "trail".
+  double trail_reach_m = 0.4;       ///< an offset from the trail is gone after some of these
+  double trail_smooth_m = 1.4;      ///< the trail is smoothed over this far ahead and behind
+  double trail_delay_s = 0.15;      ///< from a command to the motion
+  double trail_bearing_rad = 0.44;  ///< as bearing_max_rad; allows for the person's own motion
+  double detour_m = 0.3;            ///< how far beside the trail it passes an obstacle at most
+  double search_m_s = 0.25;         ///< along the rest of the trail when the person is lost
+  double search_look_rad = 0.9;     ///< to either side at the end of the trail
+  double search_turn_rad_s = 0.5;
 };
 
 struct SupervisorConfig {

@@ -13,6 +13,7 @@ import run_errors
 import run_frames
 import run_path
 import steps
+import sweep
 import walk
 from tables import read_json
 
@@ -28,6 +29,7 @@ MODULES = (
     error_map,
     real_video,
     reliability,
+    sweep,
 )
 
 

@@ -33,6 +33,8 @@ constexpr std::array kFigures{
     RunFigure{"out_of_sight_share", [](const FollowMetrics& m) { return m.following.out_of_sight_share; }},
     RunFigure{"found_again_longest_s",
               [](const FollowMetrics& m) { return m.following.found_again_s.highest; }},
+    RunFigure{"settled_s", [](const FollowMetrics& m) { return m.following.settled_s; }},
+    RunFigure{"overshoot_share", [](const FollowMetrics& m) { return m.following.overshoot_share; }},
     RunFigure{"contacts", [](const FollowMetrics& m) { return static_cast<double>(m.following.contacts); }},
     RunFigure{"followed_to_end",
               [](const FollowMetrics& m) { return m.following.followed_to_end ? 1.0 : 0.0; }},

@@ -107,6 +107,34 @@ std::vector<double> measure_path(const std::vector<MotionSample>& motion, const 
   return straight_times_s;
 }
 
+/// How the robot came to the path from beside it.
+void measure_step(const std::vector<MotionSample>& motion, const WalkTimes& walk, FollowingFigures& out) {
+  constexpr double kMoved_m = 0.01;
+  const std::vector<Pose2> path = person_path(motion);
+  if (path.size() < 2) return;
+  std::size_t near = 0;
+  const double first_m = place_on_path(path, motion.front().robot, 0).lateral_m;
+  out.has_step = std::abs(first_m) >= kStep_m;
+  if (!out.has_step) return;
+  double t_moved_s = -1.0, beyond_m = 0.0;
+  for (const MotionSample& sample : motion) {
+    if (sample.t_s > walk.end_s) break;
+    const PathPlace place = place_on_path(path, sample.robot, near);
+    near = place.segment;
+    if (t_moved_s < 0.0 && std::hypot(sample.robot.x_m - motion.front().robot.x_m,
+                                      sample.robot.y_m - motion.front().robot.y_m) < kMoved_m)
+      continue;
+    if (t_moved_s < 0.0) t_moved_s = sample.t_s;
+    const Pose2 &a = path[near], &b = path[near + 1];
+    const double off_rad =
+        wrap_angle_rad(sample.robot.heading_rad - std::atan2(b.y_m - a.y_m, b.x_m - a.x_m));
+    if (std::abs(place.lateral_m) > kSettled_m || std::abs(off_rad) > kSettled_rad)
+      out.settled_s = sample.t_s - t_moved_s;
+    beyond_m = std::max(beyond_m, -std::copysign(1.0, first_m) * place.lateral_m);
+  }
+  out.overshoot_share = beyond_m / std::abs(first_m);
+}
+
 void measure_view(const std::vector<MotionSample>& motion, const WalkTimes& walk,
                   const FollowReference& reference, FollowingFigures& out) {
   std::size_t all = 0, within = 0, out_of_sight = 0;
@@ -180,6 +208,7 @@ FollowingFigures following_figures(const std::vector<MotionSample>& motion,
   FollowingFigures out;
   const WalkTimes walk = walk_times(motion);
   const std::vector<double> straight_times_s = measure_path(motion, walk, reference, out);
+  measure_step(motion, walk, out);
   measure_view(motion, walk, reference, out);
   measure_found_again(motion, poses, walk, out);
   measure_commands(ticks, walk, straight_times_s, out);
@@ -205,6 +234,9 @@ nlohmann::ordered_json to_json(const FollowingFigures& f) {
           {"yaw_within_share", f.yaw_within_share},
           {"out_of_sight_share", f.out_of_sight_share},
           {"found_again_s", to_json(f.found_again_s)},
+          {"has_step", f.has_step},
+          {"settled_s", f.settled_s},
+          {"overshoot_share", f.overshoot_share},
           {"contacts", f.contacts},
           {"followed_to_end", f.followed_to_end}};
 }

@@ -33,12 +33,20 @@ struct FollowingFigures {
       0.0;  ///< time in which the back is out of the picture or turned away, not hidden
   Quantiles
       found_again_s;  ///< from the back in view again, after kHidden_s without, to the first frame found
-  int contacts = 0;   ///< how often a bumper was pressed
+  /// Of a robot that begins at least kStep_m beside the path: from its first motion until it stays within
+  /// kSettled_m and kSettled_rad of the path, and the largest offset to the other side over the first one.
+  bool has_step = false;
+  double settled_s = 0.0;
+  double overshoot_share = 0.0;
+  int contacts = 0;              ///< how often a bumper was pressed
   bool followed_to_end = false;  ///< at the last step: following, and at most kLeftBehind_m too far behind
 };
 
 inline constexpr double kAlongBand_m = 0.15;
 inline constexpr double kYawBand_rad = 0.25 * std::numbers::pi;
+inline constexpr double kStep_m = 0.2;
+inline constexpr double kSettled_m = 0.05;
+inline constexpr double kSettled_rad = std::numbers::pi / 36.0;
 inline constexpr double kHidden_s = 0.4;
 inline constexpr double kLeftBehind_m = 1.0;
 

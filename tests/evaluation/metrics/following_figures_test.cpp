@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "heel/flow.h"
@@ -112,6 +113,21 @@ TEST(FollowingFigures, ViewContactsAndTheTimeUntilFoundAgain) {
   EXPECT_NEAR(f.out_of_sight_share, 10.0 / 1001.0, 1e-9);
   EXPECT_NEAR(f.yaw_within_share, 1.0 - 100.0 / 1001.0, 1e-9);
   EXPECT_EQ(f.contacts, 1);
+}
+
+TEST(FollowingFigures, AStepSettlesAndOvershoots) {
+  WalkInLine run;
+  EXPECT_FALSE(run.figures().has_step);
+  for (MotionSample& sample : run.motion) {
+    // Moves from the second second on; from 0.5 m to -0.1 m in 3 s, and on the line from 6 s on.
+    const double t_s = std::clamp(sample.t_s - 2.0, 0.0, 4.0);
+    sample.robot = {-3.0 + 0.5 * std::max(sample.t_s - 2.0, 0.0), 0.5 - 0.2 * std::min(t_s, 3.0), 0.0};
+    if (t_s > 3.0) sample.robot.y_m = -0.1 * (4.0 - t_s);
+  }
+  const FollowingFigures f = run.figures();
+  ASSERT_TRUE(f.has_step);
+  EXPECT_NEAR(f.settled_s, 3.5, 0.05);
+  EXPECT_NEAR(f.overshoot_share, 0.2, 0.01);
 }
 
 TEST(FollowingFigures, WithoutSamplesThereAreNone) {
