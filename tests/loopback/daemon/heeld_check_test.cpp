@@ -141,10 +141,12 @@ TEST(HeeldCheck, HelpStatesTheExitStatuses) {
 }
 
 TEST(HeeldCheck, PrintsTheCommittedExampleAndManual) {
-  const Outcome example = heeld({"--print-default-config"}), manual = heeld({"--print-config-manual"});
+  const Outcome example = heeld({"--print-default-config"}), manual = heeld({"--print-config-manual"}),
+                states = heeld({"--print-state-manual"});
   EXPECT_EQ(example.out, read_text(source_path("config/heel.toml")));
   EXPECT_EQ(manual.out, read_text(source_path("docs/configuration.md")));
-  for (const Outcome& outcome : {example, manual}) {
+  EXPECT_THAT(read_text(source_path("docs/safety.md")), HasSubstr(states.out));
+  for (const Outcome& outcome : {example, manual, states}) {
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.err, "");
     EXPECT_GT(outcome.out.size(), 1000u);

@@ -267,7 +267,7 @@ TEST_F(Heeld, NothingMovesBeforeAStart) {
 
 TEST_F(Heeld, StartingAtOnceIsSaidInTheLog) {
   start_heeld(scene_.write_config());
-  EXPECT_TRUE(daemon_->says("[warning] supervisor.start = \"at_once\"")) << logs();
+  EXPECT_TRUE(daemon_->says("warning supervisor.start = \"at_once\"")) << logs();
 }
 
 TEST_F(Heeld, StopButtonHoldsTheRobotUntilHeeldIsRestarted) {
