@@ -45,8 +45,11 @@ double Detour::offset_m(const Trail& trail, double robot_s_m, const Pose2& robot
                         const SonarObstacles& obstacles, bool blocked, TimeNs now_ns) {
   const double dt_s = std::clamp(seconds_from_ns(now_ns - t_last_ns_), 0.0, 0.1);
   t_last_ns_ = now_ns;
-  if (!blocked) t_free_ns_ = now_ns;
-  if (blocked && most_m_ > 0.0 && now_ns - t_free_ns_ >= kSure_ns) {
+  if (!blocked)
+    t_block_ns_ = 0;
+  else if (t_block_ns_ == 0)
+    t_block_ns_ = now_ns;
+  if (blocked && most_m_ > 0.0 && now_ns - t_block_ns_ >= kSure_ns) {
     std::array<double, kSonars> left_m{};
     std::size_t count = 0;
     const double c = std::cos(robot.heading_rad), s = std::sin(robot.heading_rad);

@@ -13,17 +13,16 @@ class Detour {
   void reconfigure(double most_m) { most_m_ = most_m; }
   void reset() { offset_m_ = wanted_m_ = 0.0; }
   /// One tick: the offset from the trail to drive at, left +. `blocked`: an obstacle limits the robot's
-  /// speed. Echoes within `person_m` along the trail of the person count as the person.
+  /// speed. Echoes near the person's place on the trail count as the person's.
   double offset_m(const Trail& trail, double robot_s_m, const Pose2& robot, const SonarObstacles& obstacles,
                   bool blocked, TimeNs now_ns);
-  bool active() const { return offset_m_ != 0.0 || wanted_m_ != 0.0; }
 
  private:
   double most_m_ = 0.0;
   double wanted_m_ = 0.0;
   double offset_m_ = 0.0;
-  TimeNs t_free_ns_ = 0;  // the last tick in which the way was free
-  TimeNs t_blocked_ns_ = 0;
+  TimeNs t_block_ns_ = 0;    // since when the way is blocked; 0: it is free
+  TimeNs t_blocked_ns_ = 0;  // the last tick in which it was
   TimeNs t_last_ns_ = 0;
 };
 
