@@ -137,12 +137,6 @@ std::span<const RequestRow> request_table() {
   return kTable;
 }
 
-std::string_view name_of(RequestKind kind) {
-  for (const RequestRow& row : kTable)
-    if (row.kind == kind) return row.name;
-  return "?";
-}
-
 ParsedRequest parse_request(std::string_view line) {
   ParsedRequest parsed;
   Reader reader(parsed);

@@ -36,7 +36,6 @@ struct RequestRow {
   std::string_view effect;
 };
 std::span<const RequestRow> request_table();
-std::string_view name_of(RequestKind kind);
 
 struct ParsedRequest {
   Request request;

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "files/csv_table.h"
 #include "loopback/daemon/heeld_fixture.h"
