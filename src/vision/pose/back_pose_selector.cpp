@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "heel/motion.h"
 #include "vision/pose/alternative_hypotheses.h"
 #include "vision/pose/average_back.h"
 
@@ -27,8 +26,6 @@ constexpr double kBoardResidual = 0.7;
 // Without patches the odds of the curved surface are the advantage to the power −4: 2 to 5 at 1.25 times, 1
 // to 16 at twice.
 constexpr double kAdvantageExponent = 4.0;
-// Poses whose yaws differ by less are the same. One with this share less in its score is e times less likely.
-constexpr double kOtherYaw_rad = 0.15, kDoubtfulShare = 0.02;
 constexpr double kMinNoise_px = 0.3;  // smaller residuals do not make a fit better
 
 /// How well a pose explains the frame: it is better with more pairs and with smaller residuals.
@@ -65,37 +62,16 @@ BackPose BackPoseSelector::estimate(const PlaneSolution& plane, TemplateMatcher&
   const double advantage =
       explanation(plane.inliers.size(), of_plane) / explanation(of_curve.pairs.size(), of_curve.pose);
   if (!(advantage >= kPlaneAdvantage))
-    return {curve ? with_doubt(problem, frame, *curve, patch_rounds) : of_curve.pose, of_curve.pairs.size()};
+    return {curve ? frontal_pose(*curve) : of_curve.pose, of_curve.pairs.size()};
 
   const std::optional<SurfacePose> flat =
       patch_refiner_.refine(frame.view, flat_, plane.inliers, of_plane.motion, patch_rounds);
   if (curve && !(flat && flat->residual_px < kBoardResidual * curve->residual_px))
-    return {with_doubt(problem, frame, *curve, patch_rounds), of_curve.pairs.size()};
+    return {frontal_pose(*curve), of_curve.pairs.size()};
   if (flat) return {frontal_pose(*flat), plane.inliers.size()};
   const AlternativeHypothesis curved{of_curve.pose.motion, std::pow(advantage, -kAdvantageExponent)};
   inflate_covariance({&curved, 1}, of_plane);
   return {of_plane, plane.inliers.size()};
-}
-
-/// The pose, and in its sigmas the chance that the back is turned as far to the other side: seen from afar
-/// the two look nearly alike. The patches do not decide between them, because they are right no more often
-/// than the pairs.
-FrontalPose BackPoseSelector::with_doubt(const FrontalProblem& problem, const FrameContent& frame,
-                                         const SurfacePose& pose, int patch_rounds) {
-  const PlaneMotion mirrored = mirrored_motion(problem, pose.motion);
-  FrontalMotion start;
-  start.R_cur_from_ref = mirrored.R_cur_from_ref;
-  start.t_over_d = mirrored.t_over_d;
-  const std::optional<SurfacePose> other =
-      yaw_difference_rad(start, pose.motion) < kOtherYaw_rad
-          ? std::nullopt
-          : patch_refiner_.refine(frame.view, curved_, {}, start, patch_rounds);
-  if (!other || yaw_difference_rad(other->motion, pose.motion) < kOtherYaw_rad) return frontal_pose(pose);
-  FrontalPose answer = frontal_pose(pose);
-  const double share = (pose.score - other->score) / pose.score;
-  const AlternativeHypothesis alternative{other->motion, std::min(1.0, std::exp(-share / kDoubtfulShare))};
-  inflate_covariance({&alternative, 1}, answer);
-  return answer;
 }
 
 BackPose BackPoseSelector::estimate_next(const FrontalMotion& last, const PlaneSolution& plane,

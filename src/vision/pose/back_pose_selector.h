@@ -48,9 +48,6 @@ class BackPoseSelector {
                          const FrameContent& frame);
 
  private:
-  FrontalPose with_doubt(const FrontalProblem& problem, const FrameContent& frame, const SurfacePose& pose,
-                         int patch_rounds);
-
   Eigen::Matrix3d K_ref_, K_cur_;
   Eigen::Vector2d centre_px_;
   BackSurface flat_, curved_;
