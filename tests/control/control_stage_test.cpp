@@ -240,6 +240,13 @@ TEST_P(ControlStageWithEachLaw, FollowsAPersonWhoWalksStraight) {
   EXPECT_NEAR(run.robot.y_m, 0.0, 0.05);
   run.visible = false;
   run.run(2.0);
+  const bool searches = run.record.state == SupervisorState::Searching;
+  EXPECT_EQ(searches, GetParam() == "trail");
+  if (searches) {
+    EXPECT_LE(run.v_m_s, run.config.control.search_m_s);
+    run.run(run.config.supervisor.search_s);
+  }
+  EXPECT_EQ(run.record.state, SupervisorState::Waiting);
   EXPECT_EQ(run.v_m_s, 0.0);
   EXPECT_EQ(run.yaw_rate_rad_s, 0.0);
 }
