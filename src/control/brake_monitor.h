@@ -14,7 +14,7 @@ class BrakeMonitor {
  public:
   /// Once a tick. `commanded`: the velocity that was sent in the tick before.
   void update(const RobotState& robot, const VelocityCommand& commanded);
-  /// After an interruption: the robot may have other limits.
+  /// After an interruption, or an operator's reset: what was seen may no longer be true.
   void reset() { *this = {}; }
 
   /// The smallest deceleration of the drives so far in m/s²; infinite before the first. Below kLeast_m_s2 it
@@ -24,12 +24,14 @@ class BrakeMonitor {
   static constexpr double kLeast_m_s2 = 0.05;
 
  private:
+  enum class Step : unsigned char { Obeys, IsTold, Slows };  ///< to slow down
+  void start(Step step, double v_m_s);
+
   double seen_m_s2_ = std::numeric_limits<double>::infinity();
   TimeNs t_sip_ns_ = 0;
-  bool slowing_ = false;
-  TimeNs t_slowing_ns_ = 0;  ///< since when it drives faster than commanded
-  bool measuring_ = false;
-  TimeNs t_start_ns_ = 0;  ///< of the measurement
+  double told_before_m_s_ = 0.0;  ///< the last command that the robot kept up with
+  Step step_ = Step::Obeys;
+  TimeNs t_start_ns_ = 0;  ///< of the step, or of the measurement
   double v_start_m_s_ = 0.0;
 };
 

@@ -160,6 +160,7 @@ TickRecord ControlStage::tick(const ControlInput& input) {
   const Verdict verdict =
       impl.supervisor.update(input, record.conditions, may_search, impl.supervisor_config);
   copy_verdict(verdict, record);
+  if (verdict.enable_motors) impl.brake_monitor.reset();
   record.person_m = impl.person_range_m(record.target);
   const Clearances clearances{record.person_m,
                               impl.obstacle_map.obstacles_at(input.now_ns, input.robot.odometry),

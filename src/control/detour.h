@@ -11,7 +11,10 @@ namespace heel {
 class Detour {
  public:
   void reconfigure(double most_m) { most_m_ = most_m; }
-  void reset() { offset_m_ = wanted_m_ = 0.0; }
+  void reset() {
+    offset_m_ = wanted_m_ = 0.0;
+    t_block_ns_ = t_blocked_ns_ = 0;
+  }
   /// One tick: the offset from the trail to drive at, left +. `blocked`: an obstacle limits the robot's
   /// speed. Echoes near the person's place on the trail count as the person's.
   double offset_m(const Trail& trail, double robot_s_m, const Pose2& robot, const SonarObstacles& obstacles,

@@ -37,6 +37,13 @@ double approach_limit(double range_m, double nearest_m, double deceleration_m_s2
   return std::sqrt(deceleration_m_s2 * (range_m - nearest_m));
 }
 
+/// The speed by which the arc ahead is judged. A robot that is only just moving while it turns would drive an
+/// arc of some centimetres, and meet nothing on it: it will be faster before it is round.
+double on_an_arc(double v_m_s) {
+  constexpr double kLeast_m_s = 0.2;
+  return v_m_s == 0.0 ? 0.0 : std::copysign(std::max(std::abs(v_m_s), kLeast_m_s), v_m_s);
+}
+
 Velocity velocity_at(const VelocityCommand& previous, TimeNs now_ns, const GateConfig& limits) {
   if (!finite(previous) || now_ns > previous.t_expires_ns) return {};
   return {std::clamp(previous.v_m_s, -limits.v_max_m_s, limits.v_max_m_s),
@@ -73,8 +80,9 @@ GateResult apply_gate(const VelocityCommand& wanted, const VelocityCommand& prev
   goal.v_m_s = clamped(goal.v_m_s, -limits.v_max_m_s, person_limit_m_s, kGateSeparation, limited_by);
   // Two arcs must be free: the one to drive, and the one that is driven until the velocity has changed.
   const Velocity now = velocity_at(previous, now_ns, limits);
-  result.free_distance_m = std::min(clearances.obstacles.free_distance_m(goal.v_m_s, goal.yaw_rate_rad_s),
-                                    clearances.obstacles.free_distance_m(now.v_m_s, now.yaw_rate_rad_s));
+  result.free_distance_m =
+      std::min(clearances.obstacles.free_distance_m(on_an_arc(goal.v_m_s), goal.yaw_rate_rad_s),
+               clearances.obstacles.free_distance_m(on_an_arc(now.v_m_s), now.yaw_rate_rad_s));
   const double obstacle_limit_m_s = approach_limit(result.free_distance_m, limits.clearance_m, brakes_m_s2);
   goal.v_m_s = clamped(goal.v_m_s, -obstacle_limit_m_s, obstacle_limit_m_s, kGateObstacle, limited_by);
   const bool obstacle_holds = (limited_by & kGateObstacle) != 0 && obstacle_limit_m_s < kHeld_m_s;

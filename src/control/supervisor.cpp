@@ -21,7 +21,8 @@ Verdict Supervisor::update(const ControlInput& input, Conditions conditions, boo
   facts.may_search = law_may_search && !search_over && config.search_s > 0.0;
   if (facts.command != OperatorCommand::None) started_ = true;
   if (facts.command == OperatorCommand::Stop) halted_ = true;
-  if (facts.command == OperatorCommand::Start) halted_ = false;
+  const bool can_start = (conditions & kFaults) == 0 && before != SupervisorState::Emergency;
+  if (facts.command == OperatorCommand::Start && can_start) halted_ = false;
   facts.first_start = at_once_ && !started_;
   facts.resumes = at_once_ && !halted_;
 

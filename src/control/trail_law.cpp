@@ -19,6 +19,7 @@ constexpr double kWalks_m_s = 0.16;
 constexpr TimeNs kLongestWalk_ns = 500 * kNsPerMs;
 // A search ends this far before the place where the person was last seen.
 constexpr double kShortOfEnd_m = 0.5;
+constexpr double kTurningRoom_m = 0.48;  // from the robot's centre: its corners, 0.40 m, and a margin
 // The curvature counts for the speed that the robot will soon have, at most this much more.
 constexpr double kAnticipated_m_s = 0.1;
 // The estimate of the person's speed has noise of this size; a larger difference is another pace.
@@ -55,7 +56,8 @@ void TrailLaw::reconfigure(const Config& config) {
               .clearance_m = config.gate.clearance_m,
               .deceleration_m_s2 = config.gate.deceleration_m_s2,
               .v_max_m_s = config.gate.v_max_m_s,
-              .search_m_s = control.search_m_s};
+              .search_m_s = control.search_m_s,
+              .nearest_m = config.gate.separation_m + config.camera.mount_x_m + kBackBehindAxis_m + 0.05};
   mount_ = mount_of(config.camera);
   detour_.reconfigure(control.detour_m);
   search_.reconfigure(control.search_look_rad, control.search_turn_rad_s);
@@ -132,7 +134,8 @@ WantedVelocity TrailLaw::velocity(const FollowInput& input) {
   const Odometry& odometry = input.robot.odometry;
   const double age_s = std::clamp(seconds_from_ns(input.now_ns - odometry.t_ns), 0.0, 0.5);
   const Pose2 now = extrapolated(odometry, age_s);
-  extend_trail(input, now);
+  // While it searches, a single frame is no evidence of where the person is: the trail stays as it was.
+  if (!input.searching) extend_trail(input, now);
   if (trail_.empty()) return {0.0, 0.0, input.searching};
   const Pose2 robot = extrapolated(odometry, age_s + control_.delay_s);
   robot_s_m_ =
@@ -172,17 +175,24 @@ double TrailLaw::braking_m(double v_m_s) const {
 
 WantedVelocity TrailLaw::search(const FollowInput& input, const Pose2& robot) {
   if (!search_.running()) {
+    detour_.reset();
     const TargetState& target = input.target;
     const bool turning = std::abs(target.walk_turn_rad_s) > target.walk_turn_sigma_rad_s;
     search_.begin(trail_.at(trail_.last_m(), control_.smooth_m).heading_rad,
                   turning ? target.walk_turn_rad_s : target.y_m);
   }
   if (search_.done()) return {0.0, 0.0, true};
-  const double left_m = trail_.tip_m() - kShortOfEnd_m - robot_s_m_;
+  const double left_m = trail_.tip_m() - std::max(kShortOfEnd_m, control_.nearest_m) - robot_s_m_;
   if (left_m > 0.0) {
     const double v_m_s = std::min(control_.search_m_s, control_.distance_1_s * left_m + 0.03);
     return {v_m_s, yaw_rate_rad_s(robot, v_m_s, control_.beside_m)};
   }
+  // The gate does not see what the corners of a turning robot would hit.
+  const auto points = input.obstacles.points();
+  const bool narrow = std::any_of(points.begin(), points.end(), [](const ObstaclePoint& point) {
+    return std::hypot(point.x_m, point.y_m) < kTurningRoom_m;
+  });
+  if (narrow) return {0.0, 0.0, true};
   return {0.0, search_.yaw_rate_rad_s(robot.heading_rad, input.now_ns)};
 }
 

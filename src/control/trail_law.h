@@ -59,6 +59,7 @@ class TrailLaw final : public FollowLaw {
     double deceleration_m_s2 = 0.0;
     double v_max_m_s = 0.0;
     double search_m_s = 0.0;
+    double nearest_m = 0.0;  // that the gate lets the robot come to the axis of the person
   };
   void extend_trail(const FollowInput& input, const Pose2& robot);
   void update_person_speed(const TargetState& target, double dt_s);

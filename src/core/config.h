@@ -85,7 +85,7 @@ struct SupervisorConfig {
   double sip_timeout_s = 0.5;       ///< no SIP for this long: robot silent
   double bumper_hold_s = 2.0;       ///< time at rest after a bumper or stall has cleared
   double sonar_timeout_s = 1.0;     ///< no reading of a front sonar for this long: sonars silent
-  double search_s = 5.0;            ///< longest search for a lost target by a law that can drive on
+  double search_s = 15.0;           ///< longest search for a lost target by a law that can drive on
   double battery_low_v = 11.0;      ///< below this the battery counts as low; 0: never
   double battery_ok_v = 12.0;       ///< at or above this it no longer does (hysteresis)
   double lateness_max_s = 0.2;      ///< a tick that is later than this: control too late; 0: never

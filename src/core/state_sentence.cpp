@@ -12,7 +12,8 @@ std::string with_metres(const char* before, double distance_m, const char* after
   return {text.data(), static_cast<std::size_t>(size)};
 }
 
-std::string moving_sentence(const TickRecord& tick) {
+/// What the gate holds the robot by; empty: nothing.
+std::string hold_sentence(const TickRecord& tick) {
   switch (tick.hold) {
     case Hold::PersonTooNear:
       return with_metres("held: the person is ", tick.person_m, " away");
@@ -21,6 +22,11 @@ std::string moving_sentence(const TickRecord& tick) {
     case Hold::None:
       break;
   }
+  return "";
+}
+
+std::string moving_sentence(const TickRecord& tick) {
+  if (tick.hold != Hold::None) return hold_sentence(tick);
   const std::uint32_t template_index = tick.input.pose.template_index;
   return template_index == 0 ? "following" : "following by template " + std::to_string(template_index);
 }
@@ -48,7 +54,8 @@ const char* remedy(const TickRecord& tick) {
 std::string state_sentence(const TickRecord& tick) {
   if (tick.stop_reason == StopReason::None) return moving_sentence(tick);
   const std::string reason = to_string(tick.stop_reason);
-  if (tick.state == SupervisorState::Searching) return "searching: " + reason;
+  if (tick.state == SupervisorState::Searching)
+    return "searching: " + reason + (tick.hold == Hold::None ? "" : "; " + hold_sentence(tick));
   const PoseEstimate& pose = tick.input.pose;
   const bool waits_for_person =
       tick.stop_reason == StopReason::NoTargetYet || tick.stop_reason == StopReason::TargetLost;

@@ -6,6 +6,7 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <termios.h>
@@ -73,6 +74,14 @@ bool SerialLine::open(const RobotAddress& address, int baud) {
   return false;
 }
 
+/// A second program on the line would break the session of the first: its bytes mix with them, and its CLOSE
+/// ends it. The lock keeps out those that ask for one, such as another heeld; it ends with the descriptor.
+bool SerialLine::claim() {
+  if (::flock(fd_, LOCK_EX | LOCK_NB) == 0) return true;
+  return fail(errno == EWOULDBLOCK ? "another program uses this line (another heeld?); stop it first"
+                                   : fmt::format("cannot lock: {}", std::strerror(errno)));
+}
+
 bool SerialLine::open_serial(const RobotAddress& address, int baud) {
   // libserialport knows devices by their kernel names only, so udev's symlinks are resolved first.
   std::error_code missing;
@@ -83,6 +92,7 @@ bool SerialLine::open_serial(const RobotAddress& address, int baud) {
   }
   if (sp_open(port_, SP_MODE_READ_WRITE) != SP_OK) return fail("cannot open: " + last_serial_error());
   sp_get_port_handle(port_, &fd_);
+  if (!claim()) return false;
   const bool configured = sp_set_baudrate(port_, baud) == SP_OK && sp_set_bits(port_, 8) == SP_OK &&
                           sp_set_parity(port_, SP_PARITY_NONE) == SP_OK &&
                           sp_set_stopbits(port_, 1) == SP_OK &&
@@ -96,6 +106,7 @@ bool SerialLine::open_pty(const RobotAddress& address, int baud) {
   fd_ = ::open(address.path.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   if (fd_ < 0) return fail(fmt::format("cannot open: {}", std::strerror(errno)));
   if (::isatty(fd_) == 0) return fail("is not a terminal (expected the path of a pty)");
+  if (!claim()) return false;
   return configure_pty(baud) || fail(fmt::format("cannot configure: {}", std::strerror(errno)));
 }
 

@@ -55,6 +55,7 @@ class SerialLine {
   bool configure_pty(int baud);
   bool open_tcp(const RobotAddress& address);
   bool fail(const std::string& why);
+  bool claim();
 
   RobotAddress::Kind kind_ = RobotAddress::Kind::Serial;
   std::string name_;  ///< the address, for errors

@@ -71,18 +71,58 @@ TEST(BrakeMonitor, DoesNotMeasureWithTheMotorsOff) {
   EXPECT_GT(run.monitor.seen_m_s2(), 100.0);
 }
 
-TEST(BrakeMonitor, MeasuresBackwardsToo) {
-  Braking run;
-  run.run(0.1, 0.0, 0.3);
+/// One packet each 100 ms: the robot's speed, and what it was told.
+struct Packets {
   BrakeMonitor monitor;
   RobotState robot;
-  robot.has_sip = robot.motors_enabled = true;
-  for (int i = 0; i < 10; ++i) {
-    robot.odometry.t_ns = kNsPerS + i * 100 * kNsPerMs;
-    robot.odometry.v_m_s = -0.7 + 0.03 * i;
-    monitor.update(robot, {});
+  TimeNs now_ns = kNsPerS;
+
+  Packets() { robot.has_sip = robot.motors_enabled = true; }
+  void add(double v_m_s, double told_m_s) {
+    now_ns += 100 * kNsPerMs;
+    robot.odometry.t_ns = now_ns;
+    robot.odometry.v_m_s = v_m_s;
+    VelocityCommand command;
+    command.v_m_s = told_m_s;
+    monitor.update(robot, command);
   }
-  EXPECT_NEAR(monitor.seen_m_s2(), 0.3, 1e-6);
+};
+
+TEST(BrakeMonitor, MeasuresBackwardsToo) {
+  Packets run;
+  run.add(-0.7, -0.7);
+  for (int i = 0; i < 10; ++i) run.add(-0.7 + 0.03 * i, 0.0);
+  EXPECT_NEAR(run.monitor.seen_m_s2(), 0.3, 1e-6);
+}
+
+TEST(BrakeMonitor, TheDelayOfASlowLineIsNotWeakness) {
+  for (const int delay : {2, 5, 8}) {  // packets from the command until its effect is seen
+    Packets run;
+    for (int i = 0; i < 5; ++i) run.add(0.7, 0.7);
+    for (int i = 0; i < 20; ++i) run.add(std::clamp(0.7 - 0.15 * (i - delay), 0.0, 0.7), 0.0);
+    EXPECT_GT(run.monitor.seen_m_s2(), 1.2) << delay;
+  }
+}
+
+TEST(BrakeMonitor, NeitherASlopeNorAPushIsWeakness) {
+  Packets slope;
+  for (int i = 0; i < 30; ++i) slope.add(0.6, 0.5);
+  EXPECT_GT(slope.monitor.seen_m_s2(), 100.0);
+  Packets push;
+  for (int i = 0; i < 30; ++i) push.add(i < 10 ? 0.05 * i : 0.5, 0.0);
+  EXPECT_GT(push.monitor.seen_m_s2(), 100.0);
+}
+
+TEST(BrakeMonitor, ALaterStopThatIsStrongerCounts) {
+  Packets run;
+  const auto stop_with = [&](double m_s2) {
+    for (int i = 0; i < 3; ++i) run.add(0.7, 0.7);
+    for (int i = 0; i < 30; ++i) run.add(std::max(0.7 - 0.1 * m_s2 * i, 0.0), 0.0);
+  };
+  stop_with(0.2);
+  EXPECT_NEAR(run.monitor.seen_m_s2(), 0.2, 0.02);
+  stop_with(1.0);
+  EXPECT_NEAR(run.monitor.seen_m_s2(), 1.0, 0.05);
 }
 
 }  // namespace

@@ -176,6 +176,17 @@ TEST(Gate, PlansItsStopsWithTheBrakesOfTheRobot) {
   }
 }
 
+/// A law that turns while its speed only begins to grow: the arc of some centimetres is not what it will
+/// drive.
+TEST(Gate, AnObstacleAheadHoldsARobotThatOnlyBeginsToMove) {
+  for (const double v_m_s : {0.004, 0.02, 0.1}) {
+    const auto result = apply_gate(command(v_m_s, 0.3), command(0, 0, kNow_ns - kTick_ns), StopStyle::Go,
+                                   obstacle(0.313 + 0.3, 0.1), kNow_ns, GateConfig{});
+    EXPECT_EQ(result.command.v_m_s, 0.0) << v_m_s;
+    EXPECT_EQ(result.hold, Hold::ObstacleAhead) << v_m_s;
+  }
+}
+
 TEST(Gate, ReturnsTheFreeDistanceItUsed) {
   const auto free_distance_m = [](StopStyle style, const Clearances& clearances) {
     return apply_gate(command(0.5, 0), command(0.5, 0, kNow_ns - kTick_ns), style, clearances, kNow_ns,

@@ -144,6 +144,8 @@ TEST(Supervisor, WithAtOnceItGoesOnAfterAFaultUnlessTheOperatorStopsIt) {
   EXPECT_EQ(bench.tick(kBumper, OperatorCommand::Stop).outcome, OperatorOutcome::AlreadySo);
   EXPECT_TRUE(bench.last.needs_start);
   for (int i = 0; i < 10; ++i) EXPECT_EQ(bench.tick(0).state, State::Stopped);
+  EXPECT_EQ(bench.tick(kBumper, OperatorCommand::Start).outcome, OperatorOutcome::Refused);
+  EXPECT_EQ(bench.tick(0).state, State::Stopped) << "a start that was refused takes back no stop";
   EXPECT_EQ(bench.tick(0, OperatorCommand::Start).state, State::Following);
   bench.tick(0, OperatorCommand::Stop);
   for (int i = 0; i < 10; ++i) EXPECT_EQ(bench.tick(0).state, State::Idle);

@@ -220,7 +220,10 @@ TEST(TrailLaw, SearchesAlongTheRestOfTheTrailAndThenToBothSides) {
     if (first_side == 0 && std::abs(turn_rad) > 0.7) first_side = turn_rad > 0.0 ? 1 : -1;
   }
   EXPECT_TRUE(done);
-  EXPECT_LT(nearest_m, 0.7);
+  // Not nearer than the gate lets it come to where the person was.
+  const double stop_m = loop.config.gate.separation_m + loop.config.camera.mount_x_m;
+  EXPECT_GT(nearest_m, stop_m);
+  EXPECT_LT(nearest_m, stop_m + 0.25);
   EXPECT_LE(fastest_m_s, loop.config.control.search_m_s + 1e-9);
   EXPECT_EQ(first_side, 1);  // they were turning left
   EXPECT_GT(most_left_rad, 0.8 * loop.config.control.search_look_rad);
@@ -232,10 +235,29 @@ TEST(TrailLaw, SearchesAlongTheRestOfTheTrailAndThenToBothSides) {
   // Seen again: a new search begins from the start.
   loop.seen = true;
   loop.searching = false;
+  loop.person = test::moved(loop.robot, 2.0, 0.0, 1.0);
   loop.run(0.2);
   loop.searching = true;
   loop.tick();
   EXPECT_FALSE(loop.wanted.search_done);
+}
+
+TEST(TrailLaw, ASingleFrameDoesNotMoveTheTrailThatIsSearched) {
+  TrailLoop seen_once, never;
+  for (TrailLoop* loop : {&seen_once, &never}) {
+    loop->person_m_s = 0.5;
+    loop->run(10.0);
+    loop->seen = false;
+    loop->searching = true;
+    loop->run(1.0);
+    loop->person = test::moved(loop->person, 4.0, 1.0, 1.0);
+    loop->seen = loop == &seen_once;
+    loop->run(0.1);
+    loop->seen = false;
+    loop->run(2.0);
+  }
+  EXPECT_EQ(seen_once.robot.x_m, never.robot.x_m);
+  EXPECT_EQ(seen_once.robot.y_m, never.robot.y_m);
 }
 
 TEST(TrailLaw, DoesNotSearchWithoutASpeedForIt) {

@@ -225,5 +225,15 @@ TEST(SerialLineClosed, EveryCallReturnsLost) {
   EXPECT_EQ(line.unsent_bytes(), 0u);
 }
 
+TEST(SerialLine, IsHeldByOneProgramAtATime) {
+  Pty pty;
+  SerialLine first, second;
+  ASSERT_TRUE(open_line(first, "pty:" + pty.slave_path));
+  EXPECT_FALSE(open_line(second, "pty:" + pty.slave_path));
+  EXPECT_NE(second.error().find("another program uses this line"), std::string::npos) << second.error();
+  first.close();
+  EXPECT_TRUE(open_line(second, "pty:" + pty.slave_path)) << second.error();
+}
+
 }  // namespace
 }  // namespace heel
