@@ -7,6 +7,21 @@
 
 namespace heel {
 
+OperatorCommand command_of(RequestKind kind) {
+  switch (kind) {
+    case RequestKind::Start:
+      return OperatorCommand::Start;
+    case RequestKind::Stop:
+      return OperatorCommand::Stop;
+    case RequestKind::EStop:
+      return OperatorCommand::EStop;
+    case RequestKind::Reset:
+      return OperatorCommand::Reset;
+    default:
+      return OperatorCommand::None;
+  }
+}
+
 void CommandQueue::add(OperatorCommand command, std::uint64_t ticket, TimeNs now_ns) {
   if (command == OperatorCommand::EStop) {
     if (current_) give_up(*current_, "not done: an emergency stop came before it was handled");
@@ -70,6 +85,11 @@ void CommandQueue::settle_current(const TickRecord& tick, TimeNs now_ns) {
 }
 
 void CommandQueue::post_next(TimeNs now_ns) {
+  // Before the next one goes: its asker may expect no more that it is done.
+  while (!waiting_.empty() && now_ns - waiting_.front().request.t_ns > kPatience_ns) {
+    give_up(waiting_.front(), "not done: it waited more than 0.5 s for those before it");
+    waiting_.pop_front();
+  }
   if (current_ || !emergency_stops_.empty() || waiting_.empty()) return;
   const Posted next = waiting_.front();
   waiting_.pop_front();

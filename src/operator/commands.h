@@ -10,8 +10,12 @@
 
 #include "heel/flow.h"
 #include "operator/operator_port.h"
+#include "operator/request.h"
 
 namespace heel {
+
+/// None for a request that is no command.
+OperatorCommand command_of(RequestKind kind);
 
 /// What became of a command.
 struct CommandResult {
@@ -29,7 +33,7 @@ class CommandQueue {
   explicit CommandQueue(OperatorPort& port) : port_(port) {}
 
   /// An emergency stop goes to the control loop now, and what waits before it is given up. Any other command
-  /// goes when those before it are done.
+  /// goes when those before it are done, and is given up when it has waited longer than kPatience_ns.
   void add(OperatorCommand command, std::uint64_t ticket, TimeNs now_ns);
   /// What is done by the newest tick, or given up; then the next command goes.
   std::vector<CommandResult> settle(const TickRecord& tick, TimeNs now_ns);

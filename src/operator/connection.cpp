@@ -1,6 +1,7 @@
 #include "operator/connection.h"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -51,6 +52,11 @@ bool Connection::take_partial_end() {
   if (!input_ended_ || partial_reported_ || !in_.has_partial_line()) return false;
   partial_reported_ = true;
   return true;
+}
+
+bool Connection::peer_gone() const {
+  pollfd end{fd_, 0, 0};
+  return poll(&end, 1, 0) > 0 && (end.revents & (POLLHUP | POLLERR)) != 0;
 }
 
 void Connection::send_line(std::string_view line) {

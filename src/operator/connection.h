@@ -62,6 +62,8 @@ class Connection {
   /// No more requests are read; what waits is still sent.
   void close_after_answers() { closing_ = input_ended_ = true; }
   bool closing() const { return closing_; }
+  /// The client has closed its end for both directions: it receives no answer.
+  bool peer_gone() const;
   bool input_ended() const { return input_ended_; }
   bool wants_to_write() const { return !out_.empty(); }
   /// It can be removed: the client is gone or given up, or everything is done.

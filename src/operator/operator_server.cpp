@@ -23,21 +23,6 @@ constexpr int kPendingWait_ms = 5;  // a command waits for a tick, one every 20 
 constexpr int kWatchWait_ms = 50;   // somebody watches
 constexpr int kIdleWait_ms = 1000;
 
-OperatorCommand command_of(RequestKind kind) {
-  switch (kind) {
-    case RequestKind::Start:
-      return OperatorCommand::Start;
-    case RequestKind::Stop:
-      return OperatorCommand::Stop;
-    case RequestKind::EStop:
-      return OperatorCommand::EStop;
-    case RequestKind::Reset:
-      return OperatorCommand::Reset;
-    default:
-      return OperatorCommand::None;
-  }
-}
-
 }  // namespace
 
 OperatorServer::OperatorServer(const std::string& socket_path, OperatorPort& port, const Settings& settings,
@@ -187,6 +172,12 @@ void OperatorServer::serve(Connection& client, Request request, TimeNs now_ns) {
       start_settings_job(client, std::move(request));
       return;
     case RequestKind::Start:
+      if (client.peer_gone()) {
+        spdlog::warn("operator ({}): start: not done: the client is gone", client.who());
+        client.give_up();
+        return;
+      }
+      [[fallthrough]];
     case RequestKind::Stop:
     case RequestKind::EStop:
     case RequestKind::Reset:

@@ -123,6 +123,17 @@ TEST_F(Commands, ACommandThatTheLoopDoesNotTakeIsWithdrawn) {
   EXPECT_GT(port_.requests[1].number, port_.requests[0].number);
 }
 
+TEST_F(Commands, ACommandThatWaitedTooLongForThoseBeforeItIsNotDone) {
+  commands_.add(OperatorCommand::Stop, 1, kNow_ns);
+  commands_.add(OperatorCommand::Start, 2, kNow_ns + 1);
+  commands_.add(OperatorCommand::Start, 3, kNow_ns + 20 * kNsPerMs);
+  const TimeNs late_ns = kNow_ns + CommandQueue::kPatience_ns + 2;
+  const auto results = commands_.settle(handled(1, SupervisorState::Idle), late_ns);
+  EXPECT_EQ(tickets_of(results), (Tickets{1, 2}));
+  EXPECT_EQ(results.at(1).error, "not done: it waited more than 0.5 s for those before it");
+  EXPECT_THAT(port_.requests, SizeIs(2)) << "the third is not too old";
+}
+
 TEST_F(Commands, AnEmergencyStopThatTheLoopDoesNotTakeIsNotWithdrawn) {
   commands_.add(OperatorCommand::EStop, 1, kNow_ns);
   const auto results = commands_.settle(nothing_, kNow_ns + CommandQueue::kPatience_ns + 1);

@@ -2,6 +2,7 @@
 // test plays, and without heeld.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 
 #include <csignal>
@@ -143,6 +144,17 @@ TEST(HeelOperatorWithoutHeeld, TheLikelyCauseIsNamedWithStatus69) {
     EXPECT_THAT(help.out, HasSubstr("Exit status: 0 done; 1 refused")) << command.front();
   }
   EXPECT_EQ(commands, 8);
+}
+
+TEST(HeelOperatorWithoutHeeld, AStartWithoutAnAnswerClosesItsConnection) {
+  const test::TemporaryFolder folder;
+  const LocalSocket silent(folder.file("control.sock"));
+  const Outcome outcome = run_heel({"start", "--socket", silent.path()});
+  EXPECT_EQ(outcome.status, 69);
+  EXPECT_EQ(outcome.err, "heel start: " + silent.path() + ": heeld did not answer within 2 s\n");
+  const int fd = accept(silent.fd(), nullptr, nullptr);
+  ASSERT_GE(fd, 0);
+  EXPECT_TRUE(Connection(fd, 1, 0).peer_gone()) << "heeld must see that nobody waits for the start";
 }
 
 TEST(HeelOperatorWithoutHeeld, BadUsageIsRefused) {

@@ -1,0 +1,67 @@
+// The operator thread when it runs late: requests that wait in the sockets meanwhile.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "operator/operator_server.h"
+#include "operator/played_loop.h"
+#include "support/socket_client.h"
+#include "support/temporary_folder.h"
+
+namespace heel {
+namespace {
+
+using test::SocketClient;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class BusyServer : public ::testing::Test {
+ protected:
+  BusyServer()
+      : settings_(parse_config("", folder_.file("heel.toml")), {[](const Config&) {}, [](const Config&) {}}),
+        settings_loop_(settings_),
+        server_(path_, loop_, settings_, settings_loop_) {}
+  ~BusyServer() override {
+    server_.stop();
+    if (thread_.joinable()) thread_.join();
+  }
+  void run() {
+    thread_ = std::thread([this] { server_.run(); });
+  }
+
+  const test::TemporaryFolder folder_;
+  const std::string path_ = folder_.file("control.sock");
+  test::PlayedLoop loop_;
+  Settings settings_;
+  SettingsLoop settings_loop_;
+  OperatorServer server_;
+  std::thread thread_;
+};
+
+TEST_F(BusyServer, AStartIsNotDoneAfterItsClientHasGone) {
+  {
+    SocketClient client(path_);
+    ASSERT_TRUE(client.send("{\"do\":\"start\"}\n"));
+  }
+  run();
+  SocketClient client(path_);
+  EXPECT_THAT(client.ask(R"({"do":"status"})"), HasSubstr(R"("state":"idle")"));
+  EXPECT_THAT(client.ask(R"({"do":"alive"})"), HasSubstr("true"));
+  EXPECT_THAT(loop_.requests(), IsEmpty());
+  EXPECT_THAT(client.ask(R"({"do":"start"})"), HasSubstr("armed")) << "its client waits for the answer";
+}
+
+TEST_F(BusyServer, AStopIsDoneAlsoAfterItsClientHasGone) {
+  for (const char* command : {"stop", "estop"}) {
+    SocketClient client(path_);
+    ASSERT_TRUE(client.send(std::string("{\"do\":\"") + command + "\"}\n"));
+  }
+  run();
+  EXPECT_TRUE(test::eventually([&] { return loop_.requests().size() == 2; }));
+  EXPECT_THAT(loop_.requests(), ElementsAre(OperatorCommand::EStop, OperatorCommand::Stop));
+}
+
+}  // namespace
+}  // namespace heel
