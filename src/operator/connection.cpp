@@ -12,6 +12,9 @@
 namespace heel {
 namespace {
 
+constexpr std::size_t kReadBytes = 4096;
+constexpr std::size_t kSocketBytes = 256 * 1024;  // more than net.core.wmem_default
+
 std::string peer_of(int fd) {
   ucred peer{};
   socklen_t size = sizeof peer;
@@ -36,8 +39,8 @@ Connection::~Connection() {
   close(fd_);
 }
 
-void Connection::read() {
-  std::array<char, 4096> bytes;
+bool Connection::read() {
+  std::array<char, kReadBytes> bytes;
   const ssize_t count = recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT);
   if (count > 0) {
     in_.feed({bytes.data(), static_cast<std::size_t>(count)});
@@ -45,6 +48,12 @@ void Connection::read() {
     input_ended_ = true;
   } else if (errno != EAGAIN && errno != EINTR) {
     broken_ = true;
+  }
+  return count > 0;
+}
+
+void Connection::read_all() {
+  for (std::size_t count = 0; count < kSocketBytes && read(); count += kReadBytes) {
   }
 }
 

@@ -49,8 +49,10 @@ class Connection {
   /// "user 1000, process 4711".
   const std::string& who() const { return who_; }
 
-  /// Reads what has come, at most 4 KiB.
-  void read();
+  /// Reads what has come, at most 4 KiB. False: nothing had come.
+  bool read();
+  /// Reads what has come, at most as much as a socket holds by default.
+  void read_all();
   bool take_line(std::string& line) { return in_.take(line); }
   /// True once, when input has ended within a line.
   bool take_partial_end();

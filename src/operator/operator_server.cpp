@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <tuple>
 #include <utility>
 
 #include "heel/error.h"
@@ -46,8 +47,8 @@ void OperatorServer::run() {
   spdlog::info("operators are served at {}", socket_.path());
   while (!stop_.load(std::memory_order_acquire)) {
     wait();
+    read_requests();  // before a new client takes the place of one that has asked
     accept_clients();
-    read_requests();
     take_tick();
     const TimeNs now_ns = monotonic_now_ns();
     settle_commands(now_ns);
@@ -107,11 +108,18 @@ void OperatorServer::accept_clients() {
 }
 
 /// Clients that hang must not keep out the one that wants to stop the robot: the one that has asked for
-/// nothing for longest goes, of those that do not watch.
+/// nothing for longest goes, of those that neither watch nor wait for an answer. What any of them has sent
+/// until now is served before.
 void OperatorServer::make_room() {
-  const auto idle = std::min_element(clients_.begin(), clients_.end(), [](const auto& a, const auto& b) {
-    return std::pair(a->watch.has_value(), a->t_active_ns) < std::pair(b->watch.has_value(), b->t_active_ns);
-  });
+  for (const auto& client : clients_) client->read_all();
+  read_requests();
+  remove_finished();
+  if (clients_.size() < kMaxClients) return;
+  const auto rank = [](const Connection& client) {
+    return std::tuple(client.watch.has_value(), client.open_requests > 0, client.t_active_ns);
+  };
+  const auto idle = std::min_element(clients_.begin(), clients_.end(),
+                                     [&](const auto& a, const auto& b) { return rank(*a) < rank(*b); });
   (*idle)->send_line(error_line({}, fmt::format("closed: more than {} clients", kMaxClients)));
   clients_.erase(idle);
 }

@@ -24,6 +24,7 @@ class BusyServer : public ::testing::Test {
         settings_loop_(settings_),
         server_(path_, loop_, settings_, settings_loop_) {}
   ~BusyServer() override {
+    loop_.release();
     server_.stop();
     if (thread_.joinable()) thread_.join();
   }
@@ -61,6 +62,27 @@ TEST_F(BusyServer, AStopIsDoneAlsoAfterItsClientHasGone) {
   run();
   EXPECT_TRUE(test::eventually([&] { return loop_.requests().size() == 2; }));
   EXPECT_THAT(loop_.requests(), ElementsAre(OperatorCommand::EStop, OperatorCommand::Stop));
+}
+
+TEST_F(BusyServer, AnEmergencyStopIsNotLostWhenAnotherClientTakesThePlaceOfItsClient) {
+  run();
+  std::vector<std::unique_ptr<SocketClient>> clients;
+  for (std::size_t i = 0; i < OperatorServer::kMaxClients; ++i) {
+    clients.push_back(std::make_unique<SocketClient>(path_));
+    ASSERT_NE(clients.back()->ask(R"({"do":"alive"})"), "");
+  }
+  SocketClient& idlest = *clients.front();
+  // Both come while the thread serves another client.
+  loop_.hold();
+  clients.back()->send("{\"do\":\"alive\"}\n");
+  ASSERT_TRUE(test::eventually([&] { return loop_.holds(); }));
+  idlest.send(std::string(30000, 'x') + "\n{\"id\":1,\"do\":\"estop\"}\n");
+  SocketClient another(path_);
+  loop_.release();
+  EXPECT_THAT(another.ask(R"({"do":"alive"})"), HasSubstr("true"));
+  EXPECT_THAT(loop_.requests(), ElementsAre(OperatorCommand::EStop));
+  EXPECT_THAT(idlest.line(), HasSubstr("a line of more than 4096 bytes"));
+  EXPECT_THAT(idlest.line(), HasSubstr(R"("state":"emergency")"));
 }
 
 }  // namespace

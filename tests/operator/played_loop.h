@@ -1,6 +1,7 @@
 // A control loop that a test plays, for the operator thread.
 #pragma once
 
+#include <condition_variable>
 #include <mutex>
 #include <vector>
 
@@ -36,8 +37,11 @@ class PlayedLoop final : public OperatorPort {
     }
   }
   void alive(TimeNs) override {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     ++signs_of_life_;
+    holds_ = held_;
+    released_.wait(lock, [this] { return !held_; });
+    holds_ = false;
   }
   bool take_tick(TickRecord& out) override {
     const std::lock_guard lock(mutex_);
@@ -51,6 +55,21 @@ class PlayedLoop final : public OperatorPort {
   void be_deaf() {
     const std::lock_guard lock(mutex_);
     deaf_ = true;
+  }
+  /// The next request keeps the operator thread until release().
+  void hold() {
+    const std::lock_guard lock(mutex_);
+    held_ = true;
+  }
+  /// The operator thread is kept.
+  bool holds() {
+    const std::lock_guard lock(mutex_);
+    return holds_;
+  }
+  void release() {
+    const std::lock_guard lock(mutex_);
+    held_ = false;
+    released_.notify_all();
   }
   int signs_of_life() {
     const std::lock_guard lock(mutex_);
@@ -66,7 +85,8 @@ class PlayedLoop final : public OperatorPort {
   TickRecord tick_;
   std::vector<OperatorCommand> requests_;
   int signs_of_life_ = 0;
-  bool deaf_ = false;
+  bool deaf_ = false, held_ = false, holds_ = false;
+  std::condition_variable released_;
 };
 
 }  // namespace heel::test
