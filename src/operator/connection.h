@@ -61,8 +61,11 @@ class Connection {
   void send_line(std::string_view line);
   void flush();
 
-  /// No more requests are read; what waits is still sent.
-  void close_after_answers() { closing_ = input_ended_ = true; }
+  /// No more requests are read, and it watches no more; what waits is still sent.
+  void close_after_answers() {
+    closing_ = input_ended_ = true;
+    watch.reset();
+  }
   bool closing() const { return closing_; }
   /// The client has closed its end for both directions: it receives no answer.
   bool peer_gone() const;

@@ -280,6 +280,14 @@ TEST_F(Server, AClientThatFloodsIsClosedAndItsEmergencyStopIsServed) {
   EXPECT_TRUE(client.closed());
 }
 
+TEST_F(Server, AClientThatWatchesAndFloodsIsClosed) {
+  SocketClient client(path_);
+  std::string flood = "{\"do\":\"watch\",\"period_s\":0.1}\n";
+  for (int i = 0; i < 130; ++i) flood += "{\"do\":\"alive\"}\n";
+  client.send(flood);
+  EXPECT_TRUE(client.closed());
+}
+
 TEST_F(Server, AControlLoopThatDoesNotAnswerIsNamed) {
   loop_.be_deaf();
   SocketClient client(path_);
