@@ -1,6 +1,7 @@
 #include "operator/local_socket.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -83,6 +84,22 @@ void LocalSocket::bind_and_listen() {
   }
   device_ = status.st_dev;
   inode_ = status.st_ino;
+}
+
+int LocalSocket::accept(TimeNs now_ns) {
+  if (pauses(now_ns)) return -1;
+  const int fd = accept4(fd_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+  if (fd >= 0) {
+    warned_ = false;
+    return fd;
+  }
+  if (errno == EAGAIN || errno == EINTR || errno == ECONNABORTED) return -1;
+  // The client still waits: without the pause the thread would try again at once, for ever.
+  t_accept_ns_ = now_ns + kAcceptPause_ns;
+  if (!warned_)
+    spdlog::warn("{}: no client can be accepted: {}; heeld tries again", path_, std::strerror(errno));
+  warned_ = true;
+  return -1;
 }
 
 LocalSocket::~LocalSocket() {

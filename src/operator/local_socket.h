@@ -5,10 +5,14 @@
 
 #include <string>
 
+#include "heel/time.h"
+
 namespace heel {
 
 class LocalSocket {
  public:
+  static constexpr TimeNs kAcceptPause_ns = 100 * kNsPerMs;
+
   /// Listens at `path`, for the user and the group of this process. A socket that a process left which is
   /// gone is replaced. Throws heel::Error with one line when another process serves it, when something else
   /// has that name, or when it cannot be made.
@@ -19,6 +23,10 @@ class LocalSocket {
   LocalSocket& operator=(const LocalSocket&) = delete;
 
   int fd() const { return fd_; }
+  /// The connection of a client, which does not block; -1: none waits, or none can be accepted, as without a
+  /// free descriptor. Then the next one is accepted kAcceptPause_ns later.
+  int accept(TimeNs now_ns);
+  bool pauses(TimeNs now_ns) const { return now_ns < t_accept_ns_; }
   const std::string& path() const { return path_; }
 
  private:
@@ -28,6 +36,8 @@ class LocalSocket {
   int fd_ = -1;
   dev_t device_ = 0;
   ino_t inode_ = 0;
+  TimeNs t_accept_ns_ = 0;  // none is accepted before
+  bool warned_ = false;
 };
 
 }  // namespace heel

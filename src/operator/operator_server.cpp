@@ -4,7 +4,6 @@
 #include <poll.h>
 #include <spdlog/spdlog.h>
 #include <sys/eventfd.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,7 +20,7 @@ namespace heel {
 namespace {
 
 constexpr int kPendingWait_ms = 5;  // a command waits for a tick, one every 20 ms
-constexpr int kWatchWait_ms = 50;   // somebody watches
+constexpr int kWatchWait_ms = 50;   // somebody watches, or none can be accepted now
 constexpr int kIdleWait_ms = 1000;
 
 }  // namespace
@@ -74,12 +73,13 @@ int OperatorServer::poll_timeout_ms() const {
   if (commands_.busy()) return kPendingWait_ms;
   const bool watched = std::any_of(clients_.begin(), clients_.end(),
                                    [](const auto& client) { return client->watch.has_value(); });
-  return watched ? kWatchWait_ms : kIdleWait_ms;
+  return watched || socket_.pauses(monotonic_now_ns()) ? kWatchWait_ms : kIdleWait_ms;
 }
 
 /// Until something has come from a client or the settings thread, or it is time to look.
 void OperatorServer::wait() {
-  std::vector<pollfd> descriptors = {{socket_.fd(), POLLIN, 0}, {wake_fd_, POLLIN, 0}};
+  std::vector<pollfd> descriptors = {{socket_.pauses(monotonic_now_ns()) ? -1 : socket_.fd(), POLLIN, 0},
+                                     {wake_fd_, POLLIN, 0}};
   for (const auto& client : clients_) {
     const int events = (client->input_ended() ? 0 : POLLIN) | (client->wants_to_write() ? POLLOUT : 0);
     descriptors.push_back({client->fd(), static_cast<short>(events), 0});
@@ -100,10 +100,11 @@ void OperatorServer::wait() {
 
 void OperatorServer::accept_clients() {
   for (std::size_t i = 0; i < kMaxClients; ++i) {
-    const int fd = accept4(socket_.fd(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    const TimeNs now_ns = monotonic_now_ns();
+    const int fd = socket_.accept(now_ns);
     if (fd < 0) return;
     if (clients_.size() >= kMaxClients) make_room();
-    clients_.push_back(std::make_unique<Connection>(fd, ++clients_so_far_, monotonic_now_ns()));
+    clients_.push_back(std::make_unique<Connection>(fd, ++clients_so_far_, now_ns));
   }
 }
 

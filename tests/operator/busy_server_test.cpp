@@ -1,11 +1,14 @@
 // The operator thread when it runs late: requests that wait in the sockets meanwhile.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <thread>
 
 #include "operator/operator_server.h"
 #include "operator/played_loop.h"
+#include "support/collected_log.h"
 #include "support/socket_client.h"
 #include "support/temporary_folder.h"
 
@@ -83,6 +86,47 @@ TEST_F(BusyServer, AnEmergencyStopIsNotLostWhenAnotherClientTakesThePlaceOfItsCl
   EXPECT_THAT(loop_.requests(), ElementsAre(OperatorCommand::EStop));
   EXPECT_THAT(idlest.line(), HasSubstr("a line of more than 4096 bytes"));
   EXPECT_THAT(idlest.line(), HasSubstr(R"("state":"emergency")"));
+}
+
+/// No descriptor can be opened in this process while it lives.
+class NoFreeDescriptor {
+ public:
+  NoFreeDescriptor() {
+    const int lowest = dup(0);
+    close(lowest);
+    getrlimit(RLIMIT_NOFILE, &before_);
+    const rlimit none{static_cast<rlim_t>(lowest), before_.rlim_max};
+    setrlimit(RLIMIT_NOFILE, &none);
+  }
+  ~NoFreeDescriptor() { setrlimit(RLIMIT_NOFILE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(BusyServer, WithoutAFreeDescriptorItTriesAgainWithPauses) {
+  const test::CollectedLog log;
+  run();
+  SocketClient first(path_);
+  loop_.hold();
+  first.send("{\"do\":\"alive\"}\n");
+  ASSERT_TRUE(test::eventually([&] { return loop_.holds(); }));
+  SocketClient second(path_);
+  second.send("{\"do\":\"alive\"}\n");
+  std::uint64_t rounds = 0;
+  {
+    const NoFreeDescriptor none;
+    rounds = loop_.ticks_taken();
+    loop_.release();
+    EXPECT_EQ(second.line(0.5), "");
+    rounds = loop_.ticks_taken() - rounds;
+  }
+  EXPECT_GE(rounds, 2u);
+  EXPECT_LE(rounds, 30u) << "the thread must not spin";
+  EXPECT_NE(second.line(), "") << "it is accepted when there is a descriptor";
+  server_.stop();
+  thread_.join();
+  EXPECT_EQ(log.count("no client can be accepted: Too many open files; heeld tries again"), 1) << log.text();
 }
 
 }  // namespace

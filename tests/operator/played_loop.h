@@ -71,6 +71,11 @@ class PlayedLoop final : public OperatorPort {
     held_ = false;
     released_.notify_all();
   }
+  /// One in each round of the operator thread, and one for each status.
+  std::uint64_t ticks_taken() {
+    const std::lock_guard lock(mutex_);
+    return tick_.tick;
+  }
   int signs_of_life() {
     const std::lock_guard lock(mutex_);
     return signs_of_life_;
