@@ -6,7 +6,9 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "capture/factory/frame_source_factory.h"
 #include "capture/frame_source.h"
@@ -21,6 +23,7 @@
 #include "daemon/vision_loop.h"
 #include "heel/error.h"
 #include "logging/logging.h"
+#include "operator/local_socket.h"
 #include "operator/operator_server.h"
 #include "operator/settings.h"
 #include "operator/settings_loop.h"
@@ -35,6 +38,11 @@ namespace {
 constexpr TimeNs kMainPeriod_ns = 100 * kNsPerMs;
 constexpr TimeNs kRestTimeout_ns = 3 * kNsPerS;  // for coming to rest after the end of a file camera
 constexpr TimeNs kReconfigureTimeout_ns = kNsPerS;
+
+std::optional<LocalSocket> make_socket(const std::string& path) {
+  if (path.empty()) return std::nullopt;
+  return std::optional<LocalSocket>(std::in_place, path);
+}
 
 class Daemon {
  public:
@@ -56,6 +64,8 @@ class Daemon {
   Inputs inputs_;
   Signals& signals_;
   StatusReporter status_;
+  // Made before anything is opened that a heeld that serves the socket already uses: robot and camera.
+  std::optional<LocalSocket> socket_;  // until operators_ has it; empty: none
 
   TelemetryQueues queues_;
   FrameTripleBuffer frames_;
@@ -104,6 +114,7 @@ Daemon::Daemon(LoadedConfig loaded, Signals& signals)
       inputs_(load_inputs(loaded_.config)),
       signals_(signals),
       status_(loaded_.config.runtime),
+      socket_(make_socket(loaded_.config.operators.socket)),
       frames_(static_cast<std::uint32_t>(inputs_.camera.width_px),
               static_cast<std::uint32_t>(inputs_.camera.height_px)),
       source_(make_frame_source(loaded_.config.camera)),
@@ -117,9 +128,9 @@ Daemon::Daemon(LoadedConfig loaded, Signals& signals)
                           [this](const Config& config) { apply(config); }}),
       settings_loop_(settings_),
       control_port_(control_, capture_) {
-  const std::string& socket = loaded_.config.operators.socket;
-  if (!socket.empty())
-    operators_ = std::make_unique<OperatorServer>(socket, control_port_, settings_, settings_loop_);
+  if (!socket_) return;
+  operators_ =
+      std::make_unique<OperatorServer>(std::move(*socket_), control_port_, settings_, settings_loop_);
 }
 
 int Daemon::run() {

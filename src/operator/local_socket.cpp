@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "heel/error.h"
 
@@ -102,7 +103,16 @@ int LocalSocket::accept(TimeNs now_ns) {
   return -1;
 }
 
+LocalSocket::LocalSocket(LocalSocket&& other) noexcept
+    : path_(other.path_),
+      fd_(std::exchange(other.fd_, -1)),
+      device_(other.device_),
+      inode_(other.inode_),
+      t_accept_ns_(other.t_accept_ns_),
+      warned_(other.warned_) {}
+
 LocalSocket::~LocalSocket() {
+  if (fd_ < 0) return;  // moved
   struct stat status {};
   const bool ours = stat(path_.c_str(), &status) == 0 && status.st_dev == device_ && status.st_ino == inode_;
   if (ours) unlink(path_.c_str());

@@ -19,6 +19,7 @@ class LocalSocket {
   explicit LocalSocket(const std::string& path);
   /// Removes the file, unless another process has replaced it.
   ~LocalSocket();
+  LocalSocket(LocalSocket&& other) noexcept;
   LocalSocket(const LocalSocket&) = delete;
   LocalSocket& operator=(const LocalSocket&) = delete;
 

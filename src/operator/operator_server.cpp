@@ -25,9 +25,9 @@ constexpr int kIdleWait_ms = 1000;
 
 }  // namespace
 
-OperatorServer::OperatorServer(const std::string& socket_path, OperatorPort& port, const Settings& settings,
+OperatorServer::OperatorServer(LocalSocket socket, OperatorPort& port, const Settings& settings,
                                SettingsLoop& settings_loop)
-    : socket_(socket_path),
+    : socket_(std::move(socket)),
       port_(port),
       settings_(settings),
       settings_loop_(settings_loop),

@@ -2,7 +2,7 @@
 // real-time thread. Whatever the clients do, the control loop gets only the newest request, through a
 // mailbox; no client waits for another one, and none is waited for.
 //
-//   OperatorServer server("/run/heel/control.sock", port, settings, settings_loop);  // throws heel::Error
+//   OperatorServer server(LocalSocket("/run/heel/control.sock"), port, settings, settings_loop);
 //   std::thread thread([&] { server.run(); });
 //   …  server.stop(); thread.join();
 #pragma once
@@ -29,9 +29,9 @@ class OperatorServer {
   static constexpr std::size_t kMaxWatchers = 8;
   static constexpr TimeNs kWatchSpacing_ns = 100 * kNsPerMs;  ///< least time between two lines to a watcher
 
-  /// All is borrowed and must outlive run(), and `settings_loop` must have ended before this object does.
-  /// Throws heel::Error when the socket cannot be served.
-  OperatorServer(const std::string& socket_path, OperatorPort& port, const Settings& settings,
+  /// All but the socket is borrowed and must outlive run(), and `settings_loop` must have ended before this
+  /// object does.
+  OperatorServer(LocalSocket socket, OperatorPort& port, const Settings& settings,
                  SettingsLoop& settings_loop);
   ~OperatorServer();
 

@@ -25,7 +25,7 @@ class BusyServer : public ::testing::Test {
   BusyServer()
       : settings_(parse_config("", folder_.file("heel.toml")), {[](const Config&) {}, [](const Config&) {}}),
         settings_loop_(settings_),
-        server_(path_, loop_, settings_, settings_loop_) {}
+        server_(LocalSocket(path_), loop_, settings_, settings_loop_) {}
   ~BusyServer() override {
     loop_.release();
     server_.stop();

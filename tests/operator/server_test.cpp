@@ -33,7 +33,7 @@ class Server : public ::testing::Test {
                      while (held_.load()) sleep_until_ns(monotonic_now_ns() + kNsPerMs);
                    }}),
         settings_loop_(settings_),
-        server_(path_, loop_, settings_, settings_loop_),
+        server_(LocalSocket(path_), loop_, settings_, settings_loop_),
         thread_([this] { server_.run(); }),
         settings_thread_([this] { settings_loop_.run(); }) {
     test::write_text(folder_.file("heel.toml"), "[gate]\nv_max_m_s = 0.5\n");

@@ -252,6 +252,17 @@ TEST_F(OperatedHeeld, TheSocketOfADeadHeeldIsReplacedAndThatOfALiveOneIsNot) {
   EXPECT_FALSE(std::filesystem::exists(socket()));
 }
 
+TEST_F(OperatedHeeld, ASecondHeeldDoesNotTouchTheRobotOfTheFirst) {
+  const std::string config = operated_config();
+  get_ready(config);
+  test::Process second({HEELD_PROGRAM, "--config", config});
+  EXPECT_EQ(second.wait(), 78);
+  EXPECT_THAT(second.output(), HasSubstr("another process serves it"));
+  EXPECT_FALSE(robot_->says("closed", 1.0)) << "the session of the first" << logs();
+  SocketClient client(socket());
+  EXPECT_EQ(command(client, "status")["robot"]["reconnects"], 0) << logs();
+}
+
 TEST_F(OperatedHeeld, WithoutASocketItRunsAndReloads) {
   const std::string config = scene_.write_config({.start = "operator"});
   std::string text = read_text(config);

@@ -29,7 +29,7 @@ class HeelOperator : public ::testing::Test {
       : settings_(load_config(test::write_text(config_, "# mine\n[gate]\nv_max_m_s = 0.5 # slow\n")),
                   {[](const Config&) {}, [](const Config&) {}}),
         settings_loop_(settings_),
-        server_(socket_, loop_, settings_, settings_loop_),
+        server_(LocalSocket(socket_), loop_, settings_, settings_loop_),
         thread_([this] { server_.run(); }),
         settings_thread_([this] { settings_loop_.run(); }) {}
   ~HeelOperator() override {
