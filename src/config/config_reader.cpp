@@ -53,7 +53,7 @@ class ValueSetter {
   }
   bool operator()(double* (*field)(Config&)) const {
     if (!value_.is_number()) return false;
-    const double value = *value_.value<double>();
+    const double value = *value_.value<double>() + 0.0;  // -0.0 becomes 0.0
     if (!in_range(value)) return false;
     *field(config_) = value;
     return true;

@@ -46,9 +46,14 @@ void remove_stale_socket(const std::string& path, const sockaddr_un& address) {
     throw socket_error(path, "exists and is no socket (expected a name that is free, or a socket)");
   const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (fd < 0) throw socket_error(path, std::strerror(errno));
-  const bool refused = connect(fd, generic(address), sizeof address) != 0 && errno == ECONNREFUSED;
+  const int error = connect(fd, generic(address), sizeof address) != 0 ? errno : 0;
   close(fd);
-  if (!refused)
+  if (error == EACCES) {
+    throw socket_error(path, fmt::format("permission denied: it belongs to user {} (expected a socket that "
+                                         "user {} may use, or a name that is free)",
+                                         status.st_uid, geteuid()));
+  }
+  if (error != ECONNREFUSED)
     throw socket_error(path, "another process serves it (is heeld running already? systemctl status heeld)");
   unlink(path.c_str());
 }

@@ -43,6 +43,12 @@ TEST(ConfigSet, TakesValuesOverAndLeavesTheOthers) {
   EXPECT_EQ(changes[3], (ConfigChange{"runtime.log_level", "\"info\"", "\"debug\""}));
 }
 
+TEST(ConfigSet, ANegativeZeroIsZero) {
+  const Config before;
+  const Config after = with_assignments(before, before, Assignments{{"gate.v_max_m_s", -0.0}});
+  EXPECT_THAT(changes_between(before, after), ElementsAre(ConfigChange{"gate.v_max_m_s", "0.7", "0.0"}));
+}
+
 TEST(ConfigSet, RefusesAsAFileDoes) {
   EXPECT_THAT(reasons({{"gate.v_max_m_s", std::string("fast")}}),
               ElementsAre("gate.v_max_m_s: 'fast' (expected a number 0…1.2 m/s)"));

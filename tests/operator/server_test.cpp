@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -313,6 +314,23 @@ TEST(OperatorSocket, AStaleSocketIsReplacedAndALiveOneIsNot) {
     const SocketClient client(path);
   }
   EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(OperatorSocket, OneOfAnotherUserIsNamedWithThePermission) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("control.sock");
+  std::filesystem::permissions(folder.path(), std::filesystem::perms{0755});
+  const LocalSocket live(path);
+  const uid_t owner = geteuid();
+  std::filesystem::permissions(path, std::filesystem::perms{0000});
+  // Permissions do not hold for root, who becomes another user for this call.
+  ASSERT_EQ(owner == 0 ? seteuid(65534) : 0, 0);
+  const uid_t user = geteuid();
+  const std::string complaint = test::complaint_of([&] { LocalSocket second(path); });
+  ASSERT_EQ(owner == 0 ? seteuid(0) : 0, 0);
+  EXPECT_EQ(complaint, "operator.socket: " + path + ": permission denied: it belongs to user " +
+                           std::to_string(owner) + " (expected a socket that user " + std::to_string(user) +
+                           " may use, or a name that is free)");
 }
 
 TEST(OperatorSocket, WhatIsNoSocketIsNotRemoved) {

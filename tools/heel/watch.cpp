@@ -38,6 +38,8 @@ void run_watch(const WatchOptions& options) {
     if (line.contains("event")) {  // others answer `alive`
       print_event(line, options.json);
       last_event = SteadyClock::now();
+    } else if (line.contains("error")) {  // as before heeld closes the connection
+      std::cerr << "heel watch: " << line.value("error", std::string()) << std::endl;
     } else if (SteadyClock::now() - last_event > longest) {
       client.fail(options.socket + ": heeld does not answer any more");
     }

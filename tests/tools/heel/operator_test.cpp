@@ -157,6 +157,21 @@ TEST(HeelOperatorWithoutHeeld, AStartWithoutAnAnswerClosesItsConnection) {
   EXPECT_TRUE(Connection(fd, 1, 0).peer_gone()) << "heeld must see that nobody waits for the start";
 }
 
+TEST(HeelOperatorWithoutHeeld, WatchPrintsWhyItsConnectionIsClosed) {
+  const test::TemporaryFolder folder;
+  LocalSocket heeld(folder.file("control.sock"));
+  test::Process watch({HEEL_PROGRAM, "watch", "--json", "--socket", heeld.path()});
+  int fd = -1;
+  ASSERT_TRUE(test::eventually([&] { return (fd = heeld.accept(monotonic_now_ns())) >= 0; }));
+  {
+    Connection connection(fd, 1, 0);
+    connection.send_line(R"({"v":1,"ok":true,"event":"status"})");
+    connection.send_line(R"({"v":1,"ok":false,"error":"closed: more than 16 clients"})");
+    EXPECT_TRUE(watch.says("\nheel watch: closed: more than 16 clients\n")) << watch.output();
+  }
+  EXPECT_EQ(watch.wait(), 69);
+}
+
 TEST(HeelOperatorWithoutHeeld, BadUsageIsRefused) {
   test::expect_refused({
       {{"set"}, "heel set: ", "assignments"},
