@@ -6,6 +6,12 @@
 #include "robot/p3at_geometry.h"
 
 namespace heel {
+namespace {
+
+// A start that has waited longer, because the process was stopped or had no processor, is not done.
+constexpr TimeNs kOldestStart_ns = 500 * kNsPerMs;
+
+}  // namespace
 
 ControlLoop::ControlLoop(const Config& config, Mailbox<PoseEstimate>& poses, TelemetryQueues& queues)
     : link_(config.robot),
@@ -91,7 +97,12 @@ void ControlLoop::read_inputs(TimeNs now_ns, TimeNs lateness_ns) {
 void ControlLoop::read_operator() {
   // One request a tick. A request that waits behind an emergency stop and is older is never handled: its
   // number is no longer new.
-  if (!emergency_stops_.take(input_.request)) requests_.take(input_.request);
+  if (!emergency_stops_.take(input_.request) && requests_.take(input_.request)) {
+    // Its operator has been told that nothing came of it.
+    const bool too_old = input_.now_ns - input_.request.t_ns > kOldestStart_ns;
+    if (too_old && input_.request.command == OperatorCommand::Start)
+      input_.request.command = OperatorCommand::None;
+  }
   input_.t_operator_ns =
       std::max({input_.t_operator_ns, input_.request.t_ns, t_operator_ns_.load(std::memory_order_relaxed)});
 }

@@ -64,6 +64,22 @@ TEST(ControlLoop, AnEmergencyStopIsHandledBeforeAnyOtherRequest) {
   thread.join();
 }
 
+TEST(ControlLoop, AStartThatHasWaitedTooLongIsNotDone) {
+  Config config;
+  config.robot.address = "pty:/nonexistent/robot";
+  Mailbox<PoseEstimate> poses;
+  TelemetryQueues queues;
+  ControlLoop loop(config, poses, queues);
+  loop.request({1, monotonic_now_ns() - kNsPerS, OperatorCommand::Start});
+  std::jthread thread([&] { loop.run(); });
+  TickRecord record;
+  while (!queues.ticks.pop(record)) sleep_until_ns(monotonic_now_ns() + kNsPerMs);
+  EXPECT_EQ(record.request_number, 1U);
+  EXPECT_EQ(record.outcome, OperatorOutcome::AlreadySo) << "a start would be refused: there is no robot";
+  loop.stop();
+  thread.join();
+}
+
 TEST(ControlLoop, AnOlderRequestThatWaitsBehindAnEmergencyStopIsNotHandled) {
   Config config;
   config.robot.address = "pty:/nonexistent/robot";
