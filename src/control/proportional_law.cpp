@@ -3,20 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/distance_error.h"
 #include "control/view_bounds.h"
 #include "core/angles.h"
 
 namespace heel {
-namespace {
-
-/// Zero inside the band, continuous outside.
-double with_deadband(double error, double band) {
-  if (std::abs(error) <= band) return 0.0;
-  return error - std::copysign(band, error);
-}
-
-}  // namespace
-
 ProportionalLaw::ProportionalLaw(const Config& config, YawGain yaw_gain) : yaw_gain_(yaw_gain) {
   reconfigure(config);
 }

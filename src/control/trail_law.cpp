@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/distance_error.h"
 #include "control/view_bounds.h"
 #include "core/angles.h"
 #include "estimate/odometry_history.h"
@@ -108,7 +109,7 @@ double TrailLaw::speed_m_s(const FollowInput& input) const {
   const double person_s_m = trail_.tip_m() + person_m_s * (since_s + control_.delay_s);
   const double error_m = person_s_m - robot_s_m_ - set_m;
   const double band_m = control_.deadband_m * (1.0 - std::min(1.0, std::abs(person_m_s) / kWalks_m_s));
-  const double beyond_m = std::abs(error_m) <= band_m ? 0.0 : error_m - std::copysign(band_m, error_m);
+  const double beyond_m = with_deadband(error_m, band_m);
   // It gives way sooner than it catches up.
   const double gain_1_s = (beyond_m < 0.0 ? kTooNearGain : 1.0) * control_.distance_1_s;
   const double v_m_s = gain_1_s > 0.0 ? person_m_s + gain_1_s * beyond_m : 0.0;

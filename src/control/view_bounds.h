@@ -39,10 +39,4 @@ inline YawRateBounds view_bounds(const TargetState& target, const CameraMount& m
           passing_rad_s + gain_1_s * (bearing_max_rad + bearing_rad)};
 }
 
-/// How far behind the person the goal is, along the heading `psi_rad` to have there.
-inline double distance_behind_m(const TargetState& target, double psi_rad) {
-  return (target.x_m - target.goal_x_m) * std::cos(psi_rad) +
-         (target.y_m - target.goal_y_m) * std::sin(psi_rad);
-}
-
 }  // namespace heel

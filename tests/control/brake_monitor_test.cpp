@@ -99,8 +99,10 @@ TEST(BrakeMonitor, TheDelayOfASlowLineIsNotWeakness) {
   for (const int delay : {2, 5, 8}) {  // packets from the command until its effect is seen
     Packets run;
     for (int i = 0; i < 5; ++i) run.add(0.7, 0.7);
-    for (int i = 0; i < 20; ++i) run.add(std::clamp(0.7 - 0.15 * (i - delay), 0.0, 0.7), 0.0);
-    EXPECT_GT(run.monitor.seen_m_s2(), 1.2) << delay;
+    for (int i = 0; i < 20; ++i) {
+      run.add(std::clamp(0.7 - 0.15 * (i - delay), 0.0, 0.7), 0.0);
+      ASSERT_GT(run.monitor.seen_m_s2(), 1.2) << delay << ", packet " << i;
+    }
   }
 }
 
