@@ -82,6 +82,14 @@ double FrameClock::frame_at(double t_s) const {
   return a.frame + (t_s - a.t_s) / (b.t_s - a.t_s) * (b.frame - a.frame);
 }
 
+double FrameClock::vision_latency_s() const {
+  std::vector<double> latencies_s;
+  for (const Taken& taken : frames_) latencies_s.push_back(taken.done_s - taken.t_s);
+  const auto median = latencies_s.begin() + static_cast<std::ptrdiff_t>(latencies_s.size() / 2);
+  std::nth_element(latencies_s.begin(), median, latencies_s.end());
+  return *median;
+}
+
 int FrameClock::missing() const {
   return frames_.back().frame - frames_.front().frame + 1 - static_cast<int>(frames_.size());
 }

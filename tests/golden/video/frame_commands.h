@@ -37,6 +37,8 @@ class FrameClock {
   /// frame rate.
   double frame_at(double t_s) const;
   std::size_t frames() const { return frames_.size(); }
+  /// The median time from the capture of a frame to the end of its vision.
+  double vision_latency_s() const;
   /// The greatest age of the newest frame that vision had finished.
   double oldest_view_s() const;
   /// Frames between the first and the last one that vision did not look at.

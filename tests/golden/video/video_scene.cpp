@@ -56,11 +56,13 @@ std::string VideoScene::write_config(double gain_yaw_1_s, const std::string& cam
   return test::write_text(file("heel.toml"), text);
 }
 
-std::string VideoScene::write_scenario() const {
+std::string VideoScene::write_scenario(const std::string& camera_source, double duration_s,
+                                       double vision_latency_ms) const {
   return test::write_text(file("video.toml"),
-                          "name = \"video\"\nduration_s = 145\nvision_latency_ms = 25\n"
-                          "[camera]\nsource = \"file:" +
-                              video_ +
+                          "name = \"video\"\nduration_s = " + std::to_string(duration_s) +
+                              "\nvision_latency_ms = " + std::to_string(vision_latency_ms) +
+                              "\n[camera]\nsource = \"" +
+                              (camera_source.empty() ? "file:" + video_ : camera_source) +
                               "\"\ninfo = \"camera.yaml\"\nrate_hz = 10\n"
                               "mount_x_m = 0.15\nmount_z_m = 1.1\n"
                               "[robot]\ntrue_track_m = 0.588\nleft_scale_error = 0\n"

@@ -33,8 +33,10 @@ class VideoScene {
 
   /// heel.toml for `heel simulate`, and with `camera_source` given for heeld with the robot at pty:robot.
   std::string write_config(double gain_yaw_1_s, const std::string& camera_source = "") const;
-  /// The scenario whose camera is the whole video; its robot turns and rolls as its odometry believes.
-  std::string write_scenario() const;
+  /// The scenario whose camera is the whole video, or `camera_source`; its robot turns and rolls as its
+  /// odometry believes.
+  std::string write_scenario(const std::string& camera_source = "", double duration_s = 145.0,
+                             double vision_latency_ms = 25.0) const;
   /// Frames first…last as pictures without loss, for the file source to read in order. Returns the folder.
   std::string cut_frames(int first, int last) const;
 
