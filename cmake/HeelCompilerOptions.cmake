@@ -6,6 +6,13 @@ if(CCACHE_PROGRAM)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
 
+# Every configuration links some sixty test programs, mold each in a third of the time. What is installed is linked by
+# the distribution's linker.
+find_program(MOLD_PROGRAM mold)
+if(MOLD_PROGRAM AND HEEL_BUILD_TESTS AND NOT CMAKE_CROSSCOMPILING)
+  add_link_options(-fuse-ld=mold)
+endif()
+
 add_library(heel_options INTERFACE)
 target_compile_options(heel_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Werror
