@@ -246,10 +246,11 @@ enum Condition : std::uint32_t {
   kOverrun = 1 << 14,       ///< the tick came too many periods late
   kClockStep = 1 << 15,     ///< the time went back, or ahead by more than the lateness explains
   kOperatorAway = 1 << 16,  ///< no sign of the operator for the timeout
+  kTurnsAway = 1 << 17,     ///< turning towards the person makes their bearing grow
 };
 /// Condition bits.
 using Conditions = std::uint32_t;
-inline constexpr Conditions kAllConditions = (1 << 17) - 1;
+inline constexpr Conditions kAllConditions = (1 << 18) - 1;
 
 /// Where the supervisor stands. The robot moves only in Following and Searching.
 enum class SupervisorState : std::uint8_t {
@@ -290,12 +291,13 @@ enum class TransitionCause : std::uint8_t {
   Overrun,
   ClockStep,
   OperatorAway,
+  TurnsAway,
   SonarSilent,
   StaleFrame,
   Ambiguous,
   LowCertainty,
 };
-inline constexpr std::size_t kTransitionCauses = 25;
+inline constexpr std::size_t kTransitionCauses = 26;
 
 /// Why the robot does not follow. Most are conditions of the supervisor's table; None: following.
 enum class StopReason : std::uint8_t {
@@ -317,6 +319,7 @@ enum class StopReason : std::uint8_t {
   Overrun,
   ClockStep,
   OperatorAway,
+  TurnsAway,
   NotStarted,     ///< no condition: the operator's start is missing
   EmergencyStop,  ///< the operator's reset is missing
 };

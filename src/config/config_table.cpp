@@ -86,10 +86,14 @@ const ConfigKey kKeys[] = {
     number(HEEL_KEY(camera, gain), "driver units", {-1, 1e6}, No, "Fixed gain; -1 sets automatic gain."),
     number(HEEL_KEY(camera, file_speed), "× real time", {0, 100}, No, "Speed of a file source; 0 delivers each frame as soon as it is requested, which heeld refuses because it runs in real time."),
     choice(HEEL_KEY(camera, at_end), "stop|loop", No, "After the last frame of a file source: stop brings the robot to rest and exits, loop plays the file again."),
+    number(HEEL_KEY(camera, rotate), "deg", {0, 270}, No, "Turns each picture clockwise, so that it is upright: 0, 90, 180 or 270. The calibration stays that of the pictures as the camera sends them."),
+    flag(HEEL_KEY(camera, mirror), No, "Mirrors each picture left to right, before it is turned: for a camera that sends a mirror image."),
     number(HEEL_KEY(camera, mount_x_m), "m", {-2, 2}, No, "Position of the optical centre in front of the robot's centre."),
     number(HEEL_KEY(camera, mount_y_m), "m", {-2, 2}, No, "Position of the optical centre to the left of the robot's centre."),
     number(HEEL_KEY(camera, mount_z_m), "m", {0, 3}, No, "Height of the optical centre above the floor."),
     number(HEEL_KEY(camera, mount_pitch_rad), "rad", {-0.8, 0.8}, No, "Tilt of the optical axis; positive looks up."),
+    number(HEEL_KEY(camera, mount_yaw_rad), "rad", {-0.8, 0.8}, No, "Direction of the optical axis against the robot's heading; positive looks to the left."),
+    number(HEEL_KEY(camera, mount_roll_rad), "rad", {-0.8, 0.8}, No, "Roll of the upright picture about the optical axis; positive: the camera's right side is lower."),
 
     path(HEEL_KEY(target, shirt), "The template of the back of the shirt, made by `heel teach`."),
     paths(HEEL_KEY(target, more_shirts), 7, "More templates of the same person: from the side or the front (`heel teach --yaw`), from another distance, in other light. In a frame in which the current template is not found, one other is searched."),
@@ -197,6 +201,7 @@ const ConfigKey kKeys[] = {
 #undef HEEL_KEY
 
 constexpr ConfigRelation kRelations[] = {
+    {"camera.rotate", [](const Config& c) { return c.camera.rotate % 90 == 0; }, "must be 0, 90, 180 or 270"},
     {"vision.distance_max_m",
      [](const Config& c) { return c.vision.distance_min_m < c.vision.distance_max_m; },
      "must be larger than vision.distance_min_m"},

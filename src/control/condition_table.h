@@ -54,6 +54,10 @@ inline constexpr ConditionRow kConditionTable[] = {
     {kBatteryLow, StopReason::BatteryLow, TransitionCause::BatteryLow, ConditionKind::Fault,
      "the battery had less than `supervisor.battery_low_v` for 2 s, and `supervisor.battery_ok_v` not since",
      "2 s"},
+    {kTurnsAway, StopReason::TurnsAway, TransitionCause::TurnsAway, ConditionKind::Fault,
+     "the person's bearing grew while the robot turned towards them; until a `reset`. Not with a file as the "
+     "camera",
+     "0.5 s after the robot turns by 0.2 rad/s"},
     {kOperatorAway, StopReason::OperatorAway, TransitionCause::OperatorAway, ConditionKind::Fault,
      "no sign of the operator for `supervisor.operator_timeout_s`", "`supervisor.operator_timeout_s`"},
     {kSonarSilent, StopReason::SonarSilent, TransitionCause::SonarSilent, ConditionKind::SensesMissing,

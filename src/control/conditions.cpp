@@ -37,7 +37,8 @@ bool held(bool active, bool& ever_active, TimeNs& t_last_active_ns, TimeNs now_n
 }  // namespace
 
 Conditions ConditionMonitor::update(const ControlInput& input, MeasurementStatus measurement,
-                                    const SupervisorConfig& config, bool sonar_on, OperatorCommand command) {
+                                    const SupervisorConfig& config, bool sonar_on, OperatorCommand command,
+                                    bool turns_away) {
   const RobotState& robot = input.robot;
   const TimeNs now_ns = input.now_ns;
   update_following(input, measurement, config);
@@ -65,6 +66,7 @@ Conditions ConditionMonitor::update(const ControlInput& input, MeasurementStatus
   set(kBatteryLow, battery_low(robot, now_ns, config));
   set(kOverrun, config.lateness_max_s > 0.0 && input.lateness_ns > ns_from_seconds(config.lateness_max_s));
   set(kClockStep, clock_stepped(input));
+  set(kTurnsAway, turns_away);
   set(kOperatorAway,
       config.operator_timeout_s > 0.0 && older_than(input.t_operator_ns, now_ns, config.operator_timeout_s));
   return bits;

@@ -13,9 +13,9 @@ namespace heel {
 class ConditionMonitor {
  public:
   /// Once a tick. `sonar_on`: without readings from the sonars kSonarSilent holds. `command`: of a request
-  /// that is new in this tick.
+  /// that is new in this tick. `turns_away`: by TurnMonitor.
   Conditions update(const ControlInput& input, MeasurementStatus measurement, const SupervisorConfig& config,
-                    bool sonar_on, OperatorCommand command);
+                    bool sonar_on, OperatorCommand command, bool turns_away);
 
  private:
   void update_following(const ControlInput& input, MeasurementStatus measurement,

@@ -11,6 +11,7 @@
 #include "control/gate.h"
 #include "control/sonar_obstacles.h"
 #include "control/supervisor.h"
+#include "control/turn_monitor.h"
 #include "estimate/target_estimator.h"
 
 namespace heel {
@@ -34,7 +35,11 @@ void copy_verdict(const Verdict& verdict, TickRecord& record) {
 
 struct ControlStage::Impl {
   Impl(const Config& config, const RobotGeometry& robot)
-      : estimator(config), obstacle_map(robot), law(make_follow_law(config)), supervisor(config.supervisor) {
+      : pictures_answer(!config.camera.source.starts_with("file:")),
+        estimator(config),
+        obstacle_map(robot),
+        law(make_follow_law(config)),
+        supervisor(config.supervisor) {
     reconfigure(config);
   }
 
@@ -55,10 +60,12 @@ struct ControlStage::Impl {
   GateConfig gate_config;
   CameraMount mount;
   bool sonar_on = true;
+  const bool pictures_answer;  // the robot's turning: recorded ones do not
 
   TargetEstimator estimator;
   SonarObstacleMap obstacle_map;
   BrakeMonitor brake_monitor;
+  TurnMonitor turn_monitor;
   std::unique_ptr<FollowLaw> law;
   ComfortLimiter comfort;
   ConditionMonitor condition_monitor;
@@ -89,12 +96,14 @@ void ControlStage::Impl::update_robot(const RobotState& robot) {
     estimator.reset();
     obstacle_map.clear();
     brake_monitor.reset();
+    turn_monitor.reset();
     law->reset();
   }
   if (!robot.has_sip) return;
   estimator.add_odometry(robot.odometry);
   if (sonar_on) obstacle_map.update(robot);
   brake_monitor.update(robot, last_command);
+  turn_monitor.add_odometry(robot.odometry);
 }
 
 MeasurementStatus ControlStage::Impl::update_target(const ControlInput& input) {
@@ -105,6 +114,7 @@ MeasurementStatus ControlStage::Impl::update_target(const ControlInput& input) {
   any_pose = true;
   last_frame_sequence = input.pose.frame_sequence;
   t_last_capture_ns = input.pose.t_capture_ns;
+  if (pictures_answer) turn_monitor.add_pose(input.pose, mount);
   return estimator.update(input.pose);
 }
 
@@ -153,9 +163,10 @@ TickRecord ControlStage::tick(const ControlInput& input) {
   impl.update_robot(input.robot);
   record.measurement = impl.update_target(input);
   record.target = impl.estimator.predict(input.now_ns);
-  record.conditions =
-      impl.condition_monitor.update(input, record.measurement, impl.supervisor_config, impl.sonar_on,
-                                    impl.supervisor.new_command(input.request));
+  const OperatorCommand command = impl.supervisor.new_command(input.request);
+  if (command == OperatorCommand::Reset) impl.turn_monitor.reset();
+  record.conditions = impl.condition_monitor.update(input, record.measurement, impl.supervisor_config,
+                                                    impl.sonar_on, command, impl.turn_monitor.turns_away());
   const bool may_search = impl.law->may_search() && !impl.search_done;
   const Verdict verdict =
       impl.supervisor.update(input, record.conditions, may_search, impl.supervisor_config);

@@ -35,8 +35,9 @@ inline YawRateBounds view_bounds(const TargetState& target, const CameraMount& m
                             person.forwards_m_s * std::sin(target.travel_yaw_rad - bearing_rad) +
                             person.aside_m_s * std::cos(target.travel_yaw_rad - bearing_rad);
   const double passing_rad_s = across_m_s / std::max(std::hypot(x_m, y_m), kLeastRange_m);
-  return {passing_rad_s - gain_1_s * (bearing_max_rad - bearing_rad),
-          passing_rad_s + gain_1_s * (bearing_max_rad + bearing_rad)};
+  const double off_axis_rad = bearing_rad - mount.yaw_rad;
+  return {passing_rad_s - gain_1_s * (bearing_max_rad - off_axis_rad),
+          passing_rad_s + gain_1_s * (bearing_max_rad + off_axis_rad)};
 }
 
 }  // namespace heel

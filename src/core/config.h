@@ -22,11 +22,16 @@ struct CameraConfig {
   double gain = -1.0;           ///< driver units; −1: automatic
   double file_speed = 1.0;      ///< file source: factor on its rate; 0: each frame as soon as it is requested
   std::string at_end = "stop";  ///< after a file source's last frame: stop (come to rest and exit) or loop
+  // What makes the camera's pictures upright: first mirrored, then turned.
+  int rotate = 0;  ///< degrees clockwise: 0, 90, 180, 270
+  bool mirror = false;
   // Mount: the camera's optical centre in the robot frame.
   double mount_x_m = 0.15;
   double mount_y_m = 0.0;
   double mount_z_m = 1.0;
   double mount_pitch_rad = 0.0;  ///< + looks up
+  double mount_yaw_rad = 0.0;    ///< + looks to the left
+  double mount_roll_rad = 0.0;   ///< + the right side is lower
 };
 
 struct TargetConfig {

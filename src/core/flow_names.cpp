@@ -107,6 +107,8 @@ const char* to_string(StopReason reason) {
       return "control too late";
     case StopReason::ClockStep:
       return "clock jumped";
+    case StopReason::TurnsAway:
+      return "turning towards the person makes their bearing grow";
     case StopReason::OperatorAway:
       return "operator away";
     case StopReason::NotStarted:
@@ -221,6 +223,8 @@ const char* to_string(TransitionCause cause) {
       return to_string(StopReason::Overrun);
     case TransitionCause::ClockStep:
       return to_string(StopReason::ClockStep);
+    case TransitionCause::TurnsAway:
+      return to_string(StopReason::TurnsAway);
     case TransitionCause::OperatorAway:
       return to_string(StopReason::OperatorAway);
     case TransitionCause::SonarSilent:

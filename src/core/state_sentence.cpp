@@ -39,6 +39,9 @@ const char* remedy(const TickRecord& tick) {
     case StopReason::MotorsOff:
     case StopReason::EmergencyStop:
       return "; `heel reset`, then `heel start`";
+    case StopReason::TurnsAway:
+      return "; check camera.rotate, camera.mirror and the mount, and the cables of wheels and gyro; then "
+             "`heel reset`";
     case StopReason::NotStarted:
       return "; `heel start` lets the robot move";
     case StopReason::Shutdown:

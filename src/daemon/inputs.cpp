@@ -7,9 +7,11 @@
 
 #include "capture/factory/source_address.h"
 #include "core/angles.h"
+#include "core/picture_turn.h"
 #include "files/camera_info.h"
 #include "files/template_file.h"
 #include "heel/error.h"
+#include "vision/template/turned_template.h"
 
 namespace heel {
 namespace {
@@ -49,14 +51,17 @@ void check_against_camera(const Config& config, const CameraModel& camera) {
 
 Inputs load_inputs(const Config& config) {
   Inputs inputs;
-  inputs.camera = read_camera_model(config.camera.info);
+  const CameraModel camera = read_camera_model(config.camera.info);
   check_pace(config.camera);
-  check_frame_size(config.camera, inputs.camera);
+  check_frame_size(config.camera, camera);
+  const PictureTurn turn = picture_turn(config.camera.rotate, config.camera.mirror);
+  inputs.camera = turned_camera(camera, turn);
   check_against_camera(config, inputs.camera);
 
   inputs.shirts = read_templates(config.target);
   for (std::size_t i = 0; i < inputs.shirts.size(); ++i) {
     const std::string& file = template_file(config.target, i);
+    inputs.shirts[i] = template_for_turned(inputs.shirts[i], camera, turn);
     if (inputs.shirts[i].distance_m <= 0.0) {
       throw Error(file + ": has no distance (expected one" +
                   (i == 0 ? ", or target.distance_m)" : ": teach it again with --distance)"));

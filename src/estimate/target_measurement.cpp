@@ -1,21 +1,24 @@
 #include "estimate/target_measurement.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace heel {
 
 CameraMount mount_of(const CameraConfig& camera) {
-  return {camera.mount_x_m, camera.mount_y_m, camera.mount_z_m, camera.mount_pitch_rad};
+  return {camera.mount_x_m,       camera.mount_y_m,     camera.mount_z_m,
+          camera.mount_pitch_rad, camera.mount_yaw_rad, camera.mount_roll_rad};
 }
 
-Eigen::Matrix3d R_robot_from_camera(double pitch_rad) {
-  const double c = std::cos(pitch_rad);
-  const double s = std::sin(pitch_rad);
-  Eigen::Matrix3d R;
-  R << 0, s, c,  //
-      -1, 0, 0,  //
+Eigen::Matrix3d R_robot_from_camera(const CameraMount& mount) {
+  const double c = std::cos(mount.pitch_rad);
+  const double s = std::sin(mount.pitch_rad);
+  Eigen::Matrix3d R_tilted;
+  R_tilted << 0, s, c,  //
+      -1, 0, 0,         //
       0, -c, s;
-  return R;
+  return Eigen::AngleAxisd(mount.yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix() * R_tilted *
+         Eigen::AngleAxisd(mount.roll_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
 std::optional<TargetMeasurement> measurement_from_pose(const PoseEstimate& pose, const CameraMount& mount) {
@@ -24,7 +27,7 @@ std::optional<TargetMeasurement> measurement_from_pose(const PoseEstimate& pose,
       pose.R_cur_from_ref.data());
   const Eigen::Map<const Eigen::Vector3d> t_over_d(pose.t_over_d.data());
   const Eigen::Map<const Eigen::Vector3d> position_m(pose.position_m.data());
-  const Eigen::Matrix3d R_robot_from_cur = R_robot_from_camera(mount.pitch_rad);
+  const Eigen::Matrix3d R_robot_from_cur = R_robot_from_camera(mount);
 
   // The centre c of the template satisfies  position = R c + d (t/d)  with c_z = d, so that
   //   d = e_z·Rᵀ position / (1 + e_z·Rᵀ (t/d)),

@@ -10,17 +10,20 @@
 
 namespace heel {
 
-/// Where the camera's optical centre sits in the robot frame; + pitch looks up.
+/// Where the camera's optical centre sits in the robot frame, and its attitude: + pitch looks up, + yaw to
+/// the left, + roll lowers the camera's right side.
 struct CameraMount {
   double x_m = 0.0;
   double y_m = 0.0;
   double z_m = 0.0;
   double pitch_rad = 0.0;
+  double yaw_rad = 0.0;
+  double roll_rad = 0.0;
 };
 CameraMount mount_of(const CameraConfig& camera);
 
-/// Columns: the camera's axes in the robot frame, for an optical axis tilted up by pitch.
-Eigen::Matrix3d R_robot_from_camera(double pitch_rad);
+/// Columns: the camera's axes in the robot frame.
+Eigen::Matrix3d R_robot_from_camera(const CameraMount& mount);
 
 /// The person as measured in one frame, in the robot frame at the capture time.
 struct TargetMeasurement {

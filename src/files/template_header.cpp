@@ -66,6 +66,7 @@ std::string template_header(const ShirtTemplate& shirt, const std::vector<std::s
         {"p2", c.p2},
         {"k3", c.k3}}},
       {"settings", {{"oriented", shirt.oriented}, {"max_features", shirt.max_features}}}};
+  if (shirt.turned) header["turned"] = true;
   for (std::size_t i = 0; i < further_bytes.size(); ++i)
     header["further_views"].push_back(further_json(shirt.further_views[i], further_bytes[i]));
   return header.dump(2) + "\n";
@@ -82,6 +83,7 @@ std::vector<std::size_t> parse_template_header(std::string_view text, const std:
     region.at("height_px").get_to(shirt.roi.height_px);
     header.at("distance_m").get_to(shirt.distance_m);
     shirt.yaw_rad = header.value("yaw_rad", 0.0);  // older files have none
+    shirt.turned = header.value("turned", false);
     const Json& camera = header.at("camera");
     camera.at("width_px").get_to(shirt.camera.width_px);
     camera.at("height_px").get_to(shirt.camera.height_px);

@@ -44,6 +44,7 @@ StopReason expected_reason(unsigned c) {
   if (c & kOverrun) return StopReason::Overrun;
   if (c & kClockStep) return StopReason::ClockStep;
   if (c & kBatteryLow) return StopReason::BatteryLow;
+  if (c & kTurnsAway) return StopReason::TurnsAway;
   if (c & kOperatorAway) return StopReason::OperatorAway;
   if (c & kSonarSilent) return StopReason::SonarSilent;
   if (c & kStaleFrame) return StopReason::StaleFrame;

@@ -17,6 +17,7 @@ struct Bench {
   ConditionMonitor monitor;
   ControlInput input;
   bool sonar_on = true;
+  bool turns_away = false;
 
   Bench() {
     input.now_ns = 10 * kNsPerS;
@@ -49,7 +50,7 @@ struct Bench {
   }
   Conditions same_tick() { return update(MeasurementStatus::None); }
   Conditions update(MeasurementStatus measurement, OperatorCommand command = OperatorCommand::None) {
-    return monitor.update(input, measurement, config, sonar_on, command);
+    return monitor.update(input, measurement, config, sonar_on, command, turns_away);
   }
 };
 

@@ -9,6 +9,15 @@
 
 namespace heel::test {
 
+/// `person` on the other side of the line along which `robot` heads: as a camera sees them whose picture is
+/// mirrored.
+inline Pose2 mirrored_ahead_of(const Pose2& robot, const Pose2& person) {
+  Eigen::Vector2d there = in_robot(robot, person.x_m, person.y_m);
+  there.y() = -there.y();
+  const Eigen::Vector2d seen = Eigen::Rotation2Dd(robot.heading_rad) * there;
+  return {robot.x_m + seen.x(), robot.y_m + seen.y(), 2.0 * robot.heading_rad - person.heading_rad};
+}
+
 struct Following {
   Config config;
   ControlStage stage{config, p3at_geometry()};
@@ -18,6 +27,7 @@ struct Following {
   double person_v_m_s = 0.5, person_yaw_rate_rad_s = 0.0;
   bool camera = true, visible = true;
   bool packets = true, sonars = true, operator_there = true;
+  bool mirrored = false;  // the picture
   PoseReason reason = PoseReason::Found;
   double certainty = 0.4;
   double ahead_m = 0.0;  // range of the front sonar just left of the middle; 0: free
@@ -53,7 +63,8 @@ struct Following {
     }
     if (camera && input.now_ns % (40 * kNsPerMs) == 0) {
       const std::uint64_t sequence = input.pose.frame_sequence + 1;
-      input.pose = measured(person, robot, mount_of(config.camera), reference);
+      const Pose2 seen = mirrored ? mirrored_ahead_of(robot, person) : person;
+      input.pose = measured(seen, robot, mount_of(config.camera), reference);
       input.pose.certainty = certainty;
       input.pose.reason = visible ? reason : PoseReason::TooFewMatches;
       input.pose.frame_sequence = sequence;

@@ -24,7 +24,8 @@ struct Provocation {
   std::function<void(Following&)> cure;
   /// From the cause to the tick that stops, at most.
   std::function<double(const SupervisorConfig&)> noticed_s = [](const SupervisorConfig&) { return 0.0; };
-  bool needs_reset = false;
+  /// Without an operator's reset a start is refused by this.
+  StopReason needs_reset = StopReason::None;
 };
 
 /// In one tick alone.
@@ -33,6 +34,13 @@ void ticks_late(Following& run) {
 }
 void clock_goes_back(Following& run) {
   run.input.now_ns -= 40 * kNsPerMs;
+}
+
+constexpr double kBend_s = 1.0;  // until the robot turns
+constexpr double kTurnsAwayNoticed_s = 0.5;
+void mirrored_in_a_bend(Following& run) {
+  run.mirrored = true;
+  run.person_yaw_rate_rad_s = 0.6;
 }
 
 const std::vector<Provocation>& provocations() {
@@ -46,10 +54,11 @@ const std::vector<Provocation>& provocations() {
        // The last packet came up to 0.1 s before.
        [](const Config& c) { return c.sip_timeout_s; }},
       {kStopButton, [](Following& run) { run.input.robot.stop_button = true; },
-       [](Following& run) { run.input.robot.stop_button = false; }, [](const Config&) { return 0.0; }, true},
+       [](Following& run) { run.input.robot.stop_button = false; }, [](const Config&) { return 0.0; },
+       StopReason::MotorsOff},
       {kMotorsOff, [](Following& run) { run.input.robot.motors_enabled = false; },
        [](Following& run) { run.input.robot.motors_enabled = true; }, [](const Config&) { return 0.0; },
-       true},
+       StopReason::MotorsOff},
       {kBumper, [](Following& run) { run.input.robot.bumpers_front = 2; },
        [](Following& run) { run.input.robot.bumpers_front = 0; }},
       {kStall, [](Following& run) { run.input.robot.stall_right = true; },
@@ -60,6 +69,13 @@ const std::vector<Provocation>& provocations() {
        [](Following& run) { run.input.robot.battery_v = run.config.supervisor.battery_low_v - 0.1; },
        [](Following& run) { run.input.robot.battery_v = run.config.supervisor.battery_ok_v; },
        [](const Config&) { return 2.0; }},
+      // The person walks a bend, so that the robot begins to turn.
+      {kTurnsAway, mirrored_in_a_bend,
+       [](Following& run) {
+         run.mirrored = false;
+         run.person_yaw_rate_rad_s = 0.0;
+       },
+       [](const Config&) { return kBend_s + kTurnsAwayNoticed_s; }, StopReason::TurnsAway},
       {kOperatorAway, [](Following& run) { run.operator_there = false; },
        [](Following& run) { run.operator_there = true; },
        [](const Config& c) { return c.operator_timeout_s; }},
@@ -122,11 +138,11 @@ TEST(SupervisorInTheLoop, EachConditionBringsTheRobotToRestInItsTime) {
       continue;
     }
     EXPECT_FALSE(run.drives_within(run.config.supervisor.bumper_hold_s + 2.0)) << "not without a start";
-    if (row.needs_reset) {
+    if (row.needs_reset != StopReason::None) {
       run.request(OperatorCommand::Start);
       EXPECT_FALSE(run.drives_within(1.0)) << "not without a reset";
       EXPECT_EQ(run.record.outcome, OperatorOutcome::Refused);
-      EXPECT_EQ(run.record.refused_by, StopReason::MotorsOff);
+      EXPECT_EQ(run.record.refused_by, row.needs_reset);
       run.request(OperatorCommand::Reset);
       run.tick();
       EXPECT_TRUE(run.record.enable_motors);

@@ -17,7 +17,7 @@ inline constexpr std::array kAllCommands{OperatorCommand::None, OperatorCommand:
 
 inline constexpr Conditions kFaultBits = kShutdown | kLinkDown | kStaleSip | kStopButton | kMotorsOff |
                                          kBumper | kStall | kOverrun | kClockStep | kBatteryLow |
-                                         kOperatorAway;
+                                         kOperatorAway | kTurnsAway;
 inline constexpr Conditions kSensesBits = kSonarSilent | kStaleFrame | kAmbiguous | kLowCertainty;
 
 struct Circumstances {

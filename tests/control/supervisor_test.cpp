@@ -132,7 +132,7 @@ TEST(Supervisor, AfterEachFaultItIsAtRestUntilAStart) {
       EXPECT_EQ(bench.last.outcome, OperatorOutcome::Done);
     }
   }
-  EXPECT_EQ(faults, 11);
+  EXPECT_EQ(faults, 12);
 }
 
 TEST(Supervisor, WithAtOnceItGoesOnAfterAFaultUnlessTheOperatorStopsIt) {

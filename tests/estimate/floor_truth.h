@@ -26,11 +26,11 @@ inline Eigen::Matrix3d about_z(double angle_rad) {
 /// centre at `back_z_m`). Computed only from X_cur = R X_ref + t.
 inline PoseEstimate measured(const Pose2& person, const Pose2& robot, const CameraMount& mount,
                              const Reference& reference, double back_z_m = 1.2) {
-  const Eigen::Matrix3d R_odom_from_ref = about_z(person.heading_rad) * R_robot_from_camera(0.0);
+  const Eigen::Matrix3d R_odom_from_ref = about_z(person.heading_rad) * R_robot_from_camera({});
   const Eigen::Vector3d back_odom_m(person.x_m, person.y_m, back_z_m);
   const Eigen::Vector3d ref_camera_odom_m = back_odom_m - R_odom_from_ref * reference.centre_m;
 
-  const Eigen::Matrix3d R_odom_from_cur = about_z(robot.heading_rad) * R_robot_from_camera(mount.pitch_rad);
+  const Eigen::Matrix3d R_odom_from_cur = about_z(robot.heading_rad) * R_robot_from_camera(mount);
   const Eigen::Vector3d cur_camera_odom_m =
       Eigen::Vector3d(robot.x_m, robot.y_m, 0) +
       about_z(robot.heading_rad) * Eigen::Vector3d(mount.x_m, mount.y_m, mount.z_m);

@@ -12,7 +12,7 @@ namespace heel {
 namespace {
 
 TEST(RobotFromCamera, AxesOfALevelCamera) {
-  const Eigen::Matrix3d R = R_robot_from_camera(0.0);
+  const Eigen::Matrix3d R = R_robot_from_camera({});
   EXPECT_TRUE((R * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d(1, 0, 0)));  // optical axis: ahead
   EXPECT_TRUE(
       (R * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(0, -1, 0)));  // image right: robot's right
@@ -20,7 +20,7 @@ TEST(RobotFromCamera, AxesOfALevelCamera) {
 }
 
 TEST(RobotFromCamera, PositivePitchLooksUpAndStaysARotation) {
-  const Eigen::Matrix3d R = R_robot_from_camera(0.3);
+  const Eigen::Matrix3d R = R_robot_from_camera({.pitch_rad = 0.3});
   EXPECT_GT((R * Eigen::Vector3d::UnitZ()).z(), 0.0);
   EXPECT_TRUE((R.transpose() * R).isApprox(Eigen::Matrix3d::Identity()));
   EXPECT_NEAR(R.determinant(), 1.0, 1e-12);
@@ -45,6 +45,8 @@ RC_GTEST_PROP(TargetMeasurement, RecoversThePersonForEveryMountAndTemplate, ()) 
   mount.y_m = between(-0.3, 0.3);
   mount.z_m = between(0.2, 1.5);
   mount.pitch_rad = between(-0.5, 0.5);
+  mount.yaw_rad = between(-0.5, 0.5);
+  mount.roll_rad = between(-0.5, 0.5);
   const test::Reference reference{{between(-0.3, 0.3), between(-0.3, 0.3), between(1.0, 4.0)}};
   const Pose2 person{between(1.0, 6.0), between(-2.0, 2.0), between(-1.2, 1.2)};
   // The camera sees the back, not the front: the plane of the back is ahead of it.

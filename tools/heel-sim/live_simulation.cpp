@@ -9,6 +9,7 @@
 #include "realtime/clock.h"
 #include "sim/contact/robot_in_world.h"
 #include "sim/robot/truth_columns.h"
+#include "sim/scene/sent_picture.h"
 #include "sim/scene/truth_columns.h"
 
 namespace heel::sim {
@@ -45,8 +46,10 @@ LiveSimulation::LiveSimulation(const Options& options, const Scenario* scenario)
   if (scenario != nullptr) {
     live_world_ = std::make_unique<LiveWorld>(*scenario, robot_);
     const ScenarioCamera& camera = scenario->camera;
-    if (options.camera != "none")
-      sink = open_frame_sink(options.camera, camera.model.width_px, camera.model.height_px, camera.rate_hz);
+    if (options.camera != "none") {
+      const CameraModel sent = sent_camera(camera);
+      sink = open_frame_sink(options.camera, sent.width_px, sent.height_px, camera.rate_hz);
+    }
   }
   transport_ = open_transport(options.robot, options.boot_baud);
   t_start_ns_ = monotonic_now_ns();  // time 0 of robot and world: after all that takes long

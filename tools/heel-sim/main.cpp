@@ -10,6 +10,7 @@
 #include "live_simulation.h"
 #include "options.h"
 #include "sim/live/reference_picture.h"
+#include "sim/scene/sent_picture.h"
 
 namespace {
 
@@ -30,7 +31,8 @@ std::unique_ptr<Scenario> read_scenario_of(const CLI::App& app, const Options& o
 
 /// The files that need no robot.
 void write_files(const Options& options, const Scenario& scenario) {
-  if (!options.camera_info_file.empty()) write_camera_model(scenario.camera.model, options.camera_info_file);
+  if (!options.camera_info_file.empty())
+    write_camera_model(sent_camera(scenario.camera), options.camera_info_file);
   if (!options.reference_picture.empty())
     write_reference_picture(scenario, options.reference_picture, options.reference_distance_m);
 }

@@ -22,7 +22,9 @@
 #include "heel/error.h"
 #include "picture.h"
 #include "pose_output.h"
+#include "turn_options.h"
 #include "vision/pose/template_selector.h"
+#include "vision/template/turned_template.h"
 
 namespace heel::cli {
 namespace {
@@ -43,13 +45,16 @@ struct PoseOptions {
   std::optional<double> rate_hz;
   std::optional<int> max_features;
   std::optional<int> octaves;
+  TurnOptions turn;
 };
 
 /// What heeld would run with, by the configuration file and the options, which replace the file's values.
 struct Setup {
   TargetConfig target;
   std::vector<ShirtTemplate> shirts;  ///< of target
-  CameraModel camera;
+  CameraModel sent_camera;            ///< of the inputs
+  PictureTurn turn;                   ///< of the inputs, before vision sees them
+  CameraModel camera;                 ///< of the turned pictures
   std::string camera_file;
   double image_rate_hz = 0.0;
   VisionConfig vision;
@@ -68,10 +73,14 @@ Setup load_setup(const PoseOptions& options) {
     setup.target.shirt = options.template_files.front();
     setup.target.more_shirts.assign(options.template_files.begin() + 1, options.template_files.end());
   }
-  setup.shirts = read_templates(setup.target);
-  for (ShirtTemplate& shirt : setup.shirts) shirt.oriented = shirt.oriented || options.oriented;
   setup.camera_file = options.camera_file.empty() ? config.camera.info : options.camera_file;
-  setup.camera = read_camera_model(setup.camera_file);
+  setup.sent_camera = read_camera_model(setup.camera_file);
+  setup.turn = turn_of(options.turn, config.camera);
+  setup.camera = turned_camera(setup.sent_camera, setup.turn);
+  for (ShirtTemplate& shirt : read_templates(setup.target)) {
+    shirt.oriented = shirt.oriented || options.oriented;
+    setup.shirts.push_back(template_for_turned(shirt, setup.sent_camera, setup.turn));
+  }
   setup.image_rate_hz = options.rate_hz.value_or(config.camera.rate_hz);
   setup.vision = config.vision;
   setup.vision.max_features = options.max_features.value_or(config.vision.max_features);
@@ -147,7 +156,8 @@ void process_frames(const PoseOptions& options, Setup setup) {
   if (!more && options.first > 0) throw no_first_frame(options, input.frames_passed());
   if (!options.json) std::puts(pose_table_head().c_str());
   for (; more && frame.number <= options.last; more = input.next(frame)) {
-    require_size(frame, setup.camera, setup.camera_file);
+    require_size(frame, setup.sent_camera, setup.camera_file);
+    frame.grey = turned_picture(frame.grey, setup.turn);
     const PoseRow row = estimate(templates, frame, setup.target);
     std::puts((options.json ? pose_json(row) : pose_table_row(row)).c_str());
     summary.add(row);
@@ -232,6 +242,7 @@ void add_pose_command(CLI::App& app) {
                    "octaves of scale searched in a frame (default: vision.octaves)")
       ->type_name("N")
       ->check(CLI::Range(1, 4));
+  add_turn_options(*command, options->turn);
   command->callback([options] { run_pose(*options); });
 }
 

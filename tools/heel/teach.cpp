@@ -19,6 +19,8 @@
 #include "picture.h"
 #include "teach_more.h"
 #include "teach_reach.h"
+#include "turn_options.h"
+#include "vision/template/turned_template.h"
 
 namespace heel::cli {
 namespace {
@@ -41,6 +43,7 @@ struct TeachOptions {
   bool oriented = false;
   int max_features = 0;
   std::optional<std::uint64_t> frame;
+  TurnOptions turn;
 };
 
 /// Number of the frame to take.
@@ -55,9 +58,10 @@ std::vector<std::uint8_t> grey_from_file(const TeachOptions& options, int& width
   if (!input.skip(wanted_frame(options)) || !input.next(frame)) {
     throw Error(fmt::format("--frame {}: {} ends before that frame", wanted_frame(options), options.image));
   }
-  width_px = frame.grey.cols;
-  height_px = frame.grey.rows;
-  return {frame.grey.datastart, frame.grey.dataend};
+  const cv::Mat grey = turned_picture(frame.grey, turn_of(options.turn));
+  width_px = grey.cols;
+  height_px = grey.rows;
+  return {grey.datastart, grey.dataend};
 }
 
 std::vector<std::uint8_t> grey_from_camera(const TeachOptions& options, int& width_px, int& height_px) {
@@ -66,6 +70,8 @@ std::vector<std::uint8_t> grey_from_camera(const TeachOptions& options, int& wid
   config.width_px = width_px;
   config.height_px = height_px;
   config.file_speed = 0.0;
+  config.rotate = options.turn.rotate.value_or(0);
+  config.mirror = options.turn.mirror;
   const std::unique_ptr<FrameSource> source = open_frame_source(config);
   const std::uint64_t wanted = wanted_frame(options);
   FrameView view;
@@ -101,9 +107,12 @@ Region parse_roi(const std::vector<int>& roi, const CameraModel& camera) {
 
 ShirtTemplate make_template(const TeachOptions& options) {
   ShirtTemplate shirt;
-  shirt.camera = read_camera_model(options.camera_file);
-  int width_px = shirt.camera.width_px;
-  int height_px = shirt.camera.height_px;
+  const CameraModel sent_camera = read_camera_model(options.camera_file);
+  const PictureTurn turn = turn_of(options.turn);
+  shirt.camera = turned_camera(sent_camera, turn);
+  shirt.turned = turn.any();
+  int width_px = sent_camera.width_px;
+  int height_px = sent_camera.height_px;
   shirt.grey = options.image.empty() ? grey_from_camera(options, width_px, height_px)
                                      : grey_from_file(options, width_px, height_px);
   if (width_px != shirt.camera.width_px || height_px != shirt.camera.height_px) {
@@ -135,11 +144,14 @@ void run_teach(const TeachOptions& options) {
   if (!options.picture.empty()) require_writable_image_name(options.picture);
   ShirtTemplate shirt = make_template(options);
   const CameraModel robot_camera =
-      options.robot_camera_file.empty() ? shirt.camera : read_camera_model(options.robot_camera_file);
+      options.robot_camera_file.empty()
+          ? shirt.camera
+          : turned_camera(read_camera_model(options.robot_camera_file), turn_of(options.turn));
   const TemplateVerdict verdict = judge_template(shirt);
   if (!options.picture.empty()) write_image(options.picture, draw_template(shirt, template_features(shirt)));
   if (verdict.usable) {
-    if (!options.more.empty()) shirt.further_views = further_views(shirt, options.more, options.camera_file);
+    if (!options.more.empty())
+      shirt.further_views = further_views(shirt, options.more, options.camera_file, turn_of(options.turn));
     write_template(shirt, options.output);
   }
   print_verdict(shirt, verdict);
@@ -219,6 +231,7 @@ void add_teach_command(CLI::App& app) {
       ->add_option("--max", options->max_features, "largest number of features, the strongest (default 300)")
       ->type_name("N")
       ->check(CLI::Range(20, 5000));
+  add_turn_options(*command, options->turn);
   command->callback([options] { run_teach(*options); });
 }
 

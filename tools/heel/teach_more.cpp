@@ -8,6 +8,7 @@
 #include "files/image_file.h"
 #include "heel/error.h"
 #include "heel/pose_tracker.h"
+#include "turn_options.h"
 
 namespace heel::cli {
 namespace {
@@ -27,7 +28,7 @@ void require_sure(const PoseEstimate& pose, const std::string& image) {
 }  // namespace
 
 std::vector<FurtherView> further_views(const ShirtTemplate& shirt, const std::vector<std::string>& images,
-                                       const std::string& camera_file) {
+                                       const std::string& camera_file, const PictureTurn& turn) {
   VisionConfig config;
   config.tracking = false;  // the pictures have nothing to do with one another
   PoseTracker tracker(shirt, shirt.camera, config);
@@ -36,6 +37,7 @@ std::vector<FurtherView> further_views(const ShirtTemplate& shirt, const std::ve
     FrameInput input({image}, 30.0);
     InputFrame frame;
     if (!input.next(frame)) throw Error(fmt::format("--more {}: no picture in it", image));
+    frame.grey = turned_picture(frame.grey, turn);
     require_size(frame, shirt.camera, camera_file);
     const PoseEstimate pose = tracker.estimate(frame_view_of(frame.grey));
     require_sure(pose, image);

@@ -4,12 +4,16 @@
 #include "capture/file/file_source.h"
 #include "capture/libcamera/libcamera_source.h"
 #include "capture/shared_memory/sim_source.h"
+#include "capture/turned/turned_source.h"
 #include "capture/v4l2/v4l2_source.h"
+#include "core/picture_turn.h"
 #include "heel/error.h"
 
 namespace heel {
 
-std::unique_ptr<FrameSource> make_frame_source(const CameraConfig& config) {
+namespace {
+
+std::unique_ptr<FrameSource> make_untouched(const CameraConfig& config) {
   const SourceAddress address = parse_source_address(config.source);
   switch (address.kind) {
     case SourceKind::File:
@@ -27,6 +31,15 @@ std::unique_ptr<FrameSource> make_frame_source(const CameraConfig& config) {
   throw Error("camera address '" + config.source +
               "': this program was built without libcamera (expected v4l2:PATH, file:PATH or sim:NAME)");
 #endif
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSource> make_frame_source(const CameraConfig& config) {
+  std::unique_ptr<FrameSource> source = make_untouched(config);
+  const PictureTurn turn = picture_turn(config.rotate, config.mirror);
+  if (!turn.any()) return source;
+  return std::make_unique<TurnedSource>(std::move(source), turn);
 }
 
 std::unique_ptr<FrameSource> open_frame_source(const CameraConfig& config) {

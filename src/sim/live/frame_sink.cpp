@@ -20,11 +20,12 @@ class ChannelSink : public FrameSink {
   ChannelSink(const std::string& name, int width_px, int height_px)
       : channel_(name, static_cast<std::uint32_t>(width_px), static_cast<std::uint32_t>(height_px)) {}
 
-  void put(const FrameHeader& header, const std::vector<std::uint8_t>& grey) override {
+  void put(const FrameView& frame) override {
+    const FrameHeader& header = frame.header;
     const WritableFrame out = channel_.writable();
     *out.header = header;
     for (std::size_t y = 0; y < header.height_px; ++y)
-      std::memcpy(out.grey + y * out.stride_bytes, grey.data() + y * header.width_px, header.width_px);
+      std::memcpy(out.grey + y * out.stride_bytes, frame.grey + y * header.width_px, header.width_px);
     channel_.publish();
   }
 
@@ -40,9 +41,9 @@ class PictureSink : public FrameSink {
     if (!path_.ends_with(".pgm")) throw Error("--camera file:" + path_ + " (expected file:PICTURE.pgm)");
   }
 
-  void put(const FrameHeader& header, const std::vector<std::uint8_t>& grey) override {
-    write_grey_image(temporary_path_, grey.data(), static_cast<int>(header.width_px),
-                     static_cast<int>(header.height_px));
+  void put(const FrameView& frame) override {
+    write_grey_image(temporary_path_, frame.grey, static_cast<int>(frame.header.width_px),
+                     static_cast<int>(frame.header.height_px));
     if (std::rename(temporary_path_.c_str(), path_.c_str()) != 0)
       throw Error(path_ + ": cannot be replaced: " + std::strerror(errno));
   }

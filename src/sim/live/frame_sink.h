@@ -2,10 +2,8 @@
 // any program can read, or into a picture file, which another machine can read as well.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "heel/flow.h"
 
@@ -14,9 +12,9 @@ namespace heel::sim {
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
-  /// `grey` has the header's size, rows without gaps. Throws heel::Error when frames can no longer be
+  /// The rows of `frame` have no gaps. Throws heel::Error when frames can no longer be
   /// delivered.
-  virtual void put(const FrameHeader& header, const std::vector<std::uint8_t>& grey) = 0;
+  virtual void put(const FrameView& frame) = 0;
 };
 
 /// Opens "sim:NAME", "v4l2:/dev/videoN" or "file:PICTURE.pgm" for frames of this size and rate. Throws

@@ -31,6 +31,7 @@ LiveCamera::LiveCamera(World& world, const SharedMotion& motion, std::unique_ptr
                        TimeNs t_start_ns, const std::string& saved_folder, double saved_every_s)
     : world_(world),
       motion_(motion),
+      turner_(world.scenario().camera.turn.inverse()),
       sink_(std::move(sink)),
       t_start_ns_(t_start_ns),
       period_ns_(ns_from_seconds(1.0 / world.scenario().camera.rate_hz)),
@@ -107,7 +108,7 @@ void LiveCamera::draw(std::uint64_t sequence, TimeNs t_ns) {
   header.t_capture_ns = t_start_ns_ + t_ns + delivery.stamp_error_ns;
   header.width_px = static_cast<std::uint32_t>(camera.width_px);
   header.height_px = static_cast<std::uint32_t>(camera.height_px);
-  sink_->put(header, grey_);
+  sink_->put(turner_.of({header, grey_.data(), header.width_px}));
   {
     const std::scoped_lock lock(counters_mutex_);
     ++counters_.frames;

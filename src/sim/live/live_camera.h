@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include "core/picture_turn.h"
 #include "sim/live/frame_sink.h"
 #include "sim/robot/p3at.h"
 #include "sim/scene/world.h"
@@ -58,6 +59,7 @@ class LiveCamera {
 
   World& world_;
   const SharedMotion& motion_;
+  PictureTurner turner_;  ///< upright → as the camera sends it
   std::unique_ptr<FrameSink> sink_;
   TimeNs t_start_ns_;
   TimeNs period_ns_;

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include "files/image_file.h"
-#include "sim/scene/world.h"
+#include "sim/scene/sent_picture.h"
 
 namespace heel::sim {
 
 void write_reference_picture(const Scenario& scenario, const std::string& path, double distance_m) {
-  const ReferenceView view = World(scenario).reference_view(distance_m);
-  write_grey_image(path, view.grey.data(), scenario.camera.model.width_px, scenario.camera.model.height_px);
+  const ShirtTemplate view = sent_reference_view(scenario, distance_m);
+  write_grey_image(path, view.grey.data(), view.camera.width_px, view.camera.height_px);
   fmt::print("roi={},{},{},{} distance={:g}\n", view.roi.x_px, view.roi.y_px, view.roi.width_px,
              view.roi.height_px, view.distance_m);
 }

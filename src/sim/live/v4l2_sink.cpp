@@ -74,8 +74,9 @@ void V4l2Sink::set_rate(double rate_hz) {
   device_->control(VIDIOC_S_PARM, &parameters);
 }
 
-void V4l2Sink::put(const FrameHeader& /*header*/, const std::vector<std::uint8_t>& grey) {
-  for (std::size_t i = 0; i < grey.size(); ++i) yuyv_[2 * i] = grey[i];
+void V4l2Sink::put(const FrameView& frame) {
+  const std::size_t pixels = std::size_t{frame.header.width_px} * frame.header.height_px;
+  for (std::size_t i = 0; i < pixels; ++i) yuyv_[2 * i] = frame.grey[i];
   const std::ptrdiff_t taken = device_->write(yuyv_.data(), yuyv_.size());
   if (taken == -EAGAIN) return;  // no reader has taken the last frame: this one is lost
   if (taken < 0)

@@ -32,7 +32,7 @@ class V4l2Sink : public FrameSink {
   V4l2Sink(std::unique_ptr<OutputDevice> device, const std::string& path, int width_px, int height_px,
            double rate_hz);
 
-  void put(const FrameHeader& header, const std::vector<std::uint8_t>& grey) override;
+  void put(const FrameView& frame) override;
 
  private:
   void check_device();

@@ -2,6 +2,7 @@
 
 #include "capture/factory/frame_source_factory.h"
 #include "core/config.h"
+#include "core/picture_turn.h"
 #include "heel/error.h"
 
 namespace heel::sim {
@@ -18,18 +19,19 @@ FrameHeader header_of(std::uint64_t sequence, TimeNs t_ns, std::uint32_t width_p
 
 class WorldSupply : public FrameSupply {
  public:
-  explicit WorldSupply(World& world) : world_(world) {}
+  explicit WorldSupply(World& world) : world_(world), turner_(world.scenario().camera.turn.inverse()) {}
 
   FrameView frame(std::uint64_t sequence, TimeNs t_ns, const RobotMotion& robot) override {
     world_.render(robot, seconds_from_ns(t_ns), sequence, grey_);
     const CameraModel& camera = world_.scenario().camera.model;
     const auto width_px = static_cast<std::uint32_t>(camera.width_px);
-    return {header_of(sequence, t_ns, width_px, static_cast<std::uint32_t>(camera.height_px)), grey_.data(),
-            width_px};
+    return turner_.of({header_of(sequence, t_ns, width_px, static_cast<std::uint32_t>(camera.height_px)),
+                       grey_.data(), width_px});
   }
 
  private:
   World& world_;
+  PictureTurner turner_;  ///< upright → as the camera sends it
   std::vector<std::uint8_t> grey_;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "control/control_stage.h"
+#include "core/picture_turn.h"
 #include "core/random.h"
 #include "heel/error.h"
 #include "robot/arcos_session.h"
@@ -16,7 +17,9 @@
 #include "sim/contact/robot_in_world.h"
 #include "sim/lockstep/frame_supply.h"
 #include "sim/pose_noise/sampled_poses.h"
+#include "sim/scene/sent_picture.h"
 #include "vision/pose/template_selector.h"
+#include "vision/template/turned_template.h"
 
 namespace heel::sim {
 namespace {
@@ -57,6 +60,7 @@ class Lockstep {
 
   const Scenario scenario_;
   const double control_rate_hz_;
+  PictureTurner turner_;  ///< as the configuration says
   LockstepObserver& observer_;
   std::unique_ptr<World> world_;  ///< none when frames come from a file
   std::unique_ptr<FrameSupply> frames_;
@@ -82,6 +86,7 @@ class Lockstep {
 Lockstep::Lockstep(const LockstepSettings& settings, LockstepObserver& observer)
     : scenario_(settings.scenario),
       control_rate_hz_(settings.config.control.rate_hz),
+      turner_(picture_turn(settings.config.camera.rotate, settings.config.camera.mirror)),
       observer_(observer),
       operator_(settings.operator_actions),
       control_(control_config(settings), p3at_geometry()),
@@ -96,7 +101,9 @@ Lockstep::Lockstep(const LockstepSettings& settings, LockstepObserver& observer)
   }
   std::vector<ShirtTemplate> shirts{settings.shirt};
   shirts.insert(shirts.end(), settings.more_shirts.begin(), settings.more_shirts.end());
-  vision_.emplace(shirts, scenario_.camera.model, settings.config.vision);
+  const CameraModel sent = sent_camera(scenario_.camera);
+  for (ShirtTemplate& shirt : shirts) shirt = template_for_turned(shirt, sent, turner_.turn());
+  vision_.emplace(shirts, turned_camera(sent, turner_.turn()), settings.config.vision);
   if (scenario_.camera.source == "sim") {
     world_ = std::make_unique<World>(scenario_);
     frames_ = make_world_supply(*world_);
@@ -213,6 +220,7 @@ void Lockstep::run_vision(const CapturedFrame& captured, TimeNs t_start_ns) {
       frames_ended_ = true;
       return;
     }
+    frame = turner_.of(frame);
     frame.header.t_capture_ns += captured.stamp_error_ns;
     pose = vision_->estimate(frame);
   }
@@ -266,12 +274,7 @@ LockstepCounts run_lockstep(const LockstepSettings& settings, LockstepObserver& 
 }
 
 ShirtTemplate teach_from_world(const Scenario& scenario, double distance_m) {
-  const ReferenceView view = World(scenario).reference_view(distance_m);
-  ShirtTemplate shirt;
-  shirt.grey = view.grey;
-  shirt.camera = scenario.camera.model;
-  shirt.roi = view.roi;
-  shirt.distance_m = distance_m;
+  ShirtTemplate shirt = sent_reference_view(scenario, distance_m);
   const TemplateVerdict verdict = judge_template(shirt);
   if (!verdict.usable)
     throw Error("scenario " + scenario.name + ": the shirt cannot be followed: " + verdict.reason);
@@ -280,8 +283,10 @@ ShirtTemplate teach_from_world(const Scenario& scenario, double distance_m) {
 
 void apply_scenario(const Scenario& scenario, Config& config) {
   const ScenarioCamera& camera = scenario.camera;
-  config.camera.width_px = camera.model.width_px;
-  config.camera.height_px = camera.model.height_px;
+  const CameraModel sent = sent_camera(camera);
+  if (camera.source != "sim") config.camera.source = camera.source;
+  config.camera.width_px = sent.width_px;
+  config.camera.height_px = sent.height_px;
   config.camera.rate_hz = camera.rate_hz;
   config.camera.mount_x_m = camera.mount_x_m;
   config.camera.mount_y_m = camera.mount_y_m;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/picture_turn.h"
 #include "heel/camera_model.h"
 #include "sim/render/exposure.h"
 #include "sim/render/frame_timing.h"
@@ -21,7 +22,8 @@ namespace heel::sim {
 
 struct ScenarioCamera {
   std::string source = "sim";  ///< "sim", or "file:VIDEO": frames come from a file and there is no world
-  CameraModel model;
+  CameraModel model;           ///< of upright pictures
+  PictureTurn turn;            ///< what makes the pictures that it sends upright
   double rate_hz = 30.0;
   // Place of the optical centre in the robot frame, and the camera's attitude.
   double mount_x_m = 0.15;

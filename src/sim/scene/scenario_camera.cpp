@@ -1,5 +1,6 @@
 // The section [camera]: lens, mount, shutter, sensor and frame timing.
 #include <filesystem>
+#include <string>
 
 #include "files/camera_info.h"
 #include "sim/scene/scenario_parts.h"
@@ -75,6 +76,10 @@ void read_camera(TomlSection camera, const std::string& path, ScenarioCamera& ou
   else if (out.source != "sim")
     camera.fail("source", "'" + out.source + "' (expected sim or file:VIDEO)");
   out.model = read_model(camera, path);
+  const auto rotate_deg = static_cast<int>(camera.integer("rotate", 0, 0, 270));
+  if (rotate_deg % 90 != 0)
+    camera.fail("rotate", std::to_string(rotate_deg) + " (expected 0, 90, 180 or 270)");
+  out.turn = picture_turn(rotate_deg, camera.boolean("mirror", false));
   out.rate_hz = camera.number("rate_hz", out.rate_hz, {1, 240, "Hz"});
   out.mount_x_m = camera.number("mount_x_m", out.mount_x_m, {-2, 2, "m"});
   out.mount_y_m = camera.number("mount_y_m", out.mount_y_m, {-2, 2, "m"});

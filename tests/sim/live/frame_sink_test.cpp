@@ -6,18 +6,12 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
+#include "sim/live/small_frame.h"
 #include "support/complaint.h"
 #include "support/temporary_folder.h"
 
 namespace heel::sim {
 namespace {
-
-FrameHeader of_four_by_two() {
-  FrameHeader header;
-  header.width_px = 4;
-  header.height_px = 2;
-  return header;
-}
 
 TEST(FrameSink, TheFileIsTheNewestFrame) {
   const test::TemporaryFolder folder;
@@ -25,7 +19,8 @@ TEST(FrameSink, TheFileIsTheNewestFrame) {
   const auto sink = open_frame_sink("file:" + path, 4, 2, 30.0);
   EXPECT_FALSE(std::filesystem::exists(path)) << "nothing to see before the first frame";
   for (const std::uint8_t level : {std::uint8_t{10}, std::uint8_t{200}}) {
-    sink->put(of_four_by_two(), std::vector<std::uint8_t>(8, level));
+    const std::vector<std::uint8_t> grey(8, level);
+    sink->put(test::small_frame(grey));
     EXPECT_EQ(test::read_text(path).substr(0, 2), "P5") << "a binary PGM, which anybody reads";
     const cv::Mat read = cv::imread(path, cv::IMREAD_UNCHANGED);
     ASSERT_EQ(read.type(), CV_8UC1);
@@ -37,9 +32,9 @@ TEST(FrameSink, TheFileIsTheNewestFrame) {
 }
 
 TEST(FrameSink, SaysWhatItCannotDo) {
-  const auto complaint = [](const std::string& address) {
-    return test::complaint_of(
-        [&] { open_frame_sink(address, 4, 2, 30.0)->put(of_four_by_two(), std::vector<std::uint8_t>(8)); });
+  const std::vector<std::uint8_t> black(8);
+  const auto complaint = [&](const std::string& address) {
+    return test::complaint_of([&] { open_frame_sink(address, 4, 2, 30.0)->put(test::small_frame(black)); });
   };
   EXPECT_EQ(complaint("file:now.png"), "--camera file:now.png (expected file:PICTURE.pgm)");
   EXPECT_NE(complaint("file:/nowhere/now.pgm").find("/nowhere/now.pgm"), std::string::npos);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "heel/error.h"
+#include "sim/live/small_frame.h"
 #include "support/complaint.h"
 #include "support/temporary_folder.h"
 
@@ -73,13 +74,6 @@ std::string complaint(Loopback loopback) {
   return test::complaint_of([&] { open_sink(loopback); });
 }
 
-FrameHeader header() {
-  FrameHeader out;
-  out.width_px = 4;
-  out.height_px = 2;
-  return out;
-}
-
 TEST(V4l2Sink, WritesGreyAsYuyvWithoutColour) {
   Loopback loopback;
   V4l2Sink sink = open_sink(loopback);
@@ -87,7 +81,8 @@ TEST(V4l2Sink, WritesGreyAsYuyvWithoutColour) {
   EXPECT_EQ(loopback.format.width, 4U);
   EXPECT_EQ(loopback.format.sizeimage, 16U);
   EXPECT_EQ(loopback.rate_hz, 30.0);
-  sink.put(header(), {1, 2, 3, 4, 5, 6, 7, 255});
+  const std::vector<std::uint8_t> grey{1, 2, 3, 4, 5, 6, 7, 255};
+  sink.put(test::small_frame(grey));
   ASSERT_EQ(loopback.frames.size(), 1U);
   EXPECT_EQ(loopback.frames[0],
             (std::vector<std::uint8_t>{1, 128, 2, 128, 3, 128, 4, 128, 5, 128, 6, 128, 7, 128, 255, 128}));
@@ -110,11 +105,11 @@ TEST(V4l2Sink, ADeviceThatGoesAwayIsNamed) {
   V4l2Sink sink = open_sink(loopback);
   const std::vector<std::uint8_t> grey(8, 9);
   loopback.write_result = -EAGAIN;
-  EXPECT_NO_THROW(sink.put(header(), grey));
+  EXPECT_NO_THROW(sink.put(test::small_frame(grey)));
   loopback.write_result = -ENODEV;
-  EXPECT_THROW(sink.put(header(), grey), Error);
+  EXPECT_THROW(sink.put(test::small_frame(grey)), Error);
   loopback.write_result = 3;
-  EXPECT_THROW(sink.put(header(), grey), Error);
+  EXPECT_THROW(sink.put(test::small_frame(grey)), Error);
 }
 
 TEST(V4l2Sink, TheKernelsDeviceLeavesOrdinaryFilesAlone) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "control/control_stage.h"
+#include "core/picture_turn.h"
 #include "evaluation/experiments/run_record.h"
 #include "evaluation/metrics/metrics.h"
 #include "heel/error.h"
@@ -63,6 +64,47 @@ LockstepSettings troubled_walk() {
   scenario.light.changes = {{1.5, 0.3}};
   scenario.room.bump_m = 0.002;
   return settings;
+}
+
+struct HowItWent : LockstepObserver {
+  double moved_m = 0.0, turned_rad = 0.0;
+  bool turned_away = false;
+  void on_tick(const TickRecord& tick, const LockstepTruth& truth) override {
+    moved_m = std::hypot(truth.robot.pose.x_m + 1.8, truth.robot.pose.y_m - 0.6);
+    turned_rad = std::max(turned_rad, std::abs(truth.robot.pose.heading_rad));
+    turned_away = turned_away || tick.stop_reason == StopReason::TurnsAway;
+  }
+};
+
+/// The person is to the right of the middle of an upright picture.
+HowItWent with_a_turned_camera(const PictureTurn& mounted, int rotate, bool mirror) {
+  LockstepSettings settings = short_walk();
+  settings.scenario.duration_s = 4.5;
+  settings.scenario.robot.y_m = 0.6;
+  settings.scenario.camera.turn = mounted;
+  settings.config.camera.rotate = rotate;
+  settings.config.camera.mirror = mirror;
+  apply_scenario(settings.scenario, settings.config);
+  settings.shirt = teach_from_world(settings.scenario, 1.5);
+  HowItWent run;
+  run_lockstep(settings, run);
+  return run;
+}
+
+TEST(Lockstep, FollowsByATurnedCameraThatTheConfigurationKnows) {
+  const HowItWent upside_down = with_a_turned_camera(picture_turn(180, false), 180, false);
+  EXPECT_FALSE(upside_down.turned_away);
+  EXPECT_GT(upside_down.moved_m, 0.3);
+  if (test::kSanitized) return;  // the other turns differ in core/picture_turn.cpp only
+  const HowItWent portrait = with_a_turned_camera(picture_turn(90, true), 90, true);
+  EXPECT_FALSE(portrait.turned_away);
+  EXPECT_GT(portrait.moved_m, 0.3);
+}
+
+TEST(Lockstep, ATurnedCameraThatTheConfigurationDoesNotKnowStopsTheRobot) {
+  const HowItWent run = with_a_turned_camera(picture_turn(180, false), 0, false);
+  EXPECT_TRUE(run.turned_away);
+  EXPECT_LT(run.turned_rad, 0.45) << "the robot needs 0.2 s and 0.1 rad to stop turning";
 }
 
 TEST(Lockstep, RepeatsToTheBitAndDiffersBySeed) {

@@ -1,0 +1,33 @@
+// The options --rotate and --mirror, as the keys camera.rotate and camera.mirror.
+#include "turn_options.h"
+
+#include <cstdint>
+
+namespace heel::cli {
+
+void add_turn_options(CLI::App& command, TurnOptions& options) {
+  command
+      .add_option("--rotate", options.rotate,
+                  "turn each picture clockwise, so that it is upright; the calibration stays that of the\n"
+                  "pictures as the camera sends them (default: camera.rotate of --config, else 0)")
+      ->type_name("DEG")
+      ->check(CLI::IsMember({0, 90, 180, 270}));
+  command.add_flag("--mirror", options.mirror,
+                   "mirror each picture left to right before it is turned (also with camera.mirror of "
+                   "--config)");
+}
+
+PictureTurn turn_of(const TurnOptions& options, const CameraConfig& config) {
+  return picture_turn(options.rotate.value_or(config.rotate), options.mirror || config.mirror);
+}
+
+cv::Mat turned_picture(const cv::Mat& grey, const PictureTurn& turn) {
+  if (!turn.any()) return grey;
+  cv::Mat turned(turn.swaps_sides() ? grey.cols : grey.rows, turn.swaps_sides() ? grey.rows : grey.cols,
+                 CV_8UC1);
+  turn_grey(turn, grey.data, static_cast<std::uint32_t>(grey.step), static_cast<std::uint32_t>(grey.cols),
+            static_cast<std::uint32_t>(grey.rows), turned.data);
+  return turned;
+}
+
+}  // namespace heel::cli
