@@ -99,6 +99,24 @@ enum class LinkPhase : std::uint8_t {
   Running,   ///< SIPs arrive, motors are enabled
   Disabled,  ///< SIPs arrive, motors went off (STOP button, E-stall): off until an operator's reset
   Lost,      ///< SIPs stopped or the line broke; reconnecting
+  Refused,   ///< it answers, and is not a robot that may be driven: RobotKind::choice says why
+};
+
+/// Which parameters the robot that answers is driven with.
+enum class ModelChoice : std::uint8_t {
+  NotYet,    ///< it has not said what it is
+  Chosen,    ///< those of RobotKind::model
+  Unknown,   ///< refused: no parameters for its class and subclass
+  Conflict,  ///< refused: it is not what robot.model says
+  Nameless,  ///< refused: it does not say what it is, and robot.model does not either
+};
+
+/// What the robot says that it is (SYNC2), in printable characters and cut to fit, and what follows from it.
+struct RobotKind {
+  std::array<char, 24> robot_class{};  ///< "Pioneer"; ends with a zero
+  std::array<char, 24> subclass{};     ///< "p3at-sh"; ends with a zero
+  ModelChoice choice = ModelChoice::NotYet;
+  std::uint8_t model = 0;  ///< place in the table of models; with Conflict, of the one in robot.model
 };
 
 /// Pose of the robot frame in odom, unwrapped, SI.
@@ -116,7 +134,8 @@ struct SonarEcho {
   TimeNs t_ns = 0;  ///< first byte of the SIP that reported it; 0: none yet
   double range_m = 0.0;
 };
-inline constexpr std::size_t kSonars = 16;  ///< 0…7 front from left to right, 8…15 rear from right to left
+/// The robot with the most has this many; its model says which are fitted, and where.
+inline constexpr std::size_t kMaxSonars = 32;
 
 /// What the robot's controller does with the accelerations that heeld asks for. CONFIGpac limits them;
 /// without it the smaller values of the factory are assumed.
@@ -129,6 +148,7 @@ struct DriveLimits {
 /// The newest standard information packet in SI units, and the state of the line.
 struct RobotState {
   LinkPhase phase = LinkPhase::Closed;
+  RobotKind kind;
   bool has_sip = false;
   Odometry odometry;
   bool motors_enabled = false;
@@ -138,7 +158,7 @@ struct RobotState {
   bool stall_right = false;
   std::uint8_t bumpers_front = 0;  ///< bit i: segment i pressed
   std::uint8_t bumpers_rear = 0;
-  std::array<SonarEcho, kSonars> sonar{};
+  std::array<SonarEcho, kMaxSonars> sonar{};
   double battery_v = 0.0;
   DriveLimits limits;
   std::uint64_t sips = 0;
@@ -401,7 +421,7 @@ struct Event {
   EventKind kind = EventKind::Note;
   std::int64_t a = 0;
   std::int64_t b = 0;
-  std::array<char, 128> text{};  ///< ends with a zero
+  std::array<char, 192> text{};  ///< ends with a zero
 };
 
 /// Counters of the capture thread since the start; it pushes them when they have changed.
@@ -424,6 +444,7 @@ static_assert(
 /// The texts of reasons and phases in logs, records and status lines.
 const char* to_string(PoseReason reason);
 const char* to_string(LinkPhase phase);
+const char* to_string(ModelChoice choice);
 const char* to_string(MeasurementStatus status);
 const char* to_string(OperatorCommand command);
 const char* to_string(OperatorOutcome outcome);

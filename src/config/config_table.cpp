@@ -66,7 +66,7 @@ constexpr ConfigSection kSections[] = {
     {"control", "The control law; with set points of zero the robot takes the view of the template."},
     {"supervisor", "The conditions under which the robot must be at rest."},
     {"gate", "The limits of every command that is sent to the robot."},
-    {"robot", "The line to the P3-AT, and the limits set in the robot's own controller."},
+    {"robot", "The line to the robot, and the limits set in the robot's own controller."},
     {"telemetry", "The recording of a run."},
     {"operator", "The commands of operators."},
     {"runtime", "The process: log, start-up and real-time priorities."},
@@ -172,12 +172,12 @@ const ConfigKey kKeys[] = {
     limit(HEEL_KEY(gate, command_lifetime_s), "s", {0.02, 1}, Smaller, "Time after which a velocity command that was not renewed counts as zero."),
 
     address(HEEL_KEY(robot, address), "serial|pty|tcp", "The robot's controller: serial:DEVICE@BAUD, pty:PATH@BAUD or tcp:HOST:PORT. BAUD (38400 if missing) is tried first, then the robot's other rates; a controller that answers at a slower rate and can change it is switched to BAUD."),
+    choice(HEEL_KEY(robot, model), "auto|p3at-sh|p3at|p3dx-sh|p3dx|p2at8|p2at|amigo-sh|amigo|peoplebot-sh|powerbot-sh", No, "The robot's subclass, which decides its units, outline and sonar places. auto takes what the robot says when it connects; with a name, a robot that says another one is not driven."),
     flag(HEEL_KEY(robot, sonar), No, "Whether the sonars are on; they click audibly. When they are off, only the bumpers detect obstacles."),
     flag(HEEL_KEY(robot, request_config), No, "Whether to request the controller's settings (CONFIGpac) after connecting."),
     number(HEEL_KEY(robot, config_wait_s), "s", {0, 30}, No, "How long to wait for these settings before going on without them."),
     number(HEEL_KEY(robot, sync_retry_s), "s", {0.1, 30}, No, "Pause between attempts to synchronise."),
     number(HEEL_KEY(robot, reconnect_s), "s", {0.1, 60}, No, "Pause before a lost line is opened again."),
-    number(HEEL_KEY(robot, dist_conv_factor), "mm/unit", {0.01, 10}, No, "Millimetres per unit of the robot's odometry: 1.0 for p3at-sh, 0.465 for p3at."),
     number(HEEL_KEY(robot, v_limit_mm_s), "mm/s", {0, 1200}, No, "Speed limit set in the robot's controller (SETV)."),
     number(HEEL_KEY(robot, yaw_rate_limit_deg_s), "deg/s", {0, 300}, No, "Yaw rate limit set in the robot's controller (SETRV)."),
     number(HEEL_KEY(robot, acceleration_mm_s2), "mm/s²", {1, 5000}, No, "Acceleration set in the robot's controller (SETA)."),
@@ -219,6 +219,7 @@ constexpr ConfigRelation kRelations[] = {
 };
 
 constexpr RemovedConfigKey kRemovedKeys[] = {
+    {"robot.dist_conv_factor", "the robot's subclass decides it (robot.model)"},
     {"vision.ransac_budget_ms", "vision.ransac_iterations alone limits RANSAC"},
 };
 

@@ -19,9 +19,11 @@ bool older_than(TimeNs t_ns, TimeNs now_ns, double limit_s) {
   return now_ns - t_ns > ns_from_seconds(limit_s);
 }
 
-TimeNs newest_front_reading_ns(const RobotState& robot) {
+TimeNs newest_front_reading_ns(const RobotState& robot, const RobotGeometry& geometry) {
   TimeNs newest_ns = 0;
-  for (std::size_t i = 0; i < kSonars / 2; ++i) newest_ns = std::max(newest_ns, robot.sonar[i].t_ns);
+  for (std::size_t i = 0; i < kMaxSonars; ++i) {
+    if (geometry.looks_ahead(i)) newest_ns = std::max(newest_ns, robot.sonar[i].t_ns);
+  }
   return newest_ns;
 }
 
@@ -37,8 +39,8 @@ bool held(bool active, bool& ever_active, TimeNs& t_last_active_ns, TimeNs now_n
 }  // namespace
 
 Conditions ConditionMonitor::update(const ControlInput& input, MeasurementStatus measurement,
-                                    const SupervisorConfig& config, bool sonar_on, OperatorCommand command,
-                                    bool turns_away) {
+                                    const SupervisorConfig& config, const RobotGeometry& geometry,
+                                    bool sonar_on, OperatorCommand command, bool turns_away) {
   const RobotState& robot = input.robot;
   const TimeNs now_ns = input.now_ns;
   update_following(input, measurement, config);
@@ -56,7 +58,8 @@ Conditions ConditionMonitor::update(const ControlInput& input, MeasurementStatus
                     config.bumper_hold_s));
   set(kStall, held(robot.stall_left || robot.stall_right, ever_stalled_, t_last_stall_ns_, now_ns,
                    config.bumper_hold_s));
-  set(kSonarSilent, sonar_on && older_than(newest_front_reading_ns(robot), now_ns, config.sonar_timeout_s));
+  set(kSonarSilent,
+      sonar_on && older_than(newest_front_reading_ns(robot, geometry), now_ns, config.sonar_timeout_s));
   set(kStaleFrame, !input.has_pose || older_than(input.pose.t_capture_ns, now_ns, config.frame_timeout_s));
   set(kLowCertainty,
       !following_ && input.has_pose && input.pose.found() && input.pose.certainty < config.certainty_follow);

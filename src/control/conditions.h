@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/config.h"
+#include "core/robot_geometry.h"
 #include "heel/flow.h"
 
 namespace heel {
@@ -12,10 +13,10 @@ namespace heel {
 /// Motors that went off while the line was up stay off until an operator's reset.
 class ConditionMonitor {
  public:
-  /// Once a tick. `sonar_on`: without readings from the sonars kSonarSilent holds. `command`: of a request
-  /// that is new in this tick. `turns_away`: by TurnMonitor.
+  /// Once a tick. `geometry`: of the robot, for its front sonars. `sonar_on`: without readings from these
+  /// kSonarSilent holds. `command`: of a request that is new in this tick. `turns_away`: by TurnMonitor.
   Conditions update(const ControlInput& input, MeasurementStatus measurement, const SupervisorConfig& config,
-                    bool sonar_on, OperatorCommand command, bool turns_away);
+                    const RobotGeometry& geometry, bool sonar_on, OperatorCommand command, bool turns_away);
 
  private:
   void update_following(const ControlInput& input, MeasurementStatus measurement,

@@ -34,10 +34,11 @@ void copy_verdict(const Verdict& verdict, TickRecord& record) {
 }  // namespace
 
 struct ControlStage::Impl {
-  Impl(const Config& config, const RobotGeometry& robot)
+  Impl(const Config& config, std::span<const RobotModel> table)
       : pictures_answer(!config.camera.source.starts_with("file:")),
+        models(table),
         estimator(config),
-        obstacle_map(robot),
+        obstacle_map(table.front().geometry),
         law(make_follow_law(config)),
         supervisor(config.supervisor) {
     reconfigure(config);
@@ -45,6 +46,7 @@ struct ControlStage::Impl {
 
   void reconfigure(const Config& config);
 
+  void use_model(const RobotKind& kind);
   void update_robot(const RobotState& robot);
   MeasurementStatus update_target(const ControlInput& input);
   double person_range_m(const TargetState& target) const;
@@ -61,6 +63,9 @@ struct ControlStage::Impl {
   CameraMount mount;
   bool sonar_on = true;
   const bool pictures_answer;  // the robot's turning: recorded ones do not
+
+  std::span<const RobotModel> models;
+  std::size_t model = 0;
 
   TargetEstimator estimator;
   SonarObstacleMap obstacle_map;
@@ -87,6 +92,13 @@ void ControlStage::Impl::reconfigure(const Config& config) {
   estimator.reconfigure(config);
   law->reconfigure(config);
   comfort.reconfigure(config);
+}
+
+/// The robot that answers has its own outline and sonars.
+void ControlStage::Impl::use_model(const RobotKind& kind) {
+  if (kind.choice != ModelChoice::Chosen || kind.model == model || kind.model >= models.size()) return;
+  model = kind.model;
+  obstacle_map.use(models[model].geometry);
 }
 
 /// During an interruption the robot may have moved: after it, what was kept in odom no longer holds.
@@ -144,8 +156,8 @@ VelocityCommand ControlStage::Impl::wanted(const FollowInput& input) {
   return command;
 }
 
-ControlStage::ControlStage(const Config& config, const RobotGeometry& robot)
-    : impl_(std::make_unique<Impl>(config, robot)) {}
+ControlStage::ControlStage(const Config& config, std::span<const RobotModel> models)
+    : impl_(std::make_unique<Impl>(config, models)) {}
 ControlStage::~ControlStage() = default;
 ControlStage::ControlStage(ControlStage&&) noexcept = default;
 ControlStage& ControlStage::operator=(ControlStage&&) noexcept = default;
@@ -160,13 +172,15 @@ TickRecord ControlStage::tick(const ControlInput& input) {
   record.tick = impl.ticks++;
   record.input = input;
 
+  impl.use_model(input.robot.kind);
   impl.update_robot(input.robot);
   record.measurement = impl.update_target(input);
   record.target = impl.estimator.predict(input.now_ns);
   const OperatorCommand command = impl.supervisor.new_command(input.request);
   if (command == OperatorCommand::Reset) impl.turn_monitor.reset();
   record.conditions = impl.condition_monitor.update(input, record.measurement, impl.supervisor_config,
-                                                    impl.sonar_on, command, impl.turn_monitor.turns_away());
+                                                    impl.models[impl.model].geometry, impl.sonar_on, command,
+                                                    impl.turn_monitor.turns_away());
   const bool may_search = impl.law->may_search() && !impl.search_done;
   const Verdict verdict =
       impl.supervisor.update(input, record.conditions, may_search, impl.supervisor_config);

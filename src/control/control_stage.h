@@ -3,9 +3,10 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "core/config.h"
-#include "core/robot_geometry.h"
+#include "core/robot_model.h"
 #include "heel/flow.h"
 
 namespace heel {
@@ -14,8 +15,10 @@ namespace heel {
 /// daemon's control thread and the lock-step simulator run the same code.
 class ControlStage {
  public:
-  /// Throws heel::Error when `config.control.law` is not a control law.
-  ControlStage(const Config& config, const RobotGeometry& robot);
+  /// `models`: the table that RobotKind::model is a place in; it must outlive the stage. Until a robot has
+  /// said what it is, the first one's shape is assumed. Throws heel::Error when `config.control.law` is not a
+  /// control law.
+  ControlStage(const Config& config, std::span<const RobotModel> models);
   ~ControlStage();
   ControlStage(ControlStage&&) noexcept;
   ControlStage& operator=(ControlStage&&) noexcept;

@@ -50,7 +50,7 @@ double Detour::offset_m(const Trail& trail, double robot_s_m, const Pose2& robot
   else if (t_block_ns_ == 0)
     t_block_ns_ = now_ns;
   if (blocked && most_m_ > 0.0 && now_ns - t_block_ns_ >= kSure_ns) {
-    std::array<double, kSonars> left_m{};
+    std::array<double, kMaxSonars> left_m{};
     std::size_t count = 0;
     const double c = std::cos(robot.heading_rad), s = std::sin(robot.heading_rad);
     const double to_m = std::min(robot_s_m + kAhead_m, trail.tip_m() - kPerson_m);

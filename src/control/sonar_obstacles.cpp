@@ -37,14 +37,15 @@ double SonarObstacles::free_distance_m(double v_m_s, double yaw_rate_rad_s) cons
   double free_m = std::numeric_limits<double>::infinity();
   if (v_m_s == 0.0) return free_m;
   const double direction = std::copysign(1.0, v_m_s);
+  const double to_bumper_m = direction > 0.0 ? front_m_ : rear_m_;
   for (const ObstaclePoint& point : points()) {
     // Backwards is forwards in a frame that is mirrored in x, where turns go the other way.
     const ObstaclePoint ahead{direction * point.x_m, point.y_m};
-    const bool beside_body = ahead.x_m < centre_to_bumper_m_ && std::abs(ahead.y_m) > half_width_m_;
+    const bool beside_body = ahead.x_m < to_bumper_m && std::abs(ahead.y_m) > half_width_m_;
     if (ahead.x_m <= 0.0 || beside_body) continue;
     const OnArc place = on_arc(ahead, yaw_rate_rad_s / v_m_s);
     if (place.along_m > 0.0 && place.beside_m < half_width_m_ + kCorridorMargin_m)
-      free_m = std::min(free_m, std::max(place.along_m - centre_to_bumper_m_, 0.0));
+      free_m = std::min(free_m, std::max(place.along_m - to_bumper_m, 0.0));
   }
   return free_m;
 }
@@ -52,9 +53,9 @@ double SonarObstacles::free_distance_m(double v_m_s, double yaw_rate_rad_s) cons
 void SonarObstacleMap::update(const RobotState& robot) {
   const Odometry& pose = robot.odometry;
   const double c = std::cos(pose.heading_rad), s = std::sin(pose.heading_rad);
-  for (std::size_t sonar = 0; sonar < kSonars; ++sonar) {
+  for (std::size_t sonar = 0; sonar < kMaxSonars; ++sonar) {
     const SonarEcho& reading = robot.sonar[sonar];
-    if (reading.t_ns == echoes_[sonar].t_ns) continue;
+    if (reading.t_ns == echoes_[sonar].t_ns || !robot_.has_sonar(sonar)) continue;
     const ObstaclePoint point = in_robot_frame(robot_.sonars[sonar], reading.range_m);
     echoes_[sonar] = {reading.t_ns, pose.x_m + c * point.x_m - s * point.y_m,
                       pose.y_m + s * point.x_m + c * point.y_m, true};

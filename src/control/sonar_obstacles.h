@@ -22,7 +22,7 @@ class SonarObstacles {
  public:
   /// None yet, around a robot of this outline.
   explicit SonarObstacles(const RobotGeometry& robot)
-      : centre_to_bumper_m_(robot.centre_to_bumper_m), half_width_m_(robot.half_width_m) {}
+      : front_m_(robot.front_m), rear_m_(robot.rear_m), half_width_m_(robot.half_width_m) {}
 
   void add(ObstaclePoint point) { points_[count_++] = point; }
   std::span<const ObstaclePoint> points() const { return {points_.data(), count_}; }
@@ -32,9 +32,10 @@ class SonarObstacles {
   double free_distance_m(double v_m_s, double yaw_rate_rad_s) const;
 
  private:
-  double centre_to_bumper_m_;
+  double front_m_;
+  double rear_m_;
   double half_width_m_;
-  std::array<ObstaclePoint, kSonars> points_{};
+  std::array<ObstaclePoint, kMaxSonars> points_{};
   std::size_t count_ = 0;
 };
 
@@ -46,6 +47,12 @@ class SonarObstacleMap {
   static constexpr TimeNs kKept_ns = kNsPerS;
 
   explicit SonarObstacleMap(const RobotGeometry& robot) : robot_(robot) {}
+
+  /// Another robot: what was kept is discarded.
+  void use(const RobotGeometry& robot) {
+    robot_ = robot;
+    clear();
+  }
 
   /// Takes in the readings that are new in `robot`.
   void update(const RobotState& robot);
@@ -65,7 +72,7 @@ class SonarObstacleMap {
     bool known = false;
   };
   RobotGeometry robot_;
-  std::array<Echo, kSonars> echoes_{};
+  std::array<Echo, kMaxSonars> echoes_{};
 };
 
 }  // namespace heel

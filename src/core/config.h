@@ -110,12 +110,12 @@ struct GateConfig {
 
 struct RobotConfig {
   std::string address = "serial:/dev/heel-robot@38400";  ///< serial:PATH@BAUD, pty:PATH@BAUD, tcp:HOST:PORT
+  std::string model = "auto";  ///< the robot's subclass; auto: whatever it says that it is
   bool sonar = true;
   bool request_config = true;
   double config_wait_s = 1.0;  ///< longest wait for CONFIGpac
   double sync_retry_s = 1.0;
   double reconnect_s = 1.0;
-  double dist_conv_factor = 1.0;   ///< mm per XPOS/YPOS unit: 1.0 p3at-sh, 0.465 p3at
   int v_limit_mm_s = 750;          ///< SETV
   int yaw_rate_limit_deg_s = 100;  ///< SETRV
   int acceleration_mm_s2 = 600;    ///< SETA +

@@ -47,6 +47,24 @@ const char* to_string(LinkPhase phase) {
       return "disabled";
     case LinkPhase::Lost:
       return "lost";
+    case LinkPhase::Refused:
+      return "refused";
+  }
+  return "?";
+}
+
+const char* to_string(ModelChoice choice) {
+  switch (choice) {
+    case ModelChoice::NotYet:
+      return "not yet";
+    case ModelChoice::Chosen:
+      return "chosen";
+    case ModelChoice::Unknown:
+      return "unknown";
+    case ModelChoice::Conflict:
+      return "conflict";
+    case ModelChoice::Nameless:
+      return "nameless";
   }
   return "?";
 }

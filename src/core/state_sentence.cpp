@@ -52,6 +52,24 @@ const char* remedy(const TickRecord& tick) {
   }
 }
 
+/// Why the robot that answers is not driven, and what to do; empty: it is not refused.
+std::string refusal(const RobotKind& robot) {
+  const std::string subclass = robot.subclass.data();
+  switch (robot.choice) {
+    case ModelChoice::Unknown:
+      return "the robot is not driven: heeld does not know class " + std::string(robot.robot_class.data()) +
+             ", subclass " + subclass;
+    case ModelChoice::Conflict:
+      return "the robot is not driven: it is a " + subclass + ", and robot.model says otherwise";
+    case ModelChoice::Nameless:
+      return "the robot is not driven: it does not say what it is; set robot.model";
+    case ModelChoice::NotYet:
+    case ModelChoice::Chosen:
+      break;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string state_sentence(const TickRecord& tick) {
@@ -59,6 +77,8 @@ std::string state_sentence(const TickRecord& tick) {
   const std::string reason = to_string(tick.stop_reason);
   if (tick.state == SupervisorState::Searching)
     return "searching: " + reason + (tick.hold == Hold::None ? "" : "; " + hold_sentence(tick));
+  if (tick.stop_reason == StopReason::LinkDown && tick.input.robot.phase == LinkPhase::Refused)
+    return "at rest: " + refusal(tick.input.robot.kind);
   const PoseEstimate& pose = tick.input.pose;
   const bool waits_for_person =
       tick.stop_reason == StopReason::NoTargetYet || tick.stop_reason == StopReason::TargetLost;

@@ -1,9 +1,9 @@
 #include "daemon/control_loop.h"
 
 #include <algorithm>
-#include <cstring>
 
-#include "robot/p3at_geometry.h"
+#include "models/robot_models.h"
+#include "robot/session_event_text.h"
 
 namespace heel {
 namespace {
@@ -15,7 +15,7 @@ constexpr TimeNs kOldestStart_ns = 500 * kNsPerMs;
 
 ControlLoop::ControlLoop(const Config& config, Mailbox<PoseEstimate>& poses, TelemetryQueues& queues)
     : link_(config.robot),
-      stage_(config, p3at_geometry()),
+      stage_(config, robot_models()),
       deadline_(ns_from_seconds(1.0 / config.control.rate_hz), monotonic_now_ns()),
       poses_(poses),
       queues_(queues) {}
@@ -113,7 +113,7 @@ void ControlLoop::report_robot_events() {
   while (link_.next_event(news)) {
     Event event{.t_ns = news.t_ns, .kind = is_warning(news.kind) ? EventKind::Warning : EventKind::Note};
     event.a = news.value;
-    std::strncpy(event.text.data(), to_string(news.kind), event.text.size() - 1);
+    write_event_text(news, link_.state().kind, event.text);
     queues_.control_events.push(event);
   }
 }

@@ -60,6 +60,7 @@ bool StatusReporter::ready_by_now() const {
 }
 
 std::string StatusReporter::status_line() const {
+  if (tick_.input.robot.phase == LinkPhase::Refused) return state_sentence(tick_);
   if (!complete_) {
     const std::string robot =
         robot_has_answered() ? "" : fmt::format("the robot ({})", to_string(tick_.input.robot.phase));

@@ -25,6 +25,9 @@ json seconds_since(TimeNs t_ns, TimeNs now_ns) {
 
 json robot_json(const RobotState& robot, TimeNs now_ns) {
   json out = {{"link", to_string(robot.phase)}};
+  const bool has_named = robot.kind.choice != ModelChoice::NotYet;
+  out["class"] = has_named ? json(robot.kind.robot_class.data()) : json(nullptr);
+  out["subclass"] = has_named ? json(robot.kind.subclass.data()) : json(nullptr);
   out["packet_age_s"] = robot.has_sip ? seconds_since(robot.odometry.t_ns, now_ns) : json(nullptr);
   out["motors"] = robot.motors_enabled;
   out["stop_button"] = robot.stop_button;

@@ -2,6 +2,8 @@
 #include "robot/arcos_session.h"
 
 #include "arcos/command_codec.h"
+#include "models/robot_models.h"
+#include "robot/model_choice.h"
 #include "robot/sip_to_state.h"
 
 namespace heel {
@@ -16,8 +18,9 @@ ArcosSession::ArcosSession(const RobotConfig& config)
     : config_(config),
       sweep_(parse_robot_address(config.address)),
       target_baud_(sweep_.current()),
-      motion_(config),
-      odometry_(config.dist_conv_factor) {
+      model_(&robot_models().front()),
+      motion_(v_limit_mm_s(), yaw_rate_limit_deg_s()),
+      odometry_(*model_) {
   pacer_.set_baud(sweep_.current());
 }
 
@@ -63,7 +66,15 @@ void ArcosSession::enter(Step step, TimeNs now_ns) {
       return set_phase(LinkPhase::Disabled);
     case Step::Silent:
       return set_phase(LinkPhase::Lost);
+    case Step::Refused:
+      return set_phase(LinkPhase::Refused);
   }
+}
+
+/// A robot that was refused stays so while it is asked again.
+void ArcosSession::set_phase(LinkPhase phase) {
+  const bool asks_again = phase == LinkPhase::Syncing && is_refused(state_.kind.choice);
+  state_.phase = asks_again ? LinkPhase::Refused : phase;
 }
 
 void ArcosSession::line_opened(TimeNs now_ns) {
@@ -81,6 +92,7 @@ void ArcosSession::line_lost(TimeNs now_ns) {
   if (step_ == Step::NoLine) return;
   queue_.clear();
   odometry_.interrupted();
+  state_.kind = RobotKind{};
   events_.push(now_ns, Kind::LineLost);
   enter(Step::NoLine, now_ns);
   set_phase(LinkPhase::Lost);
@@ -135,18 +147,51 @@ void ArcosSession::on_sync_echo(std::uint8_t number, const arcos::Packet& packet
     ask_sync(Step::Sync2, t_ns);
   } else if (step_ == Step::Sync2 && number == 2) {
     if (decode_sync2_echo(packet.body, identity_) != arcos::DecodeResult::Ok) {
-      events_.push(t_ns, Kind::BadPacket, number);  // only the names in it are lost
+      events_.push(t_ns, Kind::BadPacket, number);
+      identity_ = arcos::RobotIdentity{};  // the names are lost
     }
-    events_.push(t_ns, Kind::Synchronised);
     sweep_.found();
-    line_exhausted_ = sip_seen_ = config_seen_ = false;
-    controller_ = arcos::ConfigPacket{};
-    queue_.clear();
-    queue_.push(arcos::encode_integer(CommandId::Open, 1));
-    queue_.push(arcos::encode_plain(CommandId::Stop));
-    if (config_.request_config) queue_.push(arcos::encode_integer(CommandId::Config, 1));
-    enter(Step::Opening, t_ns);
+    line_exhausted_ = false;
+    on_identity(identity_, t_ns);
   }
+}
+
+/// What the robot is decides whether it is opened, and by which numbers it is driven.
+void ArcosSession::on_identity(const arcos::RobotIdentity& identity, TimeNs t_ns) {
+  const RobotKind before = state_.kind;
+  state_.kind = choose_model(identity, config_.model);
+  if (!is_refused(state_.kind.choice)) {
+    use_model(robot_models()[state_.kind.model]);
+    events_.push(t_ns, Kind::Synchronised);
+    return open_robot(t_ns);
+  }
+  const bool said = before.choice == state_.kind.choice && before.subclass == state_.kind.subclass &&
+                    before.robot_class == state_.kind.robot_class;
+  if (!said)
+    events_.push(t_ns, state_.kind.choice == ModelChoice::Unknown    ? Kind::ModelUnknown
+                       : state_.kind.choice == ModelChoice::Conflict ? Kind::ModelConflict
+                                                                     : Kind::ModelMissing);
+  queue_.clear();
+  queue_.push(arcos::encode_integer(CommandId::Close, 1));
+  enter(Step::Refused, t_ns);
+}
+
+void ArcosSession::use_model(const RobotModel& model) {
+  if (&model == model_) return;
+  model_ = &model;
+  motion_ = MotionSender(v_limit_mm_s(), yaw_rate_limit_deg_s());
+  odometry_.use(model);
+  state_.sonar = {};  // the numbers mean other places
+}
+
+void ArcosSession::open_robot(TimeNs t_ns) {
+  sip_seen_ = config_seen_ = false;
+  controller_ = arcos::ConfigPacket{};
+  queue_.clear();
+  queue_.push(arcos::encode_integer(CommandId::Open, 1));
+  queue_.push(arcos::encode_plain(CommandId::Stop));
+  if (config_.request_config) queue_.push(arcos::encode_integer(CommandId::Config, 1));
+  enter(Step::Opening, t_ns);
 }
 
 void ArcosSession::on_sip(const arcos::Packet& packet) {
@@ -171,7 +216,7 @@ void ArcosSession::on_sip(const arcos::Packet& packet) {
   }
   state_.odometry = odometry_.pose();
   copy_status(sip_, state_);
-  copy_sonar(sip_, t_ns, state_);
+  copy_sonar(sip_, *model_, t_ns, state_);
   ++state_.sips;
   t_sip_ns_ = t_ns;
   if (!sip_seen_) {

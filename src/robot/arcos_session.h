@@ -2,7 +2,8 @@
 // the time, its output is bytes: it uses no device and no clock, so that the daemon and the lock-step
 // simulator run the same code. It does not allocate after construction.
 //
-//   NoLine → Listening → Sync0 → Sync1 → Sync2 → Opening → Enabling → Running → Disabled (reset: → Enabling)
+//   NoLine → Listening → Sync0 → Sync1 → Sync2 (→ Refused → Listening) → Opening → Enabling → Running →
+//   Disabled (reset: → Enabling)
 //              ↑  └ a SIP: left open → Closing ┘      ⇅          └ silence, reset → Silent → Listening
 //                                            AskingRate → TryingRate (→ LeavingRate): a faster line
 //
@@ -10,6 +11,7 @@
 // motion.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -18,6 +20,7 @@
 #include "arcos/parser.h"
 #include "arcos/sip.h"
 #include "core/config.h"
+#include "core/robot_model.h"
 #include "heel/flow.h"
 #include "robot/baud_sweep.h"
 #include "robot/command_pacer.h"
@@ -80,16 +83,24 @@ class ArcosSession {
     Enabling,
     Running,
     Disabled,
-    Silent,  ///< SIPs stopped: a pause, then Listening
+    Silent,   ///< SIPs stopped: a pause, then Listening
+    Refused,  ///< not a robot that may be driven: a pause, then Listening, perhaps to another one
   };
 
   void enter(Step step, TimeNs now_ns);
-  void set_phase(LinkPhase phase) { state_.phase = phase; }
+  void set_phase(LinkPhase phase);
   bool is_connected() const;
   void copy_line_counters();
 
   void on_packet(const arcos::Packet& packet);
   void on_sync_echo(std::uint8_t number, const arcos::Packet& packet);
+  void on_identity(const arcos::RobotIdentity& identity, TimeNs t_ns);
+  void use_model(const RobotModel& model);
+  int v_limit_mm_s() const { return std::min(config_.v_limit_mm_s, model_->v_max_mm_s); }
+  int yaw_rate_limit_deg_s() const {
+    return std::min(config_.yaw_rate_limit_deg_s, model_->yaw_rate_max_deg_s);
+  }
+  void open_robot(TimeNs t_ns);
   void on_sip(const arcos::Packet& packet);
   void on_config(const arcos::Packet& packet);
   void on_reset_notice(TimeNs t_ns);
@@ -120,6 +131,7 @@ class ArcosSession {
   BaudSweep sweep_;
   int target_baud_;  ///< the rate in the address
   CommandPacer pacer_;
+  const RobotModel* model_;  ///< in robot_models(): of the robot that answered last
   MotionSender motion_;
   OdometryTracker odometry_;
   arcos::Parser parser_;

@@ -17,6 +17,7 @@ constexpr TimeNs kCloseTakes_ns = 150 * kNsPerMs;
 constexpr TimeNs kOpenTimeout_ns = 3 * kNsPerS;
 constexpr TimeNs kSipSilence_ns = 2 * kNsPerS;
 constexpr TimeNs kEnableRetry_ns = 700 * kNsPerMs;
+constexpr TimeNs kRefused_ns = 10 * kNsPerS;
 constexpr int kEnableAttempts = 3;
 constexpr int kSyncAttemptsPerBaud = 2;
 // The longest packet takes 0.27 s at 9600 baud: an incomplete packet that is older has lost bytes.
@@ -89,6 +90,9 @@ void ArcosSession::take_due_steps(TimeNs now_ns) {
       if (in_step_ns >= ns_from_seconds(config_.reconnect_s) && queue_.empty())
         enter(Step::Listening, now_ns);
       return;
+    case Step::Refused:
+      if (in_step_ns >= kRefused_ns) enter(Step::Listening, now_ns);
+      return;
   }
 }
 
@@ -112,6 +116,7 @@ void ArcosSession::retry_sync(TimeNs now_ns) {
     return;
   }
   events_.push(now_ns, Kind::NoAnswer, sweep_.current());
+  state_.kind = RobotKind{};
   const int before = sweep_.current();
   if (!sweep_.advance()) line_exhausted_ = true;
   if (sweep_.current() != before) {
@@ -198,10 +203,10 @@ void ArcosSession::queue_limits() {
     queue_.push(arcos::encode_integer(id, value));
   };
   const auto negative = [](std::int16_t value) { return static_cast<std::int16_t>(-value); };
-  push(CommandId::SetV, limited(config_.v_limit_mm_s, controller_.trans_vel_top));
+  push(CommandId::SetV, limited(v_limit_mm_s(), controller_.trans_vel_top));
   push(CommandId::SetA, limited(config_.acceleration_mm_s2, controller_.trans_acc_top));
   push(CommandId::SetA, negative(limited(config_.deceleration_mm_s2, controller_.trans_acc_top)));
-  push(CommandId::SetRv, limited(config_.yaw_rate_limit_deg_s, controller_.rot_vel_top));
+  push(CommandId::SetRv, limited(yaw_rate_limit_deg_s(), controller_.rot_vel_top));
   push(CommandId::SetRa, limited(config_.yaw_acceleration_deg_s2, controller_.rot_acc_top));
   push(CommandId::SetRa, negative(limited(config_.yaw_acceleration_deg_s2, controller_.rot_acc_top)));
   push(CommandId::Sonar, config_.sonar ? 1 : 0);

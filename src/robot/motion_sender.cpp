@@ -10,8 +10,8 @@ constexpr TimeNs kGap_ns = 250 * kNsPerMs;
 
 }  // namespace
 
-MotionSender::MotionSender(const RobotConfig& config)
-    : translation_(config.v_limit_mm_s), rotation_(config.yaw_rate_limit_deg_s) {}
+MotionSender::MotionSender(int v_limit_mm_s, int yaw_rate_limit_deg_s)
+    : translation_(v_limit_mm_s), rotation_(yaw_rate_limit_deg_s) {}
 
 void MotionSender::begin_with_zero() {
   zeros_to_send_ = 2;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "arcos/command_codec.h"
-#include "core/config.h"
 #include "heel/flow.h"
 #include "robot/command_pacer.h"
 #include "robot/outgoing.h"
@@ -13,7 +12,8 @@ namespace heel {
 
 class MotionSender {
  public:
-  explicit MotionSender(const RobotConfig& config);
+  /// Commands are clamped to ±v_limit_mm_s and ±yaw_rate_limit_deg_s.
+  MotionSender(int v_limit_mm_s, int yaw_rate_limit_deg_s);
 
   /// The next VEL and RVEL are zero whatever the command is: for a new connection, and for motors just
   /// enabled.

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "arcos/sip.h"
+#include "core/robot_model.h"
 #include "heel/flow.h"
 
 namespace heel {
@@ -20,8 +21,10 @@ class OdometryTracker {
     Suspect,  ///< farther than the robot can drive in that time: ignored unless the next SIP confirms it
   };
 
-  /// `dist_conv_factor`: mm per unit of XPOS and YPOS.
-  explicit OdometryTracker(double dist_conv_factor);
+  explicit OdometryTracker(const RobotModel& model);
+
+  /// Another robot, in whose units the next SIP is; the pose continues from the last one.
+  void use(const RobotModel& model);
 
   /// Updates the pose from a SIP's position and speeds. `t_ns` is the stamp of its first byte.
   Step update(const arcos::Sip& sip, TimeNs t_ns);
@@ -43,7 +46,14 @@ class OdometryTracker {
   void anchor(const Counters& at);
   void advance(const Counters& to);
 
-  double metres_per_unit_;
+  double turn_rad(const Counters& from, const Counters& to) const;
+  void set_units(const RobotModel& model);
+
+  double metres_per_unit_ = 0.0;
+  double speed_per_unit_m_s_ = 0.0;
+  int heading_units_per_turn_ = 1;
+  double rad_per_heading_unit_ = 0.0;
+  double effective_track_m_ = 1.0;
   Odometry pose_;
   bool started_ = false;
   bool interrupted_ = false;

@@ -15,7 +15,16 @@ const char* to_string(SessionEventKind kind) {
     case SessionEventKind::NoAnswer:
       return "robot does not answer at {} baud; check that it is switched on";
     case SessionEventKind::Synchronised:
-      return "robot synchronised";
+      return "robot synchronised: class {class}, subclass {subclass}; driven as a {model}";
+    case SessionEventKind::ModelUnknown:
+      return "robot is not driven: it is of class {class}, subclass {subclass}, which heeld does not know; "
+             "docs/hardware.md lists the robots that it knows";
+    case SessionEventKind::ModelConflict:
+      return "robot is not driven: it is a {subclass}, and robot.model is {model}; set robot.model = "
+             "\"auto\", or connect the {model}";
+    case SessionEventKind::ModelMissing:
+      return "robot is not driven: it does not say what it is; set robot.model to its subclass "
+             "(docs/hardware.md)";
     case SessionEventKind::ConfigReceived:
       return "robot sent its configuration; its watchdog time is {} ms";
     case SessionEventKind::ConfigMissing:
@@ -62,6 +71,9 @@ bool is_warning(SessionEventKind kind) {
   switch (kind) {
     case SessionEventKind::LineLost:
     case SessionEventKind::NoAnswer:
+    case SessionEventKind::ModelUnknown:
+    case SessionEventKind::ModelConflict:
+    case SessionEventKind::ModelMissing:
     case SessionEventKind::ConfigMissing:
     case SessionEventKind::BrakesLimited:
     case SessionEventKind::RateRefused:

@@ -12,10 +12,13 @@ namespace heel {
 enum class SessionEventKind : std::uint8_t {
   LineOpened,
   LineLost,
-  TryingBaud,  ///< value: baud
-  FoundOpen,   ///< an earlier session has left the robot open: it is closed
-  NoAnswer,    ///< value: baud
-  Synchronised,
+  TryingBaud,    ///< value: baud
+  FoundOpen,     ///< an earlier session has left the robot open: it is closed
+  NoAnswer,      ///< value: baud
+  Synchronised,  ///< the robot has said what it is, and may be driven
+  ModelUnknown,  ///< it is refused; ModelChoice says why
+  ModelConflict,
+  ModelMissing,
   ConfigReceived,  ///< value: watchdog, ms
   ConfigMissing,   ///< the limits of the factory are assumed
   BrakesLimited,   ///< value: mm/s²; CONFIGpac allows less than is asked for
@@ -42,7 +45,8 @@ struct SessionEvent {
   std::int64_t value = 0;
 };
 
-/// One line for people, with "{}" in place of the value.
+/// One line for people, with "{}" in place of the value and, of the robot, "{class}", "{subclass}" and
+/// "{model}".
 const char* to_string(SessionEventKind kind);
 /// True for events that a person should know about.
 bool is_warning(SessionEventKind kind);

@@ -18,10 +18,12 @@ void copy_status(const arcos::Sip& sip, RobotState& state) {
   state.battery_v = (long_dv > 0 ? long_dv : sip.battery_dv) * wire::kVoltsPerDecivolt;
 }
 
-void copy_sonar(const arcos::Sip& sip, TimeNs t_ns, RobotState& state) {
+void copy_sonar(const arcos::Sip& sip, const RobotModel& model, TimeNs t_ns, RobotState& state) {
+  const double metres_per_unit = model.mm_per_range_unit * wire::kMetresPerMm;
   for (std::size_t i = 0; i < sip.sonar_count; ++i) {
     const arcos::SonarReading& reading = sip.sonars[i];
-    if (reading.number < kSonars) state.sonar[reading.number] = {t_ns, reading.range_mm * wire::kMetresPerMm};
+    if (model.geometry.has_sonar(reading.number))
+      state.sonar[reading.number] = {t_ns, reading.range_mm * metres_per_unit};
   }
 }
 

@@ -1,4 +1,5 @@
-// Conversion between ARCOS wire units and SI units. All code that converts uses these.
+// Conversion between ARCOS wire units and SI units, as far as it is the same on all robots; what differs is
+// in RobotModel. All code that converts uses these.
 #pragma once
 
 #include <numbers>
@@ -8,18 +9,10 @@ namespace heel::wire {
 inline constexpr double kMetresPerMm = 1e-3;
 inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
-/// THPOS: a turn is 4096 units (the reference's 0.001534 rad).
-inline constexpr int kHeadingUnitsPerTurn = 4096;
-inline constexpr double kRadPerHeadingUnit = 2.0 * std::numbers::pi / kHeadingUnitsPerTurn;
-
 /// XPOS and YPOS count modulo 2^15: some firmware keeps the sixteenth bit, some does not.
 inline constexpr int kPositionUnitsPerWrap = 1 << 15;
 
 inline constexpr double kVoltsPerDecivolt = 0.1;
-
-/// The track that turns a difference of wheel speeds into a yaw rate: 2 / DiffConvFactor(0.0034), 1.47 times
-/// the geometric one, because the wheels skid in turns.
-inline constexpr double kEffectiveTrack_m = 0.588;
 
 constexpr double mm_s_from_m_s(double v_m_s) {
   return v_m_s / kMetresPerMm;

@@ -134,10 +134,10 @@ std::vector<CsvColumn<TickRecord>> make_tick_columns() {
       {"free_distance_m", [](L& l, const T& t, int) { l.number(t.free_distance_m); }},
       {"planned_deceleration_m_s2", [](L& l, const T& t, int) { l.number(t.planned_deceleration_m_s2); }},
   };
-  add_array<T>(columns, "sonar_t_s", kSonars, [](L& l, const T& t, int i) {
+  add_array<T>(columns, "sonar_t_s", kMaxSonars, [](L& l, const T& t, int i) {
     l.seconds(t.input.robot.sonar[static_cast<std::size_t>(i)].t_ns);
   });
-  add_array<T>(columns, "sonar_range_m", kSonars, [](L& l, const T& t, int i) {
+  add_array<T>(columns, "sonar_range_m", kMaxSonars, [](L& l, const T& t, int i) {
     const SonarEcho& echo = t.input.robot.sonar[static_cast<std::size_t>(i)];
     l.number(or_none(echo.t_ns != 0, echo.range_m));
   });

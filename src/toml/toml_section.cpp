@@ -97,6 +97,22 @@ std::vector<double> TomlSection::numbers(const char* key, std::size_t count) {
   return values;
 }
 
+std::vector<std::vector<double>> TomlSection::rows(const char* key, std::size_t columns) {
+  const toml::node* node = find(key);
+  if (!node) return {};
+  const std::string expected = fmt::format("a list of lists of {} numbers", columns);
+  const toml::array* array = node->as_array();
+  if (!array) fail_value(key, *node, expected);
+  std::vector<std::vector<double>> rows;
+  for (const toml::node& item : *array) {
+    const toml::array* row = item.as_array();
+    if (!row || row->size() != columns) fail_value(key, item, expected);
+    std::vector<double>& values = rows.emplace_back();
+    for (const toml::node& number : *row) values.push_back(checked_number(key, number, {-1e9, 1e9, ""}));
+  }
+  return rows;
+}
+
 std::vector<std::string> TomlSection::texts(const char* key) {
   constexpr const char* kExpected = "a list of texts in quotes";
   const toml::node* node = find(key);

@@ -31,6 +31,8 @@ class TomlSection {
   bool boolean(const char* key, bool fallback);
   /// Exactly `count` numbers; empty when the key is absent.
   std::vector<double> numbers(const char* key, std::size_t count);
+  /// A list of lists of `columns` numbers each; empty when the key is absent.
+  std::vector<std::vector<double>> rows(const char* key, std::size_t columns);
   /// Empty when the key is absent.
   std::vector<std::string> texts(const char* key);
   /// The value of a key that must be there.

@@ -13,6 +13,7 @@
 #include "config/config_table.h"
 #include "config/config_text.h"
 #include "config/config_value.h"
+#include "models/robot_models.h"
 #include "support/complaint.h"
 
 namespace heel {
@@ -203,6 +204,12 @@ TEST(ConfigTable, EveryKeyIsDescribedOnceInAKnownSectionWithADefaultInRange) {
     for (const auto& section : config_sections()) section_known |= section.name == key.section;
     EXPECT_TRUE(section_known) << key.full_name();
   }
+}
+
+TEST(ConfigTable, RobotModelOffersWhatHeelKnows) {
+  std::string expected = "auto";
+  for (const RobotModel& model : robot_models()) expected += "|" + model.subclass;
+  EXPECT_EQ(config_keys()[index_of_key("robot.model").value()].choices, expected);
 }
 
 TEST(ConfigTable, RemovedKeysAreNotInTheTable) {

@@ -6,6 +6,8 @@
 #include <functional>
 #include <utility>
 
+#include "models/robot_models.h"
+
 namespace heel {
 namespace {
 
@@ -50,7 +52,8 @@ struct Bench {
   }
   Conditions same_tick() { return update(MeasurementStatus::None); }
   Conditions update(MeasurementStatus measurement, OperatorCommand command = OperatorCommand::None) {
-    return monitor.update(input, measurement, config, sonar_on, command, turns_away);
+    return monitor.update(input, measurement, config, robot_models()[0].geometry, sonar_on, command,
+                          turns_away);
   }
 };
 

@@ -8,6 +8,7 @@
 #include "control/law_names.h"
 #include "core/angles.h"
 #include "core/random.h"
+#include "models/robot_models.h"
 #include "support/allocation_count.h"
 #include "support/decisions.h"
 
@@ -120,6 +121,32 @@ TEST(ControlStage, StopsBeforeAnObstacle) {
   EXPECT_TRUE(run.record.command.limited_by & kGateObstacle);
   // The sonar sits 68 mm behind the bumper and looks 10° to the side.
   EXPECT_NEAR(run.ahead_m * std::cos(0.1745) - 0.068, run.config.gate.clearance_m, 0.07);
+}
+
+TEST(ControlStage, UsesTheOutlineAndSonarsOfTheRobotThatAnswers) {
+  const auto free_m = [](const char* subclass) {
+    Following run;
+    run.input.robot.kind.choice = ModelChoice::Chosen;
+    run.input.robot.kind.model = static_cast<std::uint8_t>(index_of_model(subclass).value());
+    run.ahead_m = 1.0;
+    run.run(3.0);
+    return run.record.free_distance_m;
+  };
+  // Sonar 3 of each, and its bumper: P3-AT (245, 10°) and 313 mm, P3-DX (166, 10°) and 210 mm.
+  const double p3at_m = free_m("p3at-sh");
+  EXPECT_NEAR(p3at_m, 0.245 + std::cos(0.1745) - 0.313, 0.06) << "it drives between two readings";
+  EXPECT_NEAR(free_m("p3dx") - p3at_m, (0.166 - 0.210) - (0.245 - 0.313), 1e-9);
+  // A PowerBot's sonar 3 looks 35° to the side, beyond its own half width of 340 mm and the margin.
+  EXPECT_EQ(free_m("powerbot-sh"), std::numeric_limits<double>::infinity());
+}
+
+TEST(ControlStage, ARefusedRobotKeepsTheShapeOfTheLastOne) {
+  Following run;
+  run.input.robot.kind.choice = ModelChoice::Conflict;
+  run.input.robot.kind.model = static_cast<std::uint8_t>(index_of_model("powerbot-sh").value());
+  run.ahead_m = 1.0;
+  run.run(3.0);
+  EXPECT_NEAR(run.record.free_distance_m, 0.245 + std::cos(0.1745) - 0.313, 0.06);
 }
 
 TEST(ControlStage, PlansItsStopsWithTheBrakesThatTheControllerAllows) {

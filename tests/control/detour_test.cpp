@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "robot/p3at_geometry.h"
+#include "models/robot_models.h"
 
 namespace heel {
 namespace {
@@ -26,7 +26,7 @@ struct BlockedRobot {
     detour.reconfigure(kMost_m);
   }
   double offset_after(double seconds, const std::vector<ObstaclePoint>& echoes, bool blocked = true) {
-    SonarObstacles obstacles(p3at_geometry());
+    SonarObstacles obstacles(robot_models()[0].geometry);
     for (const ObstaclePoint& echo : echoes) obstacles.add(echo);
     double offset_m = 0.0;
     for (double t_s = 0.0; t_s < seconds; t_s += 0.02) {

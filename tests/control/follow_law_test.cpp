@@ -10,7 +10,7 @@
 #include "control/law_names.h"
 #include "core/random.h"
 #include "heel/error.h"
-#include "robot/p3at_geometry.h"
+#include "models/robot_models.h"
 #include "support/allocation_count.h"
 
 namespace heel {
@@ -47,7 +47,7 @@ class FollowLawTest : public ::testing::TestWithParam<std::string> {
 
   Config config_;
   RobotState robot_;
-  SonarObstacles obstacles_{p3at_geometry()};
+  SonarObstacles obstacles_{robot_models()[0].geometry};
   TimeNs now_ns_ = kNsPerS;
 };
 

@@ -5,7 +5,7 @@
 
 #include "control/control_stage.h"
 #include "estimate/floor_truth.h"
-#include "robot/p3at_geometry.h"
+#include "models/robot_models.h"
 
 namespace heel::test {
 
@@ -20,7 +20,7 @@ inline Pose2 mirrored_ahead_of(const Pose2& robot, const Pose2& person) {
 
 struct Following {
   Config config;
-  ControlStage stage{config, p3at_geometry()};
+  ControlStage stage{config, robot_models()};
   Reference reference;
   Pose2 robot;
   Pose2 person{3.0, 0.0, 0.0};

@@ -6,7 +6,7 @@
 
 #include <limits>
 
-#include "robot/p3at_geometry.h"
+#include "models/robot_models.h"
 
 namespace heel {
 namespace {
@@ -24,7 +24,7 @@ VelocityCommand command(double v_m_s, double yaw_rate_rad_s, TimeNs t_issued_ns 
 
 /// No obstacle is near; the person is `person_m` from the camera.
 Clearances free_space(double person_m = kInf) {
-  return {person_m, SonarObstacles(p3at_geometry())};
+  return {person_m, SonarObstacles(robot_models()[0].geometry)};
 }
 
 Clearances obstacle(double x_m, double y_m) {
@@ -52,7 +52,7 @@ TEST(Gate, NamesWhatHoldsTheRobot) {
                       kNow_ns, GateConfig{})
         .hold;
   };
-  const double bumper_m = p3at_geometry().centre_to_bumper_m, near_m = bumper_m + kLimits.clearance_m;
+  const double bumper_m = robot_models()[0].geometry.front_m, near_m = bumper_m + kLimits.clearance_m;
   const Clearances near_person = free_space(kLimits.separation_m - 0.05);
   EXPECT_EQ(hold(0.5, 0.0, free_space()), Hold::None);
   EXPECT_EQ(hold(0.0, 0.0, free_space()), Hold::None) << "the law wants to stand";
@@ -248,7 +248,7 @@ VelocityCommand any_command() {
 Clearances any_clearances() {
   Clearances clearances = free_space(any_double());
   clearances.deceleration_m_s2 = any_double();
-  for (std::size_t i = *rc::gen::inRange<std::size_t>(0, kSonars + 1); i > 0; --i)
+  for (std::size_t i = *rc::gen::inRange<std::size_t>(0, kMaxSonars + 1); i > 0; --i)
     clearances.obstacles.add({any_double(), any_double()});
   return clearances;
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "robot/p3at_geometry.h"
+#include "models/robot_models.h"
 
 namespace heel {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kBumper_m = 0.313;
 constexpr TimeNs kRead_ns = 20 * kNsPerS;
 
 SonarObstacles one(double x_m, double y_m) {
-  SonarObstacles obstacles(p3at_geometry());
+  SonarObstacles obstacles(robot_models()[0].geometry);
   obstacles.add({x_m, y_m});
   return obstacles;
 }
@@ -38,7 +38,7 @@ TEST(SonarObstacles, ObstaclesBesideBehindOrOffThePathDoNotCount) {
   EXPECT_EQ(one(-1.5, 0.0).free_distance_m(0.5, 0.0), kInfinite_m);
   EXPECT_EQ(one(0.2, 0.3).free_distance_m(0.5, 0.0), kInfinite_m);  // beside the body
   EXPECT_EQ(one(1.5, 0.0).free_distance_m(0.0, 0.5), kInfinite_m);
-  EXPECT_EQ(SonarObstacles(p3at_geometry()).free_distance_m(0.5, 0.0), kInfinite_m);
+  EXPECT_EQ(SonarObstacles(robot_models()[0].geometry).free_distance_m(0.5, 0.0), kInfinite_m);
 }
 
 TEST(SonarObstacles, AtTheBumperNothingIsFree) {
@@ -115,7 +115,7 @@ TEST(SonarObstacleMap, PlacesEveryBeamWhereTheManualPutsItsSonar) {
                       {11, -0.241 - std::cos(0.1745329), -0.027 - std::sin(0.1745329)},
                       {15, -0.144, 1.136}};
   for (const Row& row : rows) {
-    SonarObstacleMap map(p3at_geometry());
+    SonarObstacleMap map(robot_models()[0].geometry);
     RobotState robot = robot_at(0, 0, 0, kRead_ns);
     robot.sonar[row.sonar] = {kRead_ns, 1.0};
     map.update(robot);
@@ -127,7 +127,7 @@ TEST(SonarObstacleMap, PlacesEveryBeamWhereTheManualPutsItsSonar) {
 }
 
 TEST(SonarObstacleMap, AnEchoStaysInItsPlaceWhileTheRobotDrivesAndTurns) {
-  SonarObstacleMap map(p3at_geometry());
+  SonarObstacleMap map(robot_models()[0].geometry);
   RobotState robot = robot_at(1.0, 2.0, 0.5, kRead_ns);
   robot.sonar[0] = {kRead_ns, 1.0};  // to the left: 1.136 m
   map.update(robot);
@@ -140,7 +140,7 @@ TEST(SonarObstacleMap, AnEchoStaysInItsPlaceWhileTheRobotDrivesAndTurns) {
 }
 
 TEST(SonarObstacleMap, BetweenPacketsTheRobotsMotionIsExtrapolated) {
-  SonarObstacleMap map(p3at_geometry());
+  SonarObstacleMap map(robot_models()[0].geometry);
   RobotState robot = robot_at(0, 0, 0, kRead_ns);
   robot.odometry.v_m_s = 0.5;
   robot.sonar[3] = {kRead_ns, 1.0};
@@ -152,7 +152,7 @@ TEST(SonarObstacleMap, BetweenPacketsTheRobotsMotionIsExtrapolated) {
 }
 
 TEST(SonarObstacleMap, ANewReadingReplacesTheOldAndAnOldOneIsDropped) {
-  SonarObstacleMap map(p3at_geometry());
+  SonarObstacleMap map(robot_models()[0].geometry);
   RobotState robot = robot_at(0, 0, 0, kRead_ns);
   robot.sonar[3] = {kRead_ns, 0.5};
   map.update(robot);

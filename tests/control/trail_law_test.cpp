@@ -10,7 +10,7 @@
 #include "control/comfort_limiter.h"
 #include "core/angles.h"
 #include "estimate/floor_truth.h"
-#include "robot/p3at_geometry.h"
+#include "models/robot_models.h"
 
 namespace heel {
 namespace {
@@ -32,7 +32,7 @@ struct TrailLoop {
   VelocityCommand command;
   WantedVelocity wanted;
   double longest_jerk_m_s3 = 0.0;
-  SonarObstacles obstacles{p3at_geometry()};
+  SonarObstacles obstacles{robot_models()[0].geometry};
   std::vector<Pose2> path;
 
   TrailLoop() {
@@ -273,7 +273,7 @@ TEST(TrailLaw, PassesAnObstacleBesideTheTrailWithinItsLimit) {
   const double pole_x_m = loop.robot.x_m + 1.0, pole_y_m = 0.25;
   double lowest_m = 0.0;
   for (int i = 0; i < 300; ++i) {
-    loop.obstacles = SonarObstacles(p3at_geometry());
+    loop.obstacles = SonarObstacles(robot_models()[0].geometry);
     const Eigen::Vector2d pole_m = test::in_robot(loop.robot, pole_x_m, pole_y_m);
     loop.obstacles.add({pole_m.x(), pole_m.y()});
     loop.tick();

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
 #include <string>
 
@@ -58,6 +60,28 @@ TEST(StateSentence, SaysWhatTheOperatorCanDo) {
   EXPECT_EQ(state_sentence(tick), "at rest: shutting down");
 }
 
+template <std::size_t Size>
+void name(std::array<char, Size>& out, const std::string& text) {
+  std::copy(text.begin(), text.end(), out.begin());
+}
+
+TEST(StateSentence, SaysWhyARobotIsNotDriven) {
+  TickRecord tick = record_of(SupervisorState::Idle, StopReason::LinkDown);
+  tick.input.robot.phase = LinkPhase::Refused;
+  RobotKind& kind = tick.input.robot.kind;
+  name(kind.robot_class, "Roomba");
+  name(kind.subclass, "create");
+  kind.choice = ModelChoice::Unknown;
+  EXPECT_EQ(state_sentence(tick),
+            "at rest: the robot is not driven: heeld does not know class Roomba, subclass create");
+  kind.choice = ModelChoice::Conflict;
+  EXPECT_EQ(state_sentence(tick),
+            "at rest: the robot is not driven: it is a create, and robot.model says otherwise");
+  kind.choice = ModelChoice::Nameless;
+  EXPECT_EQ(state_sentence(tick),
+            "at rest: the robot is not driven: it does not say what it is; set robot.model");
+}
+
 /// All values of an enumeration have names, each its own, and the next value has none.
 template <typename Enum>
 void expect_names(std::size_t count) {
@@ -74,6 +98,8 @@ TEST(FlowNames, EachValueHasAName) {
   expect_names<OperatorCommand>(5);
   expect_names<OperatorOutcome>(4);
   expect_names<Hold>(3);
+  expect_names<LinkPhase>(static_cast<std::size_t>(LinkPhase::Refused) + 1);
+  expect_names<ModelChoice>(static_cast<std::size_t>(ModelChoice::Nameless) + 1);
   expect_names<StopReason>(static_cast<std::size_t>(StopReason::EmergencyStop) + 1);
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/robot_models.h"
+
 namespace heel {
 namespace {
 
@@ -32,10 +34,17 @@ struct Counters {
   }
 };
 
+/// A P3-AT with another unit of position.
+RobotModel p3at_of(double mm_per_unit) {
+  RobotModel model = robot_models()[0];
+  model.mm_per_position_unit = mm_per_unit;
+  return model;
+}
+
 TEST(Odometry, FollowsACircleThroughManyWraps) {
   for (const Counters& counters : {Counters{}, Counters{1.0, 0x7FFF, true}, Counters{0.465, 0xFFFF, true},
                                    Counters{0.465, 0x7FFF, false}}) {
-    OdometryTracker odometry(counters.mm_per_unit);
+    OdometryTracker odometry(p3at_of(counters.mm_per_unit));
     // A circle of 40 m radius, wider than either wrap, three times round at 1 m/s.
     const double radius_m = 40.0;
     TimeNs t_ns = 0;
@@ -54,7 +63,7 @@ TEST(Odometry, FollowsACircleThroughManyWraps) {
 }
 
 TEST(Odometry, StartsAtTheOriginWhateverTheCountersShow) {
-  OdometryTracker odometry(1.0);
+  OdometryTracker odometry(p3at_of(1.0));
   odometry.update(Counters{}.at(5.0, -3.0, kPi / 2), 0);
   EXPECT_EQ(odometry.pose().x_m, 0.0);
   EXPECT_EQ(odometry.pose().heading_rad, 0.0);
@@ -64,7 +73,7 @@ TEST(Odometry, StartsAtTheOriginWhateverTheCountersShow) {
 }
 
 struct Standing {
-  OdometryTracker odometry{1.0};
+  OdometryTracker odometry{p3at_of(1.0)};
   TimeNs t_ns = 0;
   OdometryTracker::Step step(double x_m, double y_m, double heading_rad) {
     t_ns += kCycle_ns;
@@ -112,7 +121,7 @@ TEST(OdometryInterruption, CountersThatContinuedAreUsed) {
 }
 
 TEST(OdometryInterruption, CountersNearZeroBeforeAndAfterWereNotZeroed) {
-  OdometryTracker odometry(1.0);
+  OdometryTracker odometry(p3at_of(1.0));
   odometry.update(Counters{}.at(0.0, 0.0, 0.0), 0);
   odometry.update(Counters{}.at(0.01, 0.0, 0.0), kCycle_ns);
   odometry.interrupted();
@@ -138,7 +147,7 @@ TEST(OdometryInterruption, ControllerResetContinuesThePoseEvenNearby) {
 }
 
 TEST(Odometry, SpeedsFromTheWheels) {
-  OdometryTracker odometry(1.0);
+  OdometryTracker odometry(p3at_of(1.0));
   arcos::Sip sip;
   sip.left_mm_s = -100;
   sip.right_mm_s = 194;

@@ -45,7 +45,9 @@ class ScriptedRobot {
   int last_echoes_to_swallow = 0;  ///< of SYNC2
   TimeNs sip_period_ns = 100 * kNsPerMs;
   std::string_view junk;  ///< sent before the first echo
-  arcos::Sip sip;         ///< what it says of itself
+  arcos::RobotIdentity identity{arcos::Text("rex"), arcos::Text("Pioneer"), arcos::Text("p3at-sh")};
+  bool names_damaged = false;  ///< the echo of SYNC2 ends before the names
+  arcos::Sip sip;              ///< what it says of itself
   arcos::ConfigPacket config;
 
   // What it received and sent.
@@ -142,7 +144,7 @@ class ScriptedRobot {
     } else if (command.id == 2 && sync_ == 2) {
       sync_ = 3;
       if (last_echoes_to_swallow-- > 0) return;
-      say(arcos::encode_sync2_echo({arcos::Text("rex"), arcos::Text("Pioneer"), arcos::Text("p3at-sh")}));
+      say(names_damaged ? arcos::encode_plain(arcos::CommandId::Sync2) : arcos::encode_sync2_echo(identity));
     }
   }
 

@@ -21,11 +21,12 @@ constexpr double kSavedFramePeriod_s = 5.0;
 constexpr int kWireDecimals = 6;
 
 P3AtSettings robot_settings(const Options& options, const Scenario* scenario) {
-  P3AtSettings settings = options.model == "p3at" ? p3at_h8_settings() : P3AtSettings{};
+  P3AtSettings settings;
   settings.boot_baud = options.boot_baud;
   settings.chassis.true_track_m = options.track_m;
   if (scenario != nullptr) apply_robot(scenario->robot, settings);
-  if (options.exact) settings.chassis = exact_chassis();
+  if (!options.model.empty()) use_model(options.model, settings);
+  if (options.exact) settings.chassis = exact_chassis(settings.chassis);
   for (const std::string& fault : options.faults) settings.faults.push_back(parse_fault(fault));
   return settings;
 }

@@ -1,6 +1,7 @@
 #include "options.h"
 
 #include "heel/error.h"
+#include "models/robot_models.h"
 #include "sim/robot/fault.h"
 
 namespace heel::sim {
@@ -8,14 +9,17 @@ namespace {
 
 void add_robot_options(CLI::App& app, Options& options) {
   app.add_option("--robot", options.robot, "where clients find it: pty:PATH, tcp:PORT or tcp:HOST:PORT");
-  app.add_option("--model", options.model, "p3at-sh (1 mm a position unit) or p3at (0.465 mm)")
-      ->check(CLI::IsMember({"p3at-sh", "p3at"}))
-      ->capture_default_str();
+  std::vector<std::string> models;
+  for (const RobotModel& model : robot_models()) models.push_back(model.subclass);
+  app.add_option("--model", options.model,
+                 "the robot: its units, outline, sonars and name (default: the scenario's, else p3at-sh)")
+      ->check(CLI::IsMember(models));
   app.add_option("--boot-baud", options.boot_baud, "rate of the robot's port after power-on")
       ->check(CLI::IsMember({9600, 19200, 38400, 57600, 115200}))
       ->capture_default_str();
   app.add_option("--track", options.track_m,
-                 "true turning track on this floor, m (the firmware's odometry uses 0.588)")
+                 "true turning track of a P3-AT on this floor, m (its firmware's odometry uses 0.588); other "
+                 "robots' in proportion")
       ->check(CLI::Range(0.4, 1.0))
       ->capture_default_str();
   app.add_flag("--exact", options.exact, "no slip, no scale error, no drift: odometry is the truth");

@@ -12,7 +12,7 @@ namespace heel::sim {
 
 struct Options {
   std::string robot;  ///< empty: no robot, only files are written
-  std::string model = "p3at-sh";
+  std::string model;  ///< empty: the scenario's, or p3at-sh
   int boot_baud = 9600;
   double track_m = ChassisSettings{}.true_track_m;
   bool exact = false;

@@ -17,6 +17,7 @@
 #include "evaluation/experiments/foreign_answers.h"
 #include "evaluation/experiments/planar_matching.h"
 #include "evaluation/experiments/real_images.h"
+#include "evaluation/experiments/robot_family.h"
 #include "evaluation/experiments/still_image_cases.h"
 #include "evaluation/experiments/still_image_file.h"
 #include "evaluation/experiments/stop_distances.h"
@@ -36,6 +37,7 @@ constexpr const char* kFalse = "foreign-false";
 constexpr const char* kOtherPeople = "/person/one-by-one.mp4";
 constexpr const char* kStills = "stills";
 constexpr const char* kStopping = "stopping";
+constexpr const char* kFamily = "family";
 constexpr int kVideoStep = 3;  ///< ten frames a second show how certainty rises and falls
 
 struct ExperimentOptions {
@@ -229,11 +231,22 @@ void measure_stopping(const ExperimentOptions& options) {
   std::fflush(stdout);
 }
 
+/// Every robot that heel knows, against the simulated one's truth.
+void measure_family(const ExperimentOptions& options) {
+  const Config config = options.config_file.empty() ? Config{} : load_config(options.config_file).config;
+  const auto drives = evaluation::drive_family(config, options.seed);
+  const std::string file = options.out + "/" + kFamily + ".csv";
+  evaluation::write_family(drives, file);
+  fmt::print("{}{:<10} {} robots: {}\n", evaluation::family_table(drives), kFamily, drives.size(), file);
+  std::fflush(stdout);
+}
+
 void run_experiments(const ExperimentOptions& options) {
   require_given_folders(options);
   make_folder(options.out);
   if (options.wants(kStills)) write_stills(options);
   if (options.wants(kStopping)) measure_stopping(options);
+  if (options.wants(kFamily)) measure_family(options);
   if (options.wants(kReal)) run_real_image_experiment(options);
   if (options.wants(kForeign) || options.wants(kPlanar) || options.wants(kFalse))
     run_foreign_experiments(options);
@@ -260,6 +273,9 @@ void add_experiment_command(CLI::App& app) {
           ": writes pictures of backs with truth: images/, truth.csv, camera.yaml";
   names.emplace_back(kStopping);
   help += std::string("\n  ") + kStopping + ": how far the robot rolls after each kind of stop, by speed";
+  names.emplace_back(kFamily);
+  help += std::string("\n  ") + kFamily +
+          ": each robot that heel knows: its odometry against the truth, and its stop before a wall";
   names.emplace_back(kReal);
   help += std::string("\n  ") + kReal + ": homography error on real pairs, certainty over a real video";
   names.insert(names.end(), {kForeign, kPlanar, kFalse});

@@ -32,8 +32,14 @@ const Json& part(const Json& status, std::string_view name) {
   return found == status.end() || !found->is_object() ? kNone : *found;
 }
 
+/// "p3at-sh, "; empty: the robot has not said what it is.
+std::string kind_text(const Json& robot) {
+  const auto subclass = robot.find("subclass");
+  return subclass == robot.end() || !subclass->is_string() ? "" : subclass->get<std::string>() + ", ";
+}
+
 std::string robot_text(const Json& robot) {
-  std::string out = fmt::format("link {}, motors {}, battery {}", text(robot, "link"),
+  std::string out = fmt::format("{}link {}, motors {}, battery {}", kind_text(robot), text(robot, "link"),
                                 flag(robot, "motors") ? "on" : "off", number(robot, "battery_v", "{:.1f} V"));
   out += fmt::format(", speed {}", number(robot, "v_m_s", "{:.2f} m/s"));
   if (flag(robot, "stop_button")) out += ", STOP button pressed";

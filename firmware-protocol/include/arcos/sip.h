@@ -40,7 +40,7 @@ enum SipFlag : std::uint16_t {
 /// What one sonar heard.
 struct SonarReading {
   std::uint8_t number = 0;
-  std::uint16_t range_mm = 0;
+  std::uint16_t range_mm = 0;  ///< × RangeConvFactor, 1 on most robots
   friend bool operator==(const SonarReading&, const SonarReading&) = default;
 };
 
@@ -52,8 +52,8 @@ struct Sip {
   std::uint8_t id = kSipStanding;
   std::uint16_t x_pos = 0;  ///< × DistConvFactor → mm; wraps
   std::uint16_t y_pos = 0;
-  std::int16_t th_pos = 0;  ///< × 2π/4096 rad, counter-clockwise +
-  std::int16_t left_mm_s = 0;
+  std::int16_t th_pos = 0;     ///< × 2π/4096 rad, counter-clockwise +
+  std::int16_t left_mm_s = 0;  ///< × VelConvFactor, 1 on most robots
   std::int16_t right_mm_s = 0;
   std::uint8_t battery_dv = 0;          ///< 0.1 V
   std::uint16_t stall_and_bumpers = 0;  ///< low byte left and rear, high byte right and front

@@ -7,13 +7,11 @@
 namespace heel::sim {
 namespace {
 
-constexpr double kHalfLength_m = 0.313;  ///< the bumpers' outer edge
-constexpr double kHalfWidth_m = 0.2525;
 constexpr double kBumperTravel_m = 0.02;  ///< how far a bumper gives way
 constexpr int kSegments = 5;              ///< of a bumper
 constexpr int kPointsPerSegment = 3;
 constexpr int kPointsPerSide = 8;
-constexpr double kReach_m = 0.41;  ///< a little more than half the diagonal
+constexpr double kBeyond_m = 0.01;  ///< things so far from the outline are looked at
 
 Eigen::Vector2d in_world(const Pose2& pose, double ahead_m, double left_m) {
   const double c = std::cos(pose.heading_rad);
@@ -28,24 +26,29 @@ bool is_inside_any(const std::vector<Footprint>& things, const Eigen::Vector2d& 
 }
 
 /// Pressed segments of the front (`end` +1) or rear (−1) bumper.
-std::uint8_t pressed(const Pose2& pose, const std::vector<Footprint>& things, double end) {
+std::uint8_t pressed(const Pose2& pose, const RobotModel& robot, const std::vector<Footprint>& things,
+                     double end) {
+  const double bumper_m = end > 0.0 ? robot.geometry.front_m : robot.geometry.rear_m;
   unsigned bits = 0;
   for (int i = 0; i < kSegments * kPointsPerSegment; ++i) {
     const double across = 1.0 - 2.0 * (i + 0.5) / (kSegments * kPointsPerSegment);
-    if (is_inside_any(things, in_world(pose, end * kHalfLength_m, end * across * kHalfWidth_m)))
+    if (is_inside_any(things, in_world(pose, end * bumper_m, end * across * 0.5 * robot.width_m)))
       bits |= 1u << (i / kPointsPerSegment);
   }
   return static_cast<std::uint8_t>(bits);
 }
 
 /// Whether the rigid part of the robot is inside an obstacle.
-bool blocked(const Pose2& pose, const std::vector<Footprint>& things) {
-  const double length = kHalfLength_m - kBumperTravel_m;
+bool blocked(const Pose2& pose, const RobotModel& robot, const std::vector<Footprint>& things) {
+  const double front_m = robot.geometry.front_m - kBumperTravel_m;
+  const double rear_m = robot.geometry.rear_m - kBumperTravel_m;
+  const double half_width_m = 0.5 * robot.width_m;
   for (int i = 0; i <= kPointsPerSide; ++i) {
     const double share = 2.0 * i / kPointsPerSide - 1.0;
+    const double along_m = share * (share > 0.0 ? front_m : rear_m);
     for (const double side : {-1.0, 1.0})
-      if (is_inside_any(things, in_world(pose, side * length, share * kHalfWidth_m)) ||
-          is_inside_any(things, in_world(pose, share * length, side * kHalfWidth_m)))
+      if (is_inside_any(things, in_world(pose, side > 0.0 ? front_m : -rear_m, share * half_width_m)) ||
+          is_inside_any(things, in_world(pose, along_m, side * half_width_m)))
         return true;
   }
   return false;
@@ -63,12 +66,15 @@ Contact::Contact(const World& world, P3At& robot)
 std::vector<Footprint> Contact::nearby_footprints() const {
   const Pose2& pose = robot_.true_pose();
   const Eigen::Vector2d at(pose.x_m, pose.y_m);
+  const RobotModel& robot = robot_.model();
+  const double reach_m =
+      std::hypot(std::max(robot.geometry.front_m, robot.geometry.rear_m), 0.5 * robot.width_m) + kBeyond_m;
   std::vector<Footprint> things;
   const auto add = [&](const std::vector<Footprint>& all) {
     for (const Footprint& thing : all) {
       // A quick test first: most of them are far away.
-      const bool far = (thing.centre_m - at).norm() > kReach_m + thing.reach_m();
-      if (!far && (thing.nearest_m(at) - at).norm() < kReach_m) things.push_back(thing);
+      const bool far = (thing.centre_m - at).norm() > reach_m + thing.reach_m();
+      if (!far && (thing.nearest_m(at) - at).norm() < reach_m) things.push_back(thing);
     }
   };
   add(world_.room().footprints());
@@ -91,11 +97,12 @@ void Contact::step(double t_s) {
   t_s_ = t_s;
   choose_floor();
   const std::vector<Footprint> things = nearby_footprints();
-  if (blocked(robot_.true_pose(), things))
+  if (blocked(robot_.true_pose(), robot_.model(), things))
     robot_.place(free_pose_);
   else
     free_pose_ = robot_.true_pose();
-  robot_.touch_bumper(pressed(robot_.true_pose(), things, 1.0), pressed(robot_.true_pose(), things, -1.0));
+  robot_.touch_bumper(pressed(robot_.true_pose(), robot_.model(), things, 1.0),
+                      pressed(robot_.true_pose(), robot_.model(), things, -1.0));
 }
 
 }  // namespace heel::sim

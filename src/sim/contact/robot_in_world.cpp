@@ -3,6 +3,7 @@
 namespace heel::sim {
 
 void apply_robot(const ScenarioRobot& robot, P3AtSettings& settings) {
+  if (!robot.model.empty()) use_model(robot.model, settings);
   settings.start = {robot.x_m, robot.y_m, robot.heading_rad};
   settings.chassis.true_track_m = robot.true_track_m;
   settings.chassis.left_scale_error = robot.left_scale_error;

@@ -11,8 +11,8 @@
 #include "core/picture_turn.h"
 #include "core/random.h"
 #include "heel/error.h"
+#include "models/robot_models.h"
 #include "robot/arcos_session.h"
-#include "robot/p3at_geometry.h"
 #include "sim/contact/contact.h"
 #include "sim/contact/robot_in_world.h"
 #include "sim/lockstep/frame_supply.h"
@@ -89,7 +89,7 @@ Lockstep::Lockstep(const LockstepSettings& settings, LockstepObserver& observer)
       turner_(picture_turn(settings.config.camera.rotate, settings.config.camera.mirror)),
       observer_(observer),
       operator_(settings.operator_actions),
-      control_(control_config(settings), p3at_geometry()),
+      control_(control_config(settings), robot_models()),
       session_(settings.config.robot),
       robot_(robot_settings(settings.scenario), derived_seed(settings.scenario.seed, 0x60)) {
   if (settings.errors) {

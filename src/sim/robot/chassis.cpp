@@ -20,9 +20,9 @@ void add_arc(Pose2& pose, double distance_m, double turn_rad) {
 
 }  // namespace
 
-ChassisSettings exact_chassis() {
-  ChassisSettings settings;
+ChassisSettings exact_chassis(ChassisSettings settings) {
   settings.true_track_m = settings.effective_track_m;
+  settings.track_scale = 1.0;
   settings.left_scale_error = 0.0;
   settings.right_scale_error = 0.0;
   settings.drift_per_sqrt_m = 0.0;
@@ -64,7 +64,7 @@ double Chassis::true_speed_m_s() const {
 double Chassis::true_yaw_rate_rad_s() const {
   return (wheels_.right_m_s * (1.0 + settings_.right_scale_error) -
           wheels_.left_m_s * (1.0 + settings_.left_scale_error)) /
-         settings_.true_track_m;
+         (settings_.true_track_m * settings_.track_scale);
 }
 
 void Chassis::move(double dt_s) {

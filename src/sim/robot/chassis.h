@@ -15,7 +15,8 @@ namespace heel::sim {
 
 struct ChassisSettings {
   double effective_track_m = 0.588;  ///< 2 / 0.0034: the track in the firmware's odometry
-  double true_track_m = 0.62;        ///< depends on the floor, 0.55…0.70
+  double true_track_m = 0.62;        ///< of a P3-AT; depends on the floor, 0.55…0.70
+  double track_scale = 1.0;          ///< of this robot's tracks to a P3-AT's
   double left_scale_error = -0.002;  ///< true travel / encoder travel − 1
   double right_scale_error = 0.002;  ///< a difference from the left one makes a straight drive curved
   double drift_per_sqrt_m = 0.0075;  ///< random walk along the path: 0.75 % after one metre, 1 σ
@@ -26,7 +27,7 @@ struct ChassisSettings {
 };
 
 /// No slip, no scale error, no drift: odometry is the truth.
-ChassisSettings exact_chassis();
+ChassisSettings exact_chassis(ChassisSettings settings = {});
 
 struct WheelSpeeds {
   double left_m_s = 0.0;

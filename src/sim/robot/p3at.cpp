@@ -46,6 +46,7 @@ P3At::P3At(const P3AtSettings& settings, std::uint64_t seed)
       drive_(settings.translation_boot, radians(settings.rotation_boot_deg),
              settings.chassis.effective_track_m),
       chassis_(settings.chassis, seed),
+      sonar_(settings.model),
       stall_left_(settings.stall_cut_ns),
       stall_right_(settings.stall_cut_ns),
       bump_stall_(settings.bump_stall) {

@@ -1,6 +1,6 @@
-// A Pioneer P3-AT behind its serial line: bytes in, bytes out, and a robot that moves. It has no I/O and no
-// clock: the caller passes the time, so that the same model runs on a pty in real time and in the lock-step
-// simulator.
+// A Pioneer P3-AT, or another robot of its family, behind its serial line: bytes in, bytes out, and a robot
+// that moves. It has no I/O and no clock: the caller passes the time, so that the same model runs on a pty in
+// real time and in the lock-step simulator.
 //
 //   receive(bytes, t) → line (rate, faults) → parser → session and commands → drive → wheels
 //   take_output()     ← line (rate, faults) ← SIP, CONFIGpac, …              ← odometry, truth
@@ -85,6 +85,7 @@ class P3At {
   std::size_t input_backlog() const { return line_.input_backlog(); }
 
   // The world.
+  const RobotModel& model() const { return settings_.model; }
   const Pose2& true_pose() const { return chassis_.true_pose(); }
   RobotTruth truth() const;
   void place(const Pose2& pose) { chassis_.place(pose); }

@@ -216,7 +216,7 @@ void P3At::switch_sonar(int argument) {
   const int array = argument >> 1 & 7;
   if (array == 0) {
     sonar_.enable_all(on);
-  } else if (array <= kSonarArrays) {
+  } else if (array <= sonar_.arrays()) {
     sonar_.enable(array - 1, on);
   }
 }

@@ -11,6 +11,8 @@
 namespace heel::sim {
 namespace {
 
+constexpr std::size_t kReadingsInSip = 16;
+
 /// Rounded and wrapped to 16 bits, as the firmware's counters are.
 std::uint16_t wrapped(double value) {
   return static_cast<std::uint16_t>(std::llround(value));
@@ -56,12 +58,14 @@ arcos::Sip P3At::make_sip() {
   const RobotTruth now = truth();
   const WheelSpeeds& wheels = now.wheels;
   arcos::Sip sip;
-  const double units_per_m = 1000.0 / settings_.mm_per_position_unit;
+  const RobotModel& model = settings_.model;
+  const double units_per_m = 1000.0 / model.mm_per_position_unit;
+  const double speed_units_per_m_s = 1000.0 / model.mm_s_per_speed_unit;
   sip.x_pos = wrapped(now.odometry.x_m * units_per_m);
   sip.y_pos = wrapped(now.odometry.y_m * units_per_m);
   sip.th_pos = angle_units(now.odometry.heading_rad, settings_.heading_from_zero);
-  sip.left_mm_s = clamped_i16(wheels.left_m_s * 1000.0);
-  sip.right_mm_s = clamped_i16(wheels.right_m_s * 1000.0);
+  sip.left_mm_s = clamped_i16(wheels.left_m_s * speed_units_per_m_s);
+  sip.right_mm_s = clamped_i16(wheels.right_m_s * speed_units_per_m_s);
   sip.id = sip.left_mm_s != 0 || sip.right_mm_s != 0 ? arcos::kSipMoving : arcos::kSipStanding;
 
   const double drained_v = settings_.battery_drain_v_per_h * seconds_from_ns(t_ns_) / 3600.0;
@@ -75,7 +79,7 @@ arcos::Sip P3At::make_sip() {
       angle_units(drive_.heading_setpoint_rad(now.odometry.heading_rad), settings_.heading_from_zero);
   unsigned flags = arcos::kFlagPowerGood;
   if (motors_enabled_) flags |= arcos::kFlagMotorsEnabled;
-  for (int array = 0; array < kSonarArrays; ++array) {
+  for (int array = 0; array < sonar_.arrays(); ++array) {
     if (sonar_.enabled(array)) flags |= 2u << array;
   }
   if (stop_button_) flags |= arcos::kFlagStopButton;
@@ -84,7 +88,7 @@ arcos::Sip P3At::make_sip() {
   sip.compass_2deg = compass_units(now.pose.heading_rad);
 
   for (const SonarReading& reading : sonar_.take_readings()) {
-    if (sip.sonar_count < kSonarCount) sip.sonars[sip.sonar_count++] = {reading.number, reading.range_mm};
+    if (sip.sonar_count < kReadingsInSip) sip.sonars[sip.sonar_count++] = {reading.number, reading.range};
   }
   sip.gripper = std::uint8_t{0};
   sip.ad_port = ad_port_;

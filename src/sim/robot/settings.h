@@ -1,10 +1,11 @@
-// Settings of the simulated P3-AT. The defaults are those of a p3at-sh as delivered, on an ordinary floor.
+// Settings of the simulated robot. The defaults are those of a p3at-sh as delivered, on an ordinary floor.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "core/pose2.h"
+#include "core/robot_model.h"
 #include "heel/time.h"
 #include "sim/robot/axis_profile.h"
 #include "sim/robot/chassis.h"
@@ -13,6 +14,8 @@
 namespace heel::sim {
 
 struct P3AtSettings {
+  P3AtSettings();
+
   // Identity.
   std::string name = "heel-sim";
   std::string type = "Pioneer";
@@ -21,10 +24,10 @@ struct P3AtSettings {
   std::string firmware_version = "3.0";
 
   // Wire.
-  double mm_per_position_unit = 1.0;  ///< DistConvFactor
-  bool heading_from_zero = false;     ///< THPOS 0…4095 instead of −2048…2047
-  bool sends_config = true;           ///< answers CONFIG
-  bool sends_fault_flags = true;      ///< the last SIP field of newer firmware
+  RobotModel model;                ///< units, outline, sonar places
+  bool heading_from_zero = false;  ///< THPOS 0…4095 instead of −2048…2047
+  bool sends_config = true;        ///< answers CONFIG
+  bool sends_fault_flags = true;   ///< the last SIP field of newer firmware
   int boot_baud = 9600;
   int autobaud = 2;                    ///< CONFIGpac Autobaud; 0: HOSTBAUD is ignored
   bool junk_before_first_echo = true;  ///< sends "WMS2\r" before its first echo
@@ -53,7 +56,10 @@ struct P3AtSettings {
   std::vector<Fault> faults;
 };
 
-/// The older model with the H8 controller: 0.465 mm per position unit, subclass "p3at".
-P3AtSettings p3at_h8_settings();
+/// Those of another robot of the family. The older ones, whose subclass does not end in "-sh", count headings
+/// from zero and send a shorter SIP. Throws heel::Error when there is no such robot.
+P3AtSettings settings_of_model(const std::string& subclass);
+/// The same for settings that say more about this robot and its floor.
+void use_model(const std::string& subclass, P3AtSettings& settings);
 
 }  // namespace heel::sim

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace heel::sim {
@@ -11,40 +10,26 @@ namespace {
 constexpr double kFarthest_m = 5.0;  // also reported without an echo
 constexpr double kNearest_m = 0.15;
 
-struct Mount {
-  double x_mm, y_mm, heading_deg;
-};
-constexpr std::array<Mount, kSonarsPerArray / 2> kFrontLeft{
-    {{147, 136, 90}, {193, 119, 50}, {227, 79, 30}, {245, 27, 10}}};
-constexpr std::array<Mount, kSonarsPerArray / 2> kRearRight{
-    {{-144, -136, -90}, {-189, -119, -130}, {-223, -79, -150}, {-241, -27, -170}}};
-
 }  // namespace
 
-Pose2 sonar_mount(int number) {
-  const bool rear = number >= kSonarsPerArray;
-  const int place = number % kSonarsPerArray;
-  const bool mirrored = place >= kSonarsPerArray / 2;
-  const auto row = static_cast<std::size_t>(mirrored ? kSonarsPerArray - 1 - place : place);
-  const Mount& mount = (rear ? kRearRight : kFrontLeft)[row];
-  const double side = mirrored ? -1.0 : 1.0;
-  return {mount.x_mm * 1e-3, side * mount.y_mm * 1e-3, side * mount.heading_deg * std::numbers::pi / 180.0};
-}
-
-SonarRing::SonarRing() {
+SonarRing::SonarRing(const RobotModel& model)
+    : robot_(model.geometry), mm_per_range_unit_(model.mm_per_range_unit) {
+  for (int number = 0; number < static_cast<int>(kMaxSonars); ++number) {
+    if (robot_.has_sonar(static_cast<std::size_t>(number))) arrays_ = number / kSonarsPerArray + 1;
+  }
   set_polling({});
 }
 
 void SonarRing::set_polling(std::span<const std::uint8_t> numbers) {
   for (std::vector<int>& order : order_) order.clear();
+  const auto add = [this](int number) {
+    if (!robot_.has_sonar(static_cast<std::size_t>(number))) return;
+    order_[static_cast<std::size_t>(number / kSonarsPerArray)].push_back(number);
+  };
   for (const std::uint8_t from_one : numbers) {
-    if (from_one < 1 || from_one > kSonarCount) continue;
-    const int number = from_one - 1;
-    order_[static_cast<std::size_t>(number / kSonarsPerArray)].push_back(number);
+    if (from_one > 0) add(from_one - 1);
   }
-  for (int number = 0; numbers.empty() && number < kSonarCount; ++number) {
-    order_[static_cast<std::size_t>(number / kSonarsPerArray)].push_back(number);
-  }
+  for (int number = 0; numbers.empty() && number < static_cast<int>(kMaxSonars); ++number) add(number);
   next_.fill(0);
 }
 
@@ -63,7 +48,7 @@ std::vector<SonarReading> SonarRing::take_readings() {
 }
 
 void SonarRing::fire(int number, const Pose2& robot_in_world) {
-  const Pose2 mount = sonar_mount(number);
+  const Pose2& mount = robot_.sonars[static_cast<std::size_t>(number)];
   const double c = std::cos(robot_in_world.heading_rad);
   const double s = std::sin(robot_in_world.heading_rad);
   const Pose2 sensor{robot_in_world.x_m + c * mount.x_m - s * mount.y_m,
@@ -72,8 +57,8 @@ void SonarRing::fire(int number, const Pose2& robot_in_world) {
   double range_m = range_m_ ? range_m_(sensor) : kFarthest_m;
   if (!(range_m < kFarthest_m)) range_m = kFarthest_m;
   range_m = std::max(range_m, kNearest_m);
-  readings_.push_back(
-      {static_cast<std::uint8_t>(number), static_cast<std::uint16_t>(std::lround(range_m * 1000.0))});
+  readings_.push_back({static_cast<std::uint8_t>(number),
+                       static_cast<std::uint16_t>(std::lround(range_m * 1000.0 / mm_per_range_unit_))});
 }
 
 }  // namespace heel::sim

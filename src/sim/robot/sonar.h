@@ -1,4 +1,5 @@
-// The sixteen sonars: two arrays of eight; each array fires one sonar per cycle, in the order of POLLING.
+// The sonars: arrays of eight numbers each, of which some may not be fitted; each array fires one sonar per
+// cycle, in the order of POLLING.
 #pragma once
 
 #include <array>
@@ -8,17 +9,13 @@
 #include <vector>
 
 #include "core/pose2.h"
+#include "core/robot_model.h"
 #include "heel/time.h"
 
 namespace heel::sim {
 
-inline constexpr int kSonarCount = 16;
 inline constexpr int kSonarsPerArray = 8;
-inline constexpr int kSonarArrays = 2;
-
-/// The place of sonar `number` (0…15) on the robot: 0…7 in front from left to right, 8…15 behind from right
-/// to left.
-Pose2 sonar_mount(int number);
+inline constexpr int kSonarArraysMax = static_cast<int>(kMaxSonars) / kSonarsPerArray;
 
 /// Gives the distance in metres from a sensor (its pose in the world) to the nearest obstacle ahead;
 /// infinity: none.
@@ -26,16 +23,17 @@ using RangeFinder = std::function<double(const Pose2& sensor_in_world)>;
 
 struct SonarReading {
   std::uint8_t number = 0;
-  std::uint16_t range_mm = 0;
+  std::uint16_t range = 0;  ///< wire units
 };
 
 class SonarRing {
  public:
-  SonarRing();
+  explicit SonarRing(const RobotModel& model);
 
   void set_range_finder(RangeFinder range_m) { range_m_ = std::move(range_m); }
   void set_cycle(TimeNs cycle_ns) { cycle_ns_ = cycle_ns; }
-  /// `array` 0 front, 1 rear.
+  /// Arrays with at least one sonar; the numbers of array i begin at 8 i.
+  int arrays() const { return arrays_; }
   void enable(int array, bool on) { enabled_[static_cast<std::size_t>(array)] = on; }
   void enable_all(bool on) { enabled_.fill(on); }
   bool enabled(int array) const { return enabled_[static_cast<std::size_t>(array)]; }
@@ -50,12 +48,15 @@ class SonarRing {
  private:
   void fire(int number, const Pose2& robot_in_world);
 
+  RobotGeometry robot_;
+  double mm_per_range_unit_;
+  int arrays_ = 0;
   RangeFinder range_m_;
   TimeNs cycle_ns_ = 40 * kNsPerMs;
   TimeNs t_next_ns_ = 0;
-  std::array<bool, kSonarArrays> enabled_{};
-  std::array<std::vector<int>, kSonarArrays> order_;
-  std::array<std::size_t, kSonarArrays> next_{};
+  std::array<bool, kSonarArraysMax> enabled_{};
+  std::array<std::vector<int>, kSonarArraysMax> order_;
+  std::array<std::size_t, kSonarArraysMax> next_{};
   std::vector<SonarReading> readings_;
 };
 

@@ -50,10 +50,11 @@ struct FloorPatch {
 };
 
 struct ScenarioRobot {
+  std::string model;  ///< subclass, "p3dx-sh"; empty: the simulator's default, a p3at-sh
   double x_m = 0.0;
   double y_m = 0.0;
   double heading_rad = 0.0;
-  double true_track_m = 0.62;  ///< track with which the robot turns on this floor; the firmware assumes 0.588
+  double true_track_m = 0.62;  ///< track with which a P3-AT turns on this floor; its firmware assumes 0.588
   double left_scale_error = -0.002;
   double right_scale_error = 0.002;
   double acceleration_top_m_s2 = 2.0;  ///< of the controller, in CONFIGpac; it obeys no larger SETA

@@ -11,6 +11,7 @@ constexpr NumberRange kTrack{0.4, 1.0, "m"};
 }  // namespace
 
 void read_robot(TomlSection robot, ScenarioRobot& out) {
+  out.model = robot.text("model", out.model);
   out.x_m = robot.number("x_m", out.x_m, kMetres);
   out.y_m = robot.number("y_m", out.y_m, kMetres);
   out.heading_rad = kRadPerDeg * robot.number("heading_deg", 0.0, kTurn_deg);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "robot/arcos_session.h"
-#include "robot/p3at_geometry.h"
 #include "sim/robot/p3at.h"
 
 namespace heel {
@@ -191,11 +190,9 @@ TEST(ArcosSessionOnP3At, ANewCommandDoesNotWaitBehindOldOnes) {
 }
 
 TEST(ArcosSessionOnP3At, AnOlderModelWithOtherUnitsIsMeasuredRight) {
-  sim::P3AtSettings settings = sim::p3at_h8_settings();
+  sim::P3AtSettings settings = sim::settings_of_model("p3at");
   settings.chassis = exact_robot().chassis;
   Bench bench(settings);
-  bench.config.dist_conv_factor = 0.465;
-  bench.session = ArcosSession(bench.config);
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
   bench.v_m_s = 0.5;
@@ -356,17 +353,6 @@ TEST(ArcosSessionOnP3At, CloseLeavesItClosedAndAtRest) {
   EXPECT_EQ(bench.robot.truth().session, sim::Session::Waiting);
   EXPECT_NEAR(bench.robot.truth().v_m_s, 0.0, 1e-6);
   EXPECT_FALSE(bench.robot.truth().motors_enabled);
-}
-
-TEST(P3AtGeometry, SonarsAreWhereTheSimulatorsTableHasThem) {
-  const RobotGeometry geometry = p3at_geometry();
-  for (int number = 0; number < sim::kSonarCount; ++number) {
-    const Pose2 expected = sim::sonar_mount(number);
-    const Pose2 mount = geometry.sonars.at(static_cast<std::size_t>(number));
-    EXPECT_NEAR(mount.x_m, expected.x_m, 1e-9) << number;
-    EXPECT_NEAR(mount.y_m, expected.y_m, 1e-9) << number;
-    EXPECT_NEAR(mount.heading_rad, expected.heading_rad, 1e-9) << number;
-  }
 }
 
 }  // namespace

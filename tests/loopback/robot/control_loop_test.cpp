@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "loopback/robot/robot_thread.h"
-#include "robot/p3at_geometry.h"
+#include "models/robot_models.h"
 #include "support/decisions.h"
 #include "support/process.h"
 
@@ -57,7 +57,7 @@ TEST(ControlLoopOverPty, TheRecordedInputsGiveTheRecordedDecisions) {
   }
   drain();
 
-  ControlStage again(config, p3at_geometry());
+  ControlStage again(config, robot_models());
   test::DecisionCounts counts;
   for (const TickRecord& record : records) {
     ASSERT_EQ(test::decision_bytes(again.tick(record.input)), test::decision_bytes(record)) << record.tick;

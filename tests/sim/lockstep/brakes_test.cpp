@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "robot/p3at_geometry.h"
+#include "models/robot_models.h"
 #include "sim/lockstep/lockstep.h"
 #include "support/test_data.h"
 
@@ -47,7 +47,7 @@ objects = 15
 class NearestToTheBox : public LockstepObserver {
  public:
   void on_tick(const TickRecord& tick, const LockstepTruth& truth) override {
-    const double bumper_m = truth.robot.pose.x_m + p3at_geometry().centre_to_bumper_m;
+    const double bumper_m = truth.robot.pose.x_m + robot_models()[0].geometry.front_m;
     distance_m = std::min(distance_m, kBoxFront_m - bumper_m);
     speed_m_s = std::max(speed_m_s, truth.robot.v_m_s);
     if (tick.input.robot.phase == LinkPhase::Running)
@@ -77,6 +77,15 @@ TEST(Brakes, OfAnOrdinaryRobotStopItInTime) {
   const NearestToTheBox run = run_with(walk_past_a_box());
   EXPECT_NEAR(run.distance_m, Config{}.gate.clearance_m, 0.1);
   EXPECT_EQ(run.planned_m_s2, 1.5);
+}
+
+// Its echoes are in other units: a driver that takes them for millimetres drives into the box.
+TEST(Brakes, OfAnOlderModelStopItAsEarly) {
+  LockstepSettings settings = walk_past_a_box();
+  settings.scenario.robot.model = "p2at";
+  const NearestToTheBox run = run_with(settings);
+  EXPECT_GT(run.distance_m, ordinary_m() - kSpread_m);
+  EXPECT_LT(run.distance_m, ordinary_m() + kSpread_m);
 }
 
 TEST(Brakes, ThatTheControllerLimitsStopItInTime) {

@@ -14,7 +14,7 @@
 #include "evaluation/experiments/run_record.h"
 #include "evaluation/metrics/metrics.h"
 #include "heel/error.h"
-#include "robot/p3at_geometry.h"
+#include "models/robot_models.h"
 #include "sim/lockstep/transcript.h"
 #include "support/decisions.h"
 #include "support/sanitized.h"
@@ -146,7 +146,7 @@ TEST(Lockstep, TheRecordedInputsGiveTheRecordedDecisionsAgain) {
   Records run;
   run_lockstep(settings, run);
 
-  ControlStage again(settings.config, p3at_geometry());
+  ControlStage again(settings.config, robot_models());
   test::DecisionCounts counts;
   for (const TickRecord& record : run.ticks) {
     ASSERT_EQ(test::decision_bytes(again.tick(record.input)), test::decision_bytes(record)) << record.tick;

@@ -49,7 +49,7 @@ class P3AtPositionUnits : public testing::TestWithParam<double> {};
 TEST_P(P3AtPositionUnits, WrapNaturallyIn16Bits) {
   const double mm_per_unit = GetParam();
   P3AtSettings settings = fast_exact_settings();
-  settings.mm_per_position_unit = mm_per_unit;
+  settings.model.mm_per_position_unit = mm_per_unit;
   VirtualClient client(settings);
   client.open_and_enable();
   client.command(CommandId::Vel, -500);
@@ -370,7 +370,7 @@ TEST(P3AtSonar, MountsAreTheReferencesTable) {
                                   {-144, -136, -90}, {-189, -119, -130}, {-223, -79, -150}, {-241, -27, -170},
                                   {-241, 27, 170},   {-223, 79, 150},    {-189, 119, 130},  {-144, 136, 90}};
   for (int number = 0; number < 16; ++number) {
-    const Pose2 mount = sonar_mount(number);
+    const Pose2 mount = P3AtSettings{}.model.geometry.sonars[static_cast<std::size_t>(number)];
     EXPECT_NEAR(mount.x_m * 1000, expected[number][0], 1e-9) << number;
     EXPECT_NEAR(mount.y_m * 1000, expected[number][1], 1e-9) << number;
     EXPECT_NEAR(mount.heading_rad * 180 / std::numbers::pi, expected[number][2], 1e-9) << number;
