@@ -113,7 +113,7 @@ void ControlLoop::report_robot_events() {
   while (link_.next_event(news)) {
     Event event{.t_ns = news.t_ns, .kind = is_warning(news.kind) ? EventKind::Warning : EventKind::Note};
     event.a = news.value;
-    write_event_text(news, link_.state().kind, event.text);
+    write_event_text(news, link_.state().kind, link_.heard_text(), event.text);
     queues_.control_events.push(event);
   }
 }

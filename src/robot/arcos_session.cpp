@@ -84,6 +84,8 @@ void ArcosSession::line_opened(TimeNs now_ns) {
   sweep_.restart();
   pacer_.set_baud(sweep_.current());
   line_exhausted_ = false;
+  heard_.clear();
+  text_of_sweep_.clear();
   events_.push(now_ns, Kind::LineOpened);
   enter(Step::Listening, now_ns);
 }
@@ -115,6 +117,7 @@ std::span<const std::uint8_t> ArcosSession::close(TimeNs now_ns) {
 
 void ArcosSession::receive(std::span<const std::uint8_t> bytes, TimeNs t_ns) {
   if (step_ == Step::NoLine) return;
+  if (!is_connected()) heard_.hear(bytes);
   parser_.feed(bytes, t_ns, [this](const arcos::Packet& packet) { on_packet(packet); });
   copy_line_counters();
 }
@@ -236,6 +239,7 @@ void ArcosSession::on_config(const arcos::Packet& packet) {
     return;
   }
   config_seen_ = true;
+  if (controller_.host_baud < kRobotBauds.size()) sweep_.set_power_on(kRobotBauds[controller_.host_baud]);
   // The TCP server's serial line to the robot has the robot's rate.
   if (!sweep_.sweeps() && controller_.host_baud < kRobotBauds.size())
     pacer_.set_baud(kRobotBauds[controller_.host_baud]);

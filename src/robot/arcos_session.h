@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "arcos/config_packet.h"
 #include "arcos/other_packets.h"
@@ -24,6 +25,7 @@
 #include "heel/flow.h"
 #include "robot/baud_sweep.h"
 #include "robot/command_pacer.h"
+#include "robot/heard_text.h"
 #include "robot/motion_sender.h"
 #include "robot/odometry.h"
 #include "robot/outgoing.h"
@@ -66,6 +68,8 @@ class ArcosSession {
 
   const RobotState& state() const { return state_; }
   const arcos::RobotIdentity& identity() const { return identity_; }
+  /// A line of text that came during the last sweep, though no robot answered; empty: none.
+  std::string_view heard_text() const { return text_of_sweep_.text(); }
   bool next_event(SessionEvent& event) { return events_.pop(event); }
 
  private:
@@ -109,6 +113,8 @@ class ArcosSession {
 
   void take_due_steps(TimeNs now_ns);
   void retry_sync(TimeNs now_ns);
+  void leave_rate(TimeNs now_ns);
+  void listen_after_close(TimeNs now_ns);
   void finish_opening(TimeNs now_ns);
   void retry_enable(TimeNs now_ns);
   void disconnect_silent(TimeNs now_ns);
@@ -138,6 +144,8 @@ class ArcosSession {
   FrameQueue queue_;
   OutgoingBytes out_;
   SessionEvents events_;
+  HeardText heard_;          ///< at this rate
+  HeardText text_of_sweep_;  ///< at any rate of the sweep
   RobotState state_;
   arcos::RobotIdentity identity_;
 

@@ -69,6 +69,7 @@ void ArcosSession::change_rate(int baud) {
   sweep_.attempt(baud);
   pacer_.set_baud(baud);
   parser_.reset();
+  heard_.clear();
 }
 
 }  // namespace heel

@@ -13,6 +13,8 @@ using arcos::CommandId;
 using Kind = SessionEventKind;
 
 constexpr TimeNs kListen_ns = 300 * kNsPerMs;  // three SIP cycles
+// A robot answers SYNC0 within a few milliseconds; the echo takes 6 ms at 9600 baud, an adapter 16 ms.
+constexpr TimeNs kQuickEcho_ns = 350 * kNsPerMs;
 constexpr TimeNs kCloseTakes_ns = 150 * kNsPerMs;
 constexpr TimeNs kOpenTimeout_ns = 3 * kNsPerS;
 constexpr TimeNs kSipSilence_ns = 2 * kNsPerS;
@@ -60,12 +62,14 @@ void ArcosSession::take_due_steps(TimeNs now_ns) {
       if (in_step_ns >= kListen_ns) ask_sync(Step::Sync0, now_ns);
       return;
     case Step::Sync0:
+      if (sweep_.quick() && in_step_ns >= kQuickEcho_ns) return leave_rate(now_ns);
+      [[fallthrough]];
     case Step::Sync1:
     case Step::Sync2:
       if (in_step_ns >= ns_from_seconds(config_.sync_retry_s)) retry_sync(now_ns);
       return;
     case Step::Closing:
-      if (in_step_ns >= kCloseTakes_ns && queue_.empty()) enter(Step::Listening, now_ns);
+      if (in_step_ns >= kCloseTakes_ns && queue_.empty()) listen_after_close(now_ns);
       return;
     case Step::Opening:
       return finish_opening(now_ns);
@@ -87,11 +91,10 @@ void ArcosSession::take_due_steps(TimeNs now_ns) {
       if (now_ns - t_sip_ns_ >= kSipSilence_ns) disconnect_silent(now_ns);
       return;
     case Step::Silent:
-      if (in_step_ns >= ns_from_seconds(config_.reconnect_s) && queue_.empty())
-        enter(Step::Listening, now_ns);
+      if (in_step_ns >= ns_from_seconds(config_.reconnect_s) && queue_.empty()) listen_after_close(now_ns);
       return;
     case Step::Refused:
-      if (in_step_ns >= kRefused_ns) enter(Step::Listening, now_ns);
+      if (in_step_ns >= kRefused_ns) listen_after_close(now_ns);
       return;
   }
 }
@@ -115,14 +118,33 @@ void ArcosSession::retry_sync(TimeNs now_ns) {
     ask_sync(Step::Sync0, now_ns, true);
     return;
   }
-  events_.push(now_ns, Kind::NoAnswer, sweep_.current());
-  state_.kind = RobotKind{};
+  leave_rate(now_ns);
+}
+
+/// No robot has this rate: on to the next one. After the last one the sweep is over, and a person is told.
+void ArcosSession::leave_rate(TimeNs now_ns) {
+  if (!heard_.text().empty()) text_of_sweep_ = heard_;
   const int before = sweep_.current();
-  if (!sweep_.advance()) line_exhausted_ = true;
+  if (!sweep_.advance()) {
+    line_exhausted_ = true;
+    state_.kind = RobotKind{};
+    events_.push(now_ns, !text_of_sweep_.text().empty() ? Kind::OtherDevice
+                         : sweep_.sweeps()              ? Kind::NoAnswer
+                                                        : Kind::NoAnswerTcp);
+  }
   if (sweep_.current() != before) {
     events_.push(now_ns, Kind::TryingBaud, sweep_.current());
     change_rate(sweep_.current());
   }
+  heard_.clear();
+  enter(Step::Listening, now_ns);
+}
+
+/// The robot was sent CLOSE, after which its port may have another rate.
+void ArcosSession::listen_after_close(TimeNs now_ns) {
+  const int before = sweep_.current();
+  sweep_.restart_after_close();
+  if (sweep_.current() != before) change_rate(sweep_.current());
   enter(Step::Listening, now_ns);
 }
 

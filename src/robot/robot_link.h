@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "core/config.h"
 #include "heel/flow.h"
@@ -42,6 +43,8 @@ class RobotLink {
   void shutdown(TimeNs now_ns);
 
   const RobotState& state() const { return session_.state(); }
+  /// For the event OtherDevice.
+  std::string_view heard_text() const { return session_.heard_text(); }
   bool next_event(SessionEvent& event) { return session_.next_event(event); }
 
   /// Failed attempts to open the line, and the last reason; for threads that may lock and allocate.

@@ -13,7 +13,14 @@ const char* to_string(SessionEventKind kind) {
     case SessionEventKind::FoundOpen:
       return "robot has a session open from earlier; closing it";
     case SessionEventKind::NoAnswer:
-      return "robot does not answer at {} baud; check that it is switched on";
+      return "robot does not answer at any rate from 9600 to 115200 baud; check that it is switched on, and "
+             "that this is its cable";
+    case SessionEventKind::NoAnswerTcp:
+      return "robot does not answer; check that it is switched on, and that the port of robot.address is its "
+             "line's";
+    case SessionEventKind::OtherDevice:
+      return "robot line answers, but not in ARCOS: text such as '{text}'; check that robot.address is the "
+             "robot's";
     case SessionEventKind::Synchronised:
       return "robot synchronised: class {class}, subclass {subclass}; driven as a {model}";
     case SessionEventKind::ModelUnknown:
@@ -71,6 +78,8 @@ bool is_warning(SessionEventKind kind) {
   switch (kind) {
     case SessionEventKind::LineLost:
     case SessionEventKind::NoAnswer:
+    case SessionEventKind::NoAnswerTcp:
+    case SessionEventKind::OtherDevice:
     case SessionEventKind::ModelUnknown:
     case SessionEventKind::ModelConflict:
     case SessionEventKind::ModelMissing:

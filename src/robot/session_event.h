@@ -14,7 +14,9 @@ enum class SessionEventKind : std::uint8_t {
   LineLost,
   TryingBaud,    ///< value: baud
   FoundOpen,     ///< an earlier session has left the robot open: it is closed
-  NoAnswer,      ///< value: baud
+  NoAnswer,      ///< at any rate
+  NoAnswerTcp,   ///< over TCP, where the rate is not ours
+  OtherDevice,   ///< text comes, and nothing in ARCOS
   Synchronised,  ///< the robot has said what it is, and may be driven
   ModelUnknown,  ///< it is refused; ModelChoice says why
   ModelConflict,
@@ -46,7 +48,7 @@ struct SessionEvent {
 };
 
 /// One line for people, with "{}" in place of the value and, of the robot, "{class}", "{subclass}" and
-/// "{model}".
+/// "{model}", of another device "{text}".
 const char* to_string(SessionEventKind kind);
 /// True for events that a person should know about.
 bool is_warning(SessionEventKind kind);

@@ -13,13 +13,13 @@ struct Replacement {
   std::string_view placeholder, by;
 };
 
-Replacement replacement_at(std::string_view text, const RobotKind& kind) {
+Replacement replacement_at(std::string_view text, const RobotKind& kind, std::string_view heard) {
   const auto models = robot_models();
   const std::string_view model =
       kind.model < models.size() ? models[kind.model].subclass : std::string_view();
   for (const Replacement& one :
        {Replacement{"{class}", kind.robot_class.data()}, Replacement{"{subclass}", kind.subclass.data()},
-        Replacement{"{model}", model}}) {
+        Replacement{"{model}", model}, Replacement{"{text}", heard}}) {
     if (text.starts_with(one.placeholder)) return one;
   }
   return {};
@@ -27,7 +27,8 @@ Replacement replacement_at(std::string_view text, const RobotKind& kind) {
 
 }  // namespace
 
-void write_event_text(const SessionEvent& event, const RobotKind& kind, std::span<char> out) {
+void write_event_text(const SessionEvent& event, const RobotKind& kind, std::string_view heard,
+                      std::span<char> out) {
   std::string_view text = to_string(event.kind);
   std::size_t size = 0;
   const auto put = [&](std::string_view part) {
@@ -36,7 +37,7 @@ void write_event_text(const SessionEvent& event, const RobotKind& kind, std::spa
     size += count;
   };
   while (!text.empty()) {
-    const Replacement found = replacement_at(text, kind);
+    const Replacement found = replacement_at(text, kind, heard);
     put(found.placeholder.empty() ? text.substr(0, 1) : found.by);
     text.remove_prefix(std::max<std::size_t>(1, found.placeholder.size()));
   }

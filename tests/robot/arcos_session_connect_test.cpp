@@ -1,6 +1,9 @@
 // The session from the first byte until the motors are enabled, with robots in every state.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <string_view>
+
 #include "robot/session_bench.h"
 
 namespace heel {
@@ -167,11 +170,12 @@ TEST(ArcosSessionBaud, TheRateOfAnOpenSessionIsTheFirstToTryWhenTheLineIsLost) {
 TEST(ArcosSessionBaud, ASweepWithoutAnswerAsksToOpenTheDeviceAgain) {
   SessionBench bench(bench_config("serial:/dev/ttyUSB0@38400"));
   bench.robot.mute = true;
-  bench.run(5 * 2.0);
+  bench.run(2 * 0.5 + 5 * 2.0);
   EXPECT_FALSE(bench.session.line_exhausted());
-  bench.run(2.0);
+  EXPECT_EQ(bench.count(Kind::NoAnswer), 0) << "a rate without an answer is no news while others are left";
+  bench.run(2.5);
   EXPECT_TRUE(bench.session.line_exhausted());
-  EXPECT_EQ(bench.count(Kind::NoAnswer), 5);
+  EXPECT_EQ(bench.count(Kind::NoAnswer), 1);
   bench.session.line_opened(bench.now_ns);
   EXPECT_FALSE(bench.session.line_exhausted());
 }
@@ -190,6 +194,39 @@ TEST(ArcosSessionBaud, IsNotChangedOverTcp) {
   bench.run(3.0);
   EXPECT_EQ(bench.session.wanted_baud(), baud);
   EXPECT_TRUE(bench.session.line_exhausted());
+  EXPECT_EQ(bench.count(Kind::NoAnswerTcp), 1);
+  EXPECT_EQ(bench.count(Kind::NoAnswer), 0);
+  EXPECT_EQ(bench.count(Kind::TryingBaud), 0);
+}
+
+TEST(ArcosSessionBaud, TextOfAnotherDeviceIsReported) {
+  for (const char* address : {"serial:/dev/ttyUSB0@38400", "tcp:robot:22"}) {
+    SessionBench bench(bench_config(address));
+    const bool is_tcp = address[0] == 't';
+    const std::string_view text = is_tcp ? "SSH-2.0-OpenSSH_9.2\r\n" : "$GPGGA,120000,4807.0,N\r\n";
+    bench.robot.chatter.assign(text.begin(), text.end());
+    bench.robot.chatters = true;
+    bench.robot.baud = is_tcp ? 0 : 19200;
+    bench.run(16.0);
+    EXPECT_GE(bench.count(Kind::OtherDevice), 1);
+    EXPECT_EQ(bench.count(Kind::NoAnswer) + bench.count(Kind::NoAnswerTcp), 0);
+    EXPECT_EQ(bench.session.heard_text(), text.substr(0, text.size() - 2));
+  }
+}
+
+TEST(HeardText, IsALineOfText) {
+  const auto heard = [](std::string_view text) {
+    HeardText out;
+    out.hear({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    return std::string(out.text());
+  };
+  EXPECT_EQ(heard("OK\r\nERROR: {1}\r\nmore"), "ERROR: (1)") << "braces would be placeholders";
+  EXPECT_EQ(heard("short"), "");
+  EXPECT_EQ(heard("WMS2\r"), "");
+  EXPECT_EQ(heard("abcd\x01\x02\x03\x04"
+                  "efgh"),
+            "");
+  EXPECT_EQ(heard(std::string(60, 'x')), std::string(40, 'x'));
 }
 
 TEST(ArcosSessionConfig, ConnectsAlsoWhenItIsMissingOrDamaged) {

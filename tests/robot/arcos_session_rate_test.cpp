@@ -1,6 +1,8 @@
 // The session raises the rate of a slow line before the motors run, and recovers when that fails.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "robot/session_bench.h"
 
 namespace heel {
@@ -119,6 +121,45 @@ TEST(ArcosSessionRate, ARobotThatDoesNotSwitchBackIsFoundByTheSweep) {
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 30.0));
   EXPECT_EQ(bench.session.wanted_baud(), 38400);
   EXPECT_EQ(bench.robot.received(CommandId::HostBaud).size(), 2u);
+}
+
+int warnings(const SessionBench& bench) {
+  return static_cast<int>(std::count_if(bench.events.begin(), bench.events.end(),
+                                        [](const SessionEvent& event) { return is_warning(event.kind); }));
+}
+
+// A robot's port after CLOSE: at the power-on rate, or as it was. A driver finds either.
+TEST(ArcosSessionRate, AfterItsOwnCloseTheRobotIsFoundAtOnceAtEitherRate) {
+  for (const bool falls_back : {true, false}) {
+    SlowBench bench;
+    if (falls_back) bench.robot.rate_after_close = 9600;
+    ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+    for (int restart = 0; restart < 4; ++restart) {
+      const auto bytes = bench.session.close(bench.now_ns);
+      bench.robot.receive(bytes, bench.session.wanted_baud(), bench.now_ns);
+      ASSERT_EQ(bench.robot.baud, falls_back ? 9600 : 38400);
+      if (restart % 2 == 1)
+        bench.session = ArcosSession(bench_config("serial:/dev/ttyS0@38400"));  // another process
+      bench.events.clear();
+      bench.session.line_opened(bench.now_ns);
+      ASSERT_TRUE(bench.run_until(LinkPhase::Running, 2.5)) << falls_back << restart;
+      EXPECT_EQ(bench.robot.baud, 38400);
+      EXPECT_EQ(warnings(bench), 0) << falls_back << restart;
+    }
+  }
+}
+
+TEST(ArcosSessionRate, ASilentRobotThatIsClosedIsFoundAtThePowerOnRate) {
+  SlowBench bench;
+  bench.robot.rate_after_close = 9600;
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running));
+  bench.robot.mute = true;
+  ASSERT_TRUE(bench.run_until(LinkPhase::Lost));
+  bench.run(0.5);
+  bench.robot.mute = false;
+  EXPECT_EQ(bench.robot.baud, 9600) << "the session has sent CLOSE";
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running, 3.0));
+  EXPECT_EQ(bench.robot.baud, 38400);
 }
 
 TEST(ArcosSessionRate, LineLostWhileTheNewRateIsTried) {

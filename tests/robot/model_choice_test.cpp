@@ -192,7 +192,7 @@ TEST(ModelChoice, NamesAreCutAndMadePrintable) {
 
 std::string text_of(Kind event, const RobotKind& kind, std::size_t size = 192) {
   std::string out(size, 'x');
-  write_event_text({.kind = event}, kind, out);
+  write_event_text({.kind = event}, kind, "$GPGGA,1", out);
   return out.c_str();
 }
 

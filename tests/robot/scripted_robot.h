@@ -41,6 +41,9 @@ class ScriptedRobot {
   int enables_to_ignore = 0;
   bool enable_ends_e_stall = false;  ///< otherwise an E-stall keeps the motors off
   int host_bauds_to_follow = 100;
+  int rate_after_close = 0;  ///< 0: CLOSE leaves the rate as it is
+  Bytes chatter;             ///< what it says all the time in place of ARCOS, with `chatters`
+  bool chatters = false;
   int unheard_at = 0;              ///< a rate at which nothing it says arrives
   int last_echoes_to_swallow = 0;  ///< of SYNC2
   TimeNs sip_period_ns = 100 * kNsPerMs;
@@ -79,6 +82,7 @@ class ScriptedRobot {
     }
     Bytes said;
     said.swap(waiting_);
+    if (chatters) return chatter;
     return mute || (baud != 0 && baud == unheard_at) ? Bytes{} : said;
   }
 
@@ -111,6 +115,7 @@ class ScriptedRobot {
     if (command.is(CommandId::Close)) {
       open = false;
       sync_ = 0;
+      if (rate_after_close != 0) baud = rate_after_close;
     } else if (command.is(CommandId::Config) && answers_config) {
       arcos::Frame frame = arcos::encode_config(config);
       say(frame);

@@ -23,6 +23,7 @@ constexpr int kWireDecimals = 6;
 P3AtSettings robot_settings(const Options& options, const Scenario* scenario) {
   P3AtSettings settings;
   settings.boot_baud = options.boot_baud;
+  settings.keeps_rate_after_close = options.after_close == "stay";
   settings.chassis.true_track_m = options.track_m;
   if (scenario != nullptr) apply_robot(scenario->robot, settings);
   if (!options.model.empty()) use_model(options.model, settings);

@@ -17,6 +17,12 @@ void add_robot_options(CLI::App& app, Options& options) {
   app.add_option("--boot-baud", options.boot_baud, "rate of the robot's port after power-on")
       ->check(CLI::IsMember({9600, 19200, 38400, 57600, 115200}))
       ->capture_default_str();
+  app.add_option(
+         "--after-close", options.after_close,
+         "rate of the robot's port after CLOSE: fall-back (to --boot-baud) or stay. Sources disagree about "
+         "real robots")
+      ->check(CLI::IsMember({"fall-back", "stay"}))
+      ->capture_default_str();
   app.add_option("--track", options.track_m,
                  "true turning track of a P3-AT on this floor, m (its firmware's odometry uses 0.588); other "
                  "robots' in proportion")

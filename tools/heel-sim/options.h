@@ -14,6 +14,7 @@ struct Options {
   std::string robot;  ///< empty: no robot, only files are written
   std::string model;  ///< empty: the scenario's, or p3at-sh
   int boot_baud = 9600;
+  std::string after_close = "fall-back";
   double track_m = ChassisSettings{}.true_track_m;
   bool exact = false;
   std::vector<std::string> faults;

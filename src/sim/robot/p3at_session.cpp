@@ -64,6 +64,9 @@ void P3At::open() {
 void P3At::close() {
   forget_session();
   log(RobotEventKind::Closed);
+  if (settings_.keeps_rate_after_close || line_.robot_baud() == settings_.boot_baud) return;
+  line_.set_robot_baud(settings_.boot_baud);
+  log(RobotEventKind::BaudChanged, settings_.boot_baud);
 }
 
 void P3At::forget_session() {

@@ -29,8 +29,9 @@ struct P3AtSettings {
   bool sends_config = true;        ///< answers CONFIG
   bool sends_fault_flags = true;   ///< the last SIP field of newer firmware
   int boot_baud = 9600;
-  int autobaud = 2;                    ///< CONFIGpac Autobaud; 0: HOSTBAUD is ignored
-  bool junk_before_first_echo = true;  ///< sends "WMS2\r" before its first echo
+  bool keeps_rate_after_close = false;  ///< otherwise CLOSE sets the port back to boot_baud
+  int autobaud = 2;                     ///< CONFIGpac Autobaud; 0: HOSTBAUD is ignored
+  bool junk_before_first_echo = true;   ///< sends "WMS2\r" before its first echo
 
   // Times.
   TimeNs sip_cycle_ns = 100 * kNsPerMs;

@@ -246,6 +246,28 @@ TEST(HeelSimOnPty, ChangesItsRateAsTheAriaClientAsks) {
   for (int i = 0; i < 20; ++i) ASSERT_FALSE(client.next_sip().empty()) << "SIP " << i;
 }
 
+TEST(HeelSimOnPty, FallsBackToItsBootRateAfterCloseUnlessItIsToldToStay) {
+  for (const bool stays : {false, true}) {
+    TemporaryFolder folder;
+    Sim sim("pty:" + folder.file("robot"), {"--after-close", stays ? "stay" : "fall-back"});
+    RawClient client = RawClient::at(sim.address);
+    client.set_rate(B9600);
+    ASSERT_TRUE(client.sync());
+    client.send(kOpen, 1);
+    ASSERT_FALSE(client.next_sip().empty());
+    client.send(kHostBaud, 2);
+    ASSERT_TRUE(sim.process.says("baud 38400"));
+    client.set_rate(B38400);
+    ASSERT_TRUE(eventually([&] {  // a rate of the terminal is read once a millisecond
+      client.send(kClose, 1);
+      return sim.process.output().find("closed") != std::string::npos;
+    }));
+    client.set_rate(stays ? B38400 : B9600);
+    EXPECT_TRUE(client.sync());
+    EXPECT_EQ(sim.process.output().find("baud 9600") != std::string::npos, !stays);
+  }
+}
+
 TEST(HeelSimOnPty, TheSymlinkIsRemovedAtTheEndAndAnOldOneIsReplaced) {
   TemporaryFolder folder;
   const std::string path = folder.file("robot");
@@ -323,6 +345,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadOption{
             "AFolderThatIsMissing", {"--robot", "pty:/no-such-folder/robot"}, "cannot make the symlink"},
         BadOption{"ABaudRateThatArcosLacks", {"--robot", "tcp:0", "--boot-baud", "1200"}, "--boot-baud"},
+        BadOption{"AnUnknownRateAfterClose", {"--robot", "tcp:0", "--after-close", "keep"}, "--after-close"},
+        BadOption{"AnUnknownModel", {"--robot", "tcp:0", "--model", "roomba"}, "--model"},
         BadOption{"AFaultWithoutAStart", {"--robot", "tcp:0", "--fault", "drop"}, "fault 'drop': no start"},
         BadOption{"AnOptionMisspelt", {"--robot", "tcp:0", "--fualt", "drop@1"}, "--fualt"},
         BadOption{"ATruthFileThatCannotBe",

@@ -141,13 +141,31 @@ TEST(ArcosSessionOnP3At, TheRateOfASlowLineIsRaisedBeforeTheMotorsRun) {
     EXPECT_EQ(bench.robot.baud(), wished);
     EXPECT_EQ(bench.session.wanted_baud(), wished);
 
-    // The next session finds the robot at the rate of the last one.
+    // CLOSE has set the robot's port back: the next session finds it there and raises it again.
     bench.robot.receive(bench.session.close(bench.now_ns), bench.now_ns);
+    bench.run(0.1);
+    EXPECT_EQ(bench.robot.baud(), 9600);
     bench.session = ArcosSession(bench.config);
     bench.start();
-    EXPECT_TRUE(bench.run_until(LinkPhase::Running, 2.0)) << wished;
-    EXPECT_EQ(bench.count(Kind::RateRaised), 1);
+    EXPECT_TRUE(bench.run_until(LinkPhase::Running, 2.5)) << wished;
+    EXPECT_EQ(bench.count(Kind::RateRaised), 2);
+    EXPECT_EQ(bench.count(Kind::NoAnswer), 0);
   }
+}
+
+TEST(ArcosSessionOnP3At, ARobotThatKeepsItsRateAfterCloseIsFoundThere) {
+  sim::P3AtSettings settings = exact_robot();
+  settings.keeps_rate_after_close = true;
+  Bench bench(settings, "pty:robot@57600");
+  bench.start();
+  ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
+  bench.robot.receive(bench.session.close(bench.now_ns), bench.now_ns);
+  bench.run(0.1);
+  EXPECT_EQ(bench.robot.baud(), 57600);
+  bench.session = ArcosSession(bench.config);
+  bench.start();
+  EXPECT_TRUE(bench.run_until(LinkPhase::Running, 2.0));
+  EXPECT_EQ(bench.count(Kind::RateRaised), 1);
 }
 
 TEST(ArcosSessionOnP3At, TheRateOfALossyLineIsRaisedOrTheRobotStaysReachable) {

@@ -25,6 +25,42 @@ bool sync_step(VirtualClient& client, const std::string& hex, int wait_ms) {
   return false;
 }
 
+/// The vendor's client: at 9600, HOSTBAUD 38400, confirmed by a packet; CLOSE, and its own port back at once.
+bool connect_raise_and_leave(VirtualClient& client) {
+  const bool synced = sync_step(client, "fafb03000000", 1070) && sync_step(client, "fafb03010001", 1070) &&
+                      sync_step(client, "fafb03020002", 1070);
+  if (!synced) return false;
+  client.send_hex("fafb06013b0100023b");  // OPEN 1
+  client.run_ms(150);
+  client.send_hex("fafb06323b0200343b");  // HOSTBAUD 2
+  client.run_ms(30);
+  client.robot.set_host_baud(38400);
+  client.run_ms(10);
+  client.forget();
+  client.send_hex("fafb03000000");  // PULSE
+  client.run_ms(900);
+  const bool confirmed = !client.sips().empty();
+  client.send_hex("fafb06023b0100033b");  // CLOSE 1
+  client.run_ms(10);
+  client.robot.set_host_baud(9600);
+  client.run_ms(100);
+  client.forget();
+  return confirmed;
+}
+
+TEST(AriaClient, ConnectsAgainAndAgainToAPortThatFallsBackAndOnceToOneThatStays) {
+  VirtualClient falls_back(exact_settings());
+  falls_back.robot.set_host_baud(9600);
+  for (int time = 0; time < 4; ++time) ASSERT_TRUE(connect_raise_and_leave(falls_back)) << time;
+
+  P3AtSettings settings = exact_settings();
+  settings.keeps_rate_after_close = true;
+  VirtualClient stays(settings);
+  stays.robot.set_host_baud(9600);
+  EXPECT_TRUE(connect_raise_and_leave(stays));
+  EXPECT_FALSE(connect_raise_and_leave(stays));
+}
+
 void expect_sips_every_cycle(const VirtualClient& client, TimeNs from_ns) {
   TimeNs last_ns = from_ns;
   for (const Received& sip : client.sips()) {

@@ -151,8 +151,13 @@ TEST(RobotLineBaud, ASweepFindsARobotLeftAtAnotherRateAfterGarbage) {
   EXPECT_EQ(found, 57600);
 }
 
-TEST(RobotLineBaud, HostBaudAsTheAriaClientDoesIt) {
-  VirtualClient client(exact_settings());
+class RobotLineAfterClose : public testing::TestWithParam<bool> {};
+
+TEST_P(RobotLineAfterClose, HostBaudAsTheAriaClientDoesIt) {
+  const bool keeps_rate = GetParam();
+  P3AtSettings settings = exact_settings();
+  settings.keeps_rate_after_close = keeps_rate;
+  VirtualClient client(settings);
   client.robot.set_host_baud(9600);
   client.open();
   client.send_hex("fafb06323b0200343b");  // HOSTBAUD 2
@@ -165,16 +170,18 @@ TEST(RobotLineBaud, HostBaudAsTheAriaClientDoesIt) {
   EXPECT_GE(client.sips().size(), 8u);
   EXPECT_EQ(client.robot.baud(), 38400);
   EXPECT_EQ(client.robot.truth().session, Session::Open);
-  // The firmware stays at its last rate.
   client.command(CommandId::Close);
   client.run_ms(100);
-  EXPECT_EQ(client.robot.baud(), 38400);
+  EXPECT_EQ(client.robot.baud(), keeps_rate ? 38400 : 9600);
   client.robot.set_host_baud(9600);
   client.forget();
   client.send_hex("fafb03000000");
   client.run_ms(200);
-  EXPECT_TRUE(client.of_id(0).empty());
+  EXPECT_EQ(client.of_id(0).empty(), keeps_rate);
 }
+
+INSTANTIATE_TEST_SUITE_P(Rates, RobotLineAfterClose, testing::Bool(),
+                         [](const auto& kept) { return kept.param ? "Stays" : "FallsBack"; });
 
 TEST(RobotLineBaud, HostBaudIsIgnoredWhenItCannotBeChanged) {
   P3AtSettings settings = exact_settings();
