@@ -44,6 +44,8 @@ class ControlLoop {
   TimeNs heartbeat_ns() const { return heartbeat_ns_.load(std::memory_order_relaxed); }
   std::uint64_t open_failures() const { return link_.open_failures(); }
   std::string last_open_error() const { return link_.last_open_error(); }
+  std::uint64_t open_notes() const { return link_.open_notes(); }
+  std::string last_open_note() const { return link_.last_open_note(); }
 
  private:
   TimeNs wait_for_tick();

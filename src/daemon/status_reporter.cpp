@@ -39,6 +39,10 @@ bool StatusReporter::at_rest() const {
 }
 
 void StatusReporter::log_link_errors(const ControlLoop& control) {
+  if (control.open_notes() != seen_open_notes_) {
+    seen_open_notes_ = control.open_notes();
+    spdlog::warn("{}", control.last_open_note());
+  }
   if (robot_has_answered()) logged_open_error_.clear();
   const std::uint64_t failures = control.open_failures();
   if (failures == seen_open_failures_) return;

@@ -41,6 +41,7 @@ class StatusReporter {
   bool complete_ = false;  // the robot had answered and a frame had come at the same time
   bool ready_ = false;     // and systemd has been notified
   std::uint64_t seen_open_failures_ = 0;
+  std::uint64_t seen_open_notes_ = 0;
   std::string logged_open_error_;  // empty: none since the robot last answered
 };
 

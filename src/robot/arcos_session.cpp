@@ -95,7 +95,22 @@ void ArcosSession::line_lost(TimeNs now_ns) {
   queue_.clear();
   odometry_.interrupted();
   state_.kind = RobotKind{};
+  // A server that has another client, or another service, says why it ends the connection.
+  const bool other_device = !is_connected() && !heard_.text().empty();
+  if (other_device && heard_.text() == reported_text_.text()) return lose_line(now_ns);
+  if (other_device) report_other_device(heard_, now_ns);
   events_.push(now_ns, Kind::LineLost);
+  lose_line(now_ns);
+}
+
+/// Once for each text: a line that ends at once is opened again each second.
+void ArcosSession::report_other_device(const HeardText& heard, TimeNs now_ns) {
+  if (heard.text() == reported_text_.text()) return;
+  reported_text_ = heard;
+  events_.push(now_ns, Kind::OtherDevice);
+}
+
+void ArcosSession::lose_line(TimeNs now_ns) {
   enter(Step::NoLine, now_ns);
   set_phase(LinkPhase::Lost);
 }
@@ -154,6 +169,7 @@ void ArcosSession::on_sync_echo(std::uint8_t number, const arcos::Packet& packet
       identity_ = arcos::RobotIdentity{};  // the names are lost
     }
     sweep_.found();
+    reported_text_.clear();
     line_exhausted_ = false;
     on_identity(identity_, t_ns);
   }

@@ -68,8 +68,8 @@ class ArcosSession {
 
   const RobotState& state() const { return state_; }
   const arcos::RobotIdentity& identity() const { return identity_; }
-  /// A line of text that came during the last sweep, though no robot answered; empty: none.
-  std::string_view heard_text() const { return text_of_sweep_.text(); }
+  /// The text of the last OtherDevice.
+  std::string_view heard_text() const { return reported_text_.text(); }
   bool next_event(SessionEvent& event) { return events_.pop(event); }
 
  private:
@@ -114,6 +114,8 @@ class ArcosSession {
   void take_due_steps(TimeNs now_ns);
   void retry_sync(TimeNs now_ns);
   void leave_rate(TimeNs now_ns);
+  void report_other_device(const HeardText& heard, TimeNs now_ns);
+  void lose_line(TimeNs now_ns);
   void listen_after_close(TimeNs now_ns);
   void finish_opening(TimeNs now_ns);
   void retry_enable(TimeNs now_ns);
@@ -146,6 +148,7 @@ class ArcosSession {
   SessionEvents events_;
   HeardText heard_;          ///< at this rate
   HeardText text_of_sweep_;  ///< at any rate of the sweep
+  HeardText reported_text_;  ///< of the last OtherDevice since a robot answered
   RobotState state_;
   arcos::RobotIdentity identity_;
 

@@ -128,9 +128,11 @@ void ArcosSession::leave_rate(TimeNs now_ns) {
   if (!sweep_.advance()) {
     line_exhausted_ = true;
     state_.kind = RobotKind{};
-    events_.push(now_ns, !text_of_sweep_.text().empty() ? Kind::OtherDevice
-                         : sweep_.sweeps()              ? Kind::NoAnswer
-                                                        : Kind::NoAnswerTcp);
+    if (!text_of_sweep_.text().empty())
+      report_other_device(text_of_sweep_, now_ns);
+    else
+      events_.push(now_ns, sweep_.sweeps() ? Kind::NoAnswer : Kind::NoAnswerTcp);
+    text_of_sweep_.clear();
   }
   if (sweep_.current() != before) {
     events_.push(now_ns, Kind::TryingBaud, sweep_.current());

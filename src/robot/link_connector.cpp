@@ -27,6 +27,11 @@ std::string LinkConnector::last_error() const {
   return error_;
 }
 
+std::string LinkConnector::last_note() const {
+  const std::lock_guard lock(error_mutex_);
+  return note_;
+}
+
 void LinkConnector::run() {
   while (!quit_.load()) {
     const Owner owner = owner_.load(std::memory_order_acquire);
@@ -47,7 +52,13 @@ bool LinkConnector::open_until_success() {
   while (!quit_.load()) {
     if (tried_before_) pause();
     tried_before_ = true;
-    if (line_.open(address_, baud_)) return true;
+    if (line_.open(address_, baud_)) {
+      if (line_.note().empty()) return true;
+      const std::lock_guard lock(error_mutex_);
+      note_ = line_.note();
+      notes_.fetch_add(1, std::memory_order_relaxed);
+      return true;
+    }
     {
       const std::lock_guard lock(error_mutex_);
       error_ = line_.error();

@@ -36,6 +36,9 @@ class LinkConnector {
   /// Failed attempts so far, and the error of the last one (empty: none). For threads that may lock.
   std::uint64_t failures() const { return failures_.load(std::memory_order_relaxed); }
   std::string last_error() const;
+  /// Openings after which a person should know something, and what.
+  std::uint64_t notes() const { return notes_.load(std::memory_order_relaxed); }
+  std::string last_note() const;
 
  private:
   enum class Owner : int {  // an int waits on a futex directly
@@ -58,8 +61,10 @@ class LinkConnector {
   std::atomic<Owner> owner_{Owner::None};
   std::atomic<bool> quit_{false};
   std::atomic<std::uint64_t> failures_{0};
+  std::atomic<std::uint64_t> notes_{0};
   mutable std::mutex error_mutex_;  // never taken by the control thread
   std::string error_;
+  std::string note_;
   std::thread thread_;
 };
 

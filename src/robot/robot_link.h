@@ -50,6 +50,8 @@ class RobotLink {
   /// Failed attempts to open the line, and the last reason; for threads that may lock and allocate.
   std::uint64_t open_failures() const { return connector_.failures(); }
   std::string last_open_error() const { return connector_.last_error(); }
+  std::uint64_t open_notes() const { return connector_.notes(); }
+  std::string last_open_note() const { return connector_.last_note(); }
 
  private:
   SerialLine* usable_line(TimeNs now_ns);

@@ -19,6 +19,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "robot/device_holder.h"
+#include "robot/serial_hints.h"
 #include "robot/tcp_connect.h"
 
 namespace heel {
@@ -63,6 +65,7 @@ bool SerialLine::open(const RobotAddress& address, int baud) {
   kind_ = address.kind;
   name_ = address.text;
   error_.clear();
+  note_.clear();
   switch (kind_) {
     case RobotAddress::Kind::Serial:
       return open_serial(address, baud);
@@ -75,24 +78,45 @@ bool SerialLine::open(const RobotAddress& address, int baud) {
 }
 
 /// A second program on the line would break the session of the first: its bytes mix with them, and its CLOSE
-/// ends it. The lock keeps out those that ask for one, such as another heeld; it ends with the descriptor.
-bool SerialLine::claim() {
-  if (::flock(fd_, LOCK_EX | LOCK_NB) == 0) return true;
-  return fail(errno == EWOULDBLOCK ? "another program uses this line (another heeld?); stop it first"
-                                   : fmt::format("cannot lock: {}", std::strerror(errno)));
+/// ends it. The lock keeps out those that ask for one, such as another heeld; TIOCEXCL keeps out those that
+/// do not, root's excepted. Both end with the descriptor, but TIOCEXCL not on a pty whose other end is still
+/// open: after a kill nobody could open it again, so a pty has the lock alone.
+bool SerialLine::claim(const std::string& device) {
+  if (::flock(fd_, LOCK_EX | LOCK_NB) != 0)
+    return fail(errno == EWOULDBLOCK ? in_use_text(other_holder_of(device))
+                                     : fmt::format("cannot lock: {}", std::strerror(errno)));
+  if (kind_ == RobotAddress::Kind::Serial) ::ioctl(fd_, TIOCEXCL);
+  return true;
+}
+
+/// The device's kernel name; libserialport knows no other, so udev's symlinks are resolved. An adapter that
+/// was here before and came back under another name is found there. Empty: it is not here.
+std::string SerialLine::find_device(const std::string& path) {
+  std::error_code missing;
+  const std::string device = std::filesystem::canonical(path, missing).string();
+  if (!missing) return device;
+  const auto moved = adapter_ ? moved_to(*adapter_, usb_adapters()) : std::nullopt;
+  if (!moved) return "";
+  note_ =
+      fmt::format("robot {}: the adapter that it named is {} now; a name that stays is in /dev/serial/by-id",
+                  name_, moved->device);
+  return moved->device;
 }
 
 bool SerialLine::open_serial(const RobotAddress& address, int baud) {
-  // libserialport knows devices by their kernel names only, so udev's symlinks are resolved first.
-  std::error_code missing;
-  const std::string device = std::filesystem::canonical(address.path, missing).string();
-  if (missing) return fail("cannot open: " + missing.message());
+  const std::string device = find_device(address.path);
+  if (device.empty()) return fail(missing_device_text());
+  if (is_pty(device)) return fail(fmt::format("is a pty (expected pty:{})", address.path));
   if (sp_get_port_by_name(device.c_str(), &port_) != SP_OK) {
     return fail("is not a serial port (expected a device such as /dev/ttyUSB0)");
   }
-  if (sp_open(port_, SP_MODE_READ_WRITE) != SP_OK) return fail("cannot open: " + last_serial_error());
+  // A program that opened the port without a lock: opening it would set its rate and mix the bytes.
+  if (const auto holder = other_holder_of(device)) return fail(in_use_text(holder));
+  if (sp_open(port_, SP_MODE_READ_WRITE) != SP_OK)
+    return fail(open_failure_text(device, sp_last_error_code()));
   sp_get_port_handle(port_, &fd_);
-  if (!claim()) return false;
+  if (!claim(device)) return false;
+  adapter_ = usb_adapter_of(device);
   const bool configured = sp_set_baudrate(port_, baud) == SP_OK && sp_set_bits(port_, 8) == SP_OK &&
                           sp_set_parity(port_, SP_PARITY_NONE) == SP_OK &&
                           sp_set_stopbits(port_, 1) == SP_OK &&
@@ -104,9 +128,9 @@ bool SerialLine::open_serial(const RobotAddress& address, int baud) {
 
 bool SerialLine::open_pty(const RobotAddress& address, int baud) {
   fd_ = ::open(address.path.c_str(), O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-  if (fd_ < 0) return fail(fmt::format("cannot open: {}", std::strerror(errno)));
+  if (fd_ < 0) return fail(open_failure_text(address.path, errno));
   if (::isatty(fd_) == 0) return fail("is not a terminal (expected the path of a pty)");
-  if (!claim()) return false;
+  if (!claim(address.path)) return false;
   return configure_pty(baud) || fail(fmt::format("cannot configure: {}", std::strerror(errno)));
 }
 

@@ -4,11 +4,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "heel/time.h"
 #include "robot/robot_address.h"
+#include "robot/serial_hints.h"
 
 struct sp_port;
 
@@ -37,6 +39,9 @@ class SerialLine {
 
   bool is_open() const { return fd_ >= 0; }
   const std::string& error() const { return error_; }
+  /// What a person should know of the last successful open(): the adapter has another name now. Empty:
+  /// nothing.
+  const std::string& note() const { return note_; }
 
   /// Waits for input, at most `timeout_ns`. True: read() will return some, or Lost.
   bool wait_readable(TimeNs timeout_ns) const;
@@ -51,17 +56,20 @@ class SerialLine {
 
  private:
   bool open_serial(const RobotAddress& address, int baud);
+  std::string find_device(const std::string& path);
   bool open_pty(const RobotAddress& address, int baud);
   bool configure_pty(int baud);
   bool open_tcp(const RobotAddress& address);
   bool fail(const std::string& why);
-  bool claim();
+  bool claim(const std::string& device);
 
   RobotAddress::Kind kind_ = RobotAddress::Kind::Serial;
   std::string name_;  ///< the address, for errors
   int fd_ = -1;
   sp_port* port_ = nullptr;  ///< serial ports only; it then owns fd_
   std::string error_;
+  std::string note_;
+  std::optional<UsbAdapter> adapter_;  ///< of the port that was open last
 };
 
 }  // namespace heel

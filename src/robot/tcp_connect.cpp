@@ -41,7 +41,10 @@ int tcp_connect(const std::string& host, std::uint16_t port, TimeNs timeout_ns, 
     const int fd = ::socket(to->ai_family, to->ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, to->ai_protocol);
     const int error = fd < 0 ? errno : finish_connect(fd, *to, timeout_ns);
     if (error == 0) return fd;
-    why = fmt::format("cannot connect: {}", std::strerror(error));
+    const char* const cause = error == ECONNREFUSED ? " (nothing listens on that port)"
+                              : error == ETIMEDOUT  ? " (nothing answers at that address)"
+                                                    : "";
+    why = fmt::format("cannot connect: {}{}", std::strerror(error), cause);
     if (fd >= 0) ::close(fd);
   }
   return -1;

@@ -3,18 +3,31 @@
 #include "robot/serial_line.h"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <pty.h>
+#include <sys/file.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
+#include <csignal>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "robot/device_holder.h"
+#include "robot/serial_hints.h"
+#include "support/temporary_folder.h"
 
 namespace heel {
 namespace {
@@ -202,9 +215,11 @@ struct Refusal {
 
 TEST(SerialLineRefusal, IsOneLineThatNamesTheAddressAndTheReason) {
   const Refusal refusals[] = {
-      {"pty:/nonexistent/pty", "No such file"},         {"pty:/dev/null", "is not a terminal"},
-      {"serial:/nonexistent/tty@9600", "No such file"}, {"serial:/dev/null@9600", "is not a serial port"},
-      {"tcp:127.0.0.1:1", "Connection refused"},
+      {"pty:/nonexistent/pty", "No such file"},
+      {"pty:/dev/null", "is not a terminal"},
+      {"serial:/nonexistent/tty@9600", "No such file"},
+      {"serial:/dev/null@9600", "is not a serial port"},
+      {"tcp:127.0.0.1:1", "Connection refused (nothing listens on that port)"},
   };
   for (const Refusal& refusal : refusals) {
     SerialLine line;
@@ -225,14 +240,123 @@ TEST(SerialLineClosed, EveryCallReturnsLost) {
   EXPECT_EQ(line.unsent_bytes(), 0u);
 }
 
+/// Another process that opens a device, and locks it if it is asked to, until the end of this object.
+class OtherProgram {
+ public:
+  OtherProgram(const std::string& path, bool locks) {
+    int ready[2] = {};
+    if (::pipe(ready) != 0) throw std::runtime_error("no pipe");
+    pid_ = ::fork();
+    if (pid_ == 0) {
+      const int fd = ::open(path.c_str(), O_RDWR | O_NOCTTY);
+      if (locks) ::flock(fd, LOCK_EX);
+      ::prctl(PR_SET_NAME, "minicom");
+      const char done = fd >= 0 ? 1 : 0;
+      if (::write(ready[1], &done, 1) == 1) ::pause();
+      ::_exit(0);
+    }
+    char done = 0;
+    opened = ::read(ready[0], &done, 1) == 1 && done == 1;
+    ::close(ready[0]);
+    ::close(ready[1]);
+  }
+  ~OtherProgram() {
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+  }
+  OtherProgram(const OtherProgram&) = delete;
+  OtherProgram& operator=(const OtherProgram&) = delete;
+  std::string text() const {
+    return "in use by minicom (process " + std::to_string(pid_) + "); stop it first";
+  }
+  bool opened = false;
+
+ private:
+  pid_t pid_ = -1;
+};
+
 TEST(SerialLine, IsHeldByOneProgramAtATime) {
   Pty pty;
   SerialLine first, second;
   ASSERT_TRUE(open_line(first, "pty:" + pty.slave_path));
   EXPECT_FALSE(open_line(second, "pty:" + pty.slave_path));
-  EXPECT_NE(second.error().find("another program uses this line"), std::string::npos) << second.error();
+  EXPECT_NE(second.error().find("in use by another program; stop it first"), std::string::npos)
+      << second.error() << ": this process holds it, by another descriptor";
+  expect_bytes_both_ways(first, pty.master);
   first.close();
   EXPECT_TRUE(open_line(second, "pty:" + pty.slave_path)) << second.error();
+}
+
+TEST(SerialLine, TheProgramThatLockedItIsNamed) {
+  Pty pty;
+  const OtherProgram other(pty.slave_path, true);
+  ASSERT_TRUE(other.opened);
+  SerialLine line;
+  EXPECT_FALSE(open_line(line, "pty:" + pty.slave_path));
+  EXPECT_EQ(line.error(), "robot pty:" + pty.slave_path + ": " + other.text());
+}
+
+TEST(DeviceHolder, FindsAProgramThatHasItOpenWithoutALock) {
+  Pty pty;
+  EXPECT_FALSE(other_holder_of(pty.slave_path).has_value());
+  const OtherProgram other(pty.slave_path, false);
+  ASSERT_TRUE(other.opened);
+  EXPECT_EQ(in_use_text(other_holder_of(pty.slave_path)), other.text());
+  EXPECT_FALSE(other_holder_of("/nonexistent").has_value());
+}
+
+TEST(DeviceHolder, ARunningServiceIsNamedWithItsCommand) {
+  EXPECT_EQ(in_use_text(DeviceHolder{7, "heeld"}),
+            "in use by heeld (process 7); stop it first (systemctl stop heeld)");
+  EXPECT_EQ(in_use_text(DeviceHolder{7, ""}), "in use by another program (process 7); stop it first");
+}
+
+TEST(SerialHints, APtyIsNoSerialPort) {
+  Pty pty;
+  EXPECT_TRUE(is_pty(pty.slave_path));
+  EXPECT_FALSE(is_pty("/dev/null"));
+  EXPECT_FALSE(is_pty("/nonexistent"));
+  SerialLine line;
+  EXPECT_FALSE(open_line(line, "serial:" + pty.slave_path));
+  EXPECT_EQ(line.error(),
+            "robot serial:" + pty.slave_path + ": is a pty (expected pty:" + pty.slave_path + ")");
+}
+
+TEST(SerialHints, APermissionThatIsMissingNamesTheGroup) {
+  test::TemporaryFolder folder;
+  const std::string path = folder.file("tty");
+  std::ofstream(path) << "";
+  ASSERT_EQ(::chmod(path.c_str(), 0660), 0);
+  const std::string text = open_failure_text(path, EACCES);
+  EXPECT_NE(text.find("Permission denied (only the group "), std::string::npos) << text;
+  EXPECT_NE(text.find("sudo usermod -aG "), std::string::npos) << text;
+  ASSERT_EQ(::chmod(path.c_str(), 0600), 0);
+  EXPECT_NE(open_failure_text(path, EACCES).find("only its owner may"), std::string::npos);
+  EXPECT_EQ(open_failure_text(path, EIO), "cannot open: Input/output error");
+}
+
+TEST(SerialHints, AMissingDeviceNamesTheAdaptersThatAreHere) {
+  test::TemporaryFolder folder;
+  EXPECT_EQ(missing_device_text(folder.file("none")),
+            "cannot open: No such file or directory (no USB serial adapter is plugged in)");
+  for (const char* name : {"usb-d", "usb-b", "usb-c", "usb-a"}) std::ofstream(folder.file(name)) << "";
+  EXPECT_EQ(missing_device_text(folder.file("")),
+            "cannot open: No such file or directory (adapters that are here: " + folder.file("usb-a") + ", " +
+                folder.file("usb-b") + ", " + folder.file("usb-c") + " and 1 more)");
+}
+
+TEST(SerialHints, AnAdapterIsFoundUnderItsNewNameWhenItIsTheOnlyOne) {
+  const UsbAdapter gone{"/dev/ttyUSB0", 0x0403, 0x6001, "A600"};
+  const UsbAdapter same{"/dev/ttyUSB1", 0x0403, 0x6001, "A600"};
+  const UsbAdapter other_serial{"/dev/ttyUSB2", 0x0403, 0x6001, "B700"};
+  const UsbAdapter other_kind{"/dev/ttyUSB3", 0x067b, 0x2303, "A600"};
+  EXPECT_EQ(moved_to(gone, {other_serial, same, other_kind}).value().device, "/dev/ttyUSB1");
+  EXPECT_FALSE(moved_to(gone, {other_serial, other_kind}).has_value());
+  EXPECT_FALSE(moved_to(gone, {}).has_value());
+  // Two of a kind without a serial number: which one is the robot's is not known.
+  const UsbAdapter cheap{"/dev/ttyUSB0", 0x1a86, 0x7523, ""};
+  EXPECT_FALSE(moved_to(cheap, {{"/dev/ttyUSB1", 0x1a86, 0x7523, ""}, {"/dev/ttyUSB2", 0x1a86, 0x7523, ""}}));
+  EXPECT_TRUE(moved_to(cheap, {{"/dev/ttyUSB1", 0x1a86, 0x7523, ""}}));
 }
 
 }  // namespace

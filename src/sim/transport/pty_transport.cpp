@@ -22,6 +22,14 @@ namespace fs = std::filesystem;
   throw Error(what + ": " + std::strerror(errno));
 }
 
+/// The link by its folder's real path: not where it leads to.
+std::string full_path(const std::string& link_path) {
+  std::error_code error;
+  const fs::path absolute = fs::absolute(link_path, error);
+  const fs::path folder = fs::weakly_canonical(absolute.parent_path(), error);
+  return (folder / absolute.filename()).string();
+}
+
 FileDescriptor open_slave(const std::string& slave_path) {
   return FileDescriptor(::open(slave_path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
 }
@@ -65,7 +73,8 @@ void place_symlink(const std::string& target, const std::string& link_path) {
 
 }  // namespace
 
-PtyTransport::PtyTransport(const std::string& link_path, int boot_baud) : link_path_(link_path) {
+PtyTransport::PtyTransport(const std::string& link_path, int boot_baud)
+    : link_path_(link_path), guard_(full_path(link_path), "--robot pty:" + link_path) {
   master_ = FileDescriptor(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!master_.valid()) fail_with_errno("cannot open a pseudo-terminal");
   if (grantpt(master_.get()) != 0 || unlockpt(master_.get()) != 0)

@@ -6,13 +6,15 @@
 #pragma once
 
 #include "sim/transport/file_descriptor.h"
+#include "sim/transport/name_guard.h"
 #include "sim/transport/transport.h"
 
 namespace heel::sim {
 
 class PtyTransport : public Transport {
  public:
-  /// Replaces a symlink that is left at `link_path`; throws heel::Error when there is anything else.
+  /// Replaces a symlink that is left at `link_path`; throws heel::Error when there is anything else, or when
+  /// another heel-sim serves it.
   PtyTransport(const std::string& link_path, int boot_baud);
   ~PtyTransport() override;  ///< removes the symlink if it still leads to this terminal
 
@@ -26,6 +28,7 @@ class PtyTransport : public Transport {
   void discard_unread();
 
   std::string link_path_;
+  NameGuard guard_;
   std::string slave_path_;
   FileDescriptor master_;
   bool client_was_present_ = false;

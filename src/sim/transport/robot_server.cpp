@@ -23,6 +23,8 @@ void RobotServer::advance(TimeNs t_ns) {
 
 void RobotServer::check_client(TimeNs t_ns) {
   const bool present = transport_.client_present();
+  for (std::string news = transport_.take_news(); !news.empty(); news = transport_.take_news())
+    on_event_(t_ns, news);
   if (present == client_present_) return;
   client_present_ = present;
   on_event_(t_ns, present ? "client connected" : "client gone");

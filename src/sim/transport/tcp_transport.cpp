@@ -8,6 +8,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <string_view>
+#include <utility>
 
 #include "heel/error.h"
 
@@ -15,6 +17,9 @@ namespace heel::sim {
 namespace {
 
 constexpr int kEnabled = 1;
+constexpr int kKeepAlive_s = 3;  // of silence before the client's computer is asked, and between questions
+constexpr int kKeepAlives = 3;
+constexpr int kUnanswered_ms = 10'000;
 
 FileDescriptor listen_on(const addrinfo& place) {
   FileDescriptor listener(
@@ -36,7 +41,8 @@ int port_of(int fd) {
 
 }  // namespace
 
-TcpTransport::TcpTransport(const std::string& host, int port) : host_(host), port_(port) {
+TcpTransport::TcpTransport(const std::string& host, int port, std::chrono::milliseconds silent)
+    : host_(host), port_(port), silent_(silent) {
   const std::string where = fmt::format("--robot tcp:{}:{}", host, port);
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
@@ -49,26 +55,74 @@ TcpTransport::TcpTransport(const std::string& host, int port) : host_(host), por
   listener_ = listen_on(*found);
   const int error = errno;
   freeaddrinfo(found);
-  if (!listener_.valid()) throw Error(fmt::format("{}: cannot listen: {}", where, std::strerror(error)));
+  if (!listener_.valid())
+    throw Error(fmt::format("{}: cannot listen: {}{}", where, std::strerror(error),
+                            error == EADDRINUSE ? " (by another heel-sim?)" : ""));
   port_ = port_of(listener_.get());
 }
 
+/// A connected client of ours, or none. When its computer does not answer for some seconds, the connection
+/// ends.
+FileDescriptor TcpTransport::accept_one() {
+  FileDescriptor client(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  if (!client.valid()) return client;
+  const auto set = [&client](int level, int option, int value) {
+    setsockopt(client.get(), level, option, &value, sizeof value);
+  };
+  set(IPPROTO_TCP, TCP_NODELAY, kEnabled);
+  set(SOL_SOCKET, SO_KEEPALIVE, kEnabled);
+  set(IPPROTO_TCP, TCP_KEEPIDLE, kKeepAlive_s);
+  set(IPPROTO_TCP, TCP_KEEPINTVL, kKeepAlive_s);
+  set(IPPROTO_TCP, TCP_KEEPCNT, kKeepAlives);
+  set(IPPROTO_TCP, TCP_USER_TIMEOUT, kUnanswered_ms);
+  return client;
+}
+
+void TcpTransport::refuse(const FileDescriptor& client) {
+  constexpr std::string_view kWhy = "heel-sim: in use by another client\r\n";
+  ::send(client.get(), kWhy.data(), kWhy.size(), MSG_NOSIGNAL);
+  ::shutdown(client.get(), SHUT_WR);
+  news_.emplace_back("another client refused: one is connected");
+}
+
+void TcpTransport::look_at_next_client() {
+  FileDescriptor other = accept_one();
+  if (!other.valid()) return;
+  const auto silent = Clock::now() - t_heard_;
+  if (silent < silent_) return refuse(other);
+  news_.push_back(fmt::format("client let go: it has sent nothing for {} s, and another one has come",
+                              std::chrono::duration_cast<std::chrono::seconds>(silent).count()));
+  client_.close();
+  next_ = std::move(other);
+}
+
 bool TcpTransport::client_present() {
+  if (client_.valid()) look_at_next_client();
   if (client_.valid()) return true;
   if (client_was_present_) {  // the caller must see that the last client has gone before it sees the next
     client_was_present_ = false;
     return false;
   }
-  client_ = FileDescriptor(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  client_ = next_.valid() ? std::exchange(next_, FileDescriptor()) : accept_one();
   client_was_present_ = client_.valid();
-  if (client_was_present_) setsockopt(client_.get(), IPPROTO_TCP, TCP_NODELAY, &kEnabled, sizeof kEnabled);
+  t_heard_ = Clock::now();
   return client_was_present_;
+}
+
+std::string TcpTransport::take_news() {
+  if (news_.empty()) return "";
+  const std::string first = news_.front();
+  news_.pop_front();
+  return first;
 }
 
 std::size_t TcpTransport::read(std::span<std::uint8_t> into) {
   if (!client_.valid()) return 0;
   const ssize_t size = ::recv(client_.get(), into.data(), into.size(), 0);
-  if (size > 0) return static_cast<std::size_t>(size);
+  if (size > 0) {
+    t_heard_ = Clock::now();
+    return static_cast<std::size_t>(size);
+  }
   if (size == 0 || (errno != EAGAIN && errno != EINTR)) client_.close();
   return 0;
 }

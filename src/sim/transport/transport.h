@@ -22,6 +22,8 @@ class Transport {
   virtual void write(std::span<const std::uint8_t> bytes) = 0;
   /// The rate the client has set its end to, bit/s; 0: this line has no rate.
   virtual int host_baud() const { return 0; }
+  /// What a person should know, a line for each call, oldest first; empty: nothing more.
+  virtual std::string take_news() { return ""; }
   /// The address for clients, e.g. "pty:/tmp/robot".
   virtual std::string address() const = 0;
 };

@@ -11,6 +11,8 @@
 #include <csignal>
 #include <filesystem>
 #include <memory>
+#include <regex>
+#include <regex>
 
 #include "core/config.h"
 #include "loopback/daemon/heeld_fixture.h"
@@ -125,6 +127,39 @@ TEST_F(Heeld, LogsWhyTheLineDoesNotOpenOnceForEachReason) {
   EXPECT_LE(occurrences(daemon_->output(), "No such file"), 2)
       << "once before the other reason, and perhaps once after it";
   EXPECT_EQ(occurrences(daemon_->output(), "is not a terminal"), 1) << logs();
+}
+
+TEST_F(Heeld, ASecondProgramOnTheLineIsToldWhoHasItAndTheFirstDrivesOn) {
+  start_robot();
+  start_heeld(scene_.write_config());
+  ASSERT_TRUE(starts_to_drive()) << logs();
+  const std::string config = write_text(
+      scene_.path("second.toml"),
+      std::regex_replace(read_text(scene_.path("heel.toml")), std::regex("control.sock"), "second.sock"));
+  test::Process second({HEELD_PROGRAM, "--config", config});
+  EXPECT_TRUE(second.says("in use by heeld (process " + std::to_string(daemon_->pid()) + "); stop it first"))
+      << second.output();
+  second.signal(SIGTERM);
+  EXPECT_EQ(second.wait(), 0);
+  EXPECT_GT(speed(), 0.2) << "the first drives on";
+  EXPECT_EQ(occurrences(robot_->output(), "closed"), 0) << logs();
+}
+
+TEST_F(Heeld, ARobotThatIsNotTheConfiguredOneIsNotDriven) {
+  start_robot({"--model", "p3at"});
+  start_heeld(scene_.write_config({.robot = "model = \"p3dx-sh\"\n"}));
+  EXPECT_TRUE(notify_.receives("STATUS=at rest: the robot is not driven: it is a p3at")) << logs();
+  EXPECT_TRUE(daemon_->says("robot is not driven: it is a p3at, and robot.model is p3dx-sh")) << logs();
+  EXPECT_FALSE(notify_.receives("READY=1", 1.0));
+  EXPECT_EQ(occurrences(robot_->output(), "opened"), 0) << logs();
+  EXPECT_EQ(occurrences(robot_->output(), "enabled"), 0) << logs();
+}
+
+TEST_F(Heeld, AnOlderRobotIsDrivenInItsUnits) {
+  start_robot({"--model", "p2at"});
+  start_heeld(scene_.write_config());
+  ASSERT_TRUE(starts_to_drive()) << logs();
+  EXPECT_TRUE(daemon_->says("robot synchronised: class Pioneer, subclass p2at; driven as a p2at")) << logs();
 }
 
 TEST_F(Heeld, KilledWhileDrivingTheRobotStopsByItsWatchdogAndStartsSlowlyAgain) {

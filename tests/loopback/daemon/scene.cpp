@@ -85,7 +85,8 @@ std::string Scene::write_config(const MoreConfig& more) const {
                     "[camera]\nsource = \"file:frames\"\ninfo = \"camera.yaml\"\n" + std::string(kRate) +
                         more.camera + "[supervisor]\nstart = \"" + more.start + "\"\n" + kTimeouts +
                         "[target]\nshirt = \"shirt.heel\"\n"
-                        "[robot]\naddress = \"pty:robot\"\nsync_retry_s = 0.2\nreconnect_s = 0.2\n"
+                        "[robot]\naddress = \"pty:robot\"\nsync_retry_s = 0.2\nreconnect_s = 0.2\n" +
+                        more.robot +
                         "[operator]\nsocket = \"control.sock\"\n"
                         "[runtime]\nrealtime = false\n" +
                         more.runtime + more.sections);

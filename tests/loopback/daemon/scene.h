@@ -11,7 +11,7 @@ namespace heel::test {
 
 /// Lines added to the scene's configuration, and its supervisor.start.
 struct MoreConfig {
-  std::string sections{}, camera{}, runtime{};
+  std::string sections{}, camera{}, runtime{}, robot{};
   std::string start = "at_once";
 };
 
@@ -22,7 +22,8 @@ class Scene {
 
   std::string path(const std::string& name) const { return folder_.file(name); }
   /// Writes heel.toml and returns its path. The sections [camera], [supervisor], [target], [robot],
-  /// [operator] and [runtime] are in it: `more.camera` and `more.runtime` are lines of their sections,
+  /// [operator] and [runtime] are in it: `more.camera`, `more.robot` and `more.runtime` are lines of their
+  /// sections,
   /// `more.sections` comes at the end.
   std::string write_config(const MoreConfig& more = {}) const;
 

@@ -292,26 +292,58 @@ TEST(HeelSimOnPty, TheSymlinkIsRemovedAtTheEndAndAnOldOneIsReplaced) {
 TEST(HeelSimOnPty, TheSymlinkOfAnotherProcessIsNotRemoved) {
   TemporaryFolder folder;
   const std::string path = folder.file("robot");
-  Sim older("pty:" + path);
-  Sim newer("pty:" + path);
-  ASSERT_NE(newer.address, "");
-  older.process.signal(SIGTERM);
-  EXPECT_EQ(older.process.wait(), 0);
+  Sim sim("pty:" + path);
+  ASSERT_NE(sim.address, "");
+  std::filesystem::remove(path);
+  std::filesystem::create_symlink("/dev/null", path);  // what another program put there
+  sim.process.signal(SIGTERM);
+  EXPECT_EQ(sim.process.wait(), 0);
   EXPECT_TRUE(std::filesystem::is_symlink(path));
-  RawClient client = RawClient::at(newer.address);
-  EXPECT_TRUE(client.sync());
 }
 
-TEST(HeelSimOnTcp, ASecondClientWaitsUntilTheFirstHasGone) {
+TEST(HeelSimOnPty, ASecondHeelSimIsToldWhoServesThePathAndTheFirstGoesOn) {
+  TemporaryFolder folder;
+  const std::string path = folder.file("robot");
+  Sim first("pty:" + path);
+  RawClient client = RawClient::at(first.address);
+  ASSERT_TRUE(client.sync());
+  for (const std::string& same : {path, folder.path().string() + "/./robot"}) {
+    Sim second("pty:" + same);
+    EXPECT_EQ(second.process.wait(), 1);
+    EXPECT_NE(second.process.output().find("another heel-sim (process "), std::string::npos)
+        << second.process.output();
+  }
+  client.send(kOpen);
+  EXPECT_FALSE(client.next_sip().empty());
+  Sim elsewhere("pty:" + folder.file("robot2"));
+  EXPECT_NE(elsewhere.address, "");
+}
+
+TEST(HeelSimOnTcp, ASecondHeelSimCannotHaveThePort) {
+  Sim first("tcp:0");
+  Sim second(first.address);
+  EXPECT_EQ(second.process.wait(), 1);
+  EXPECT_NE(second.process.output().find("Address already in use (by another heel-sim?)"), std::string::npos)
+      << second.process.output();
+}
+
+TEST(HeelSimOnTcp, ASecondClientIsToldAndRefusedAndServedWhenTheFirstHasGone) {
   Sim sim("tcp:0");
   RawClient first = RawClient::at(sim.address);
   ASSERT_TRUE(first.sync());
-  RawClient second = RawClient::at(sim.address);
-  second.send(0);
-  second.listen(0.3);
-  EXPECT_TRUE(second.raw.empty());
+  {
+    RawClient second = RawClient::at(sim.address);
+    EXPECT_TRUE(second.is_hung_up_on());
+    EXPECT_EQ(std::string(second.raw.begin(), second.raw.end()), "heel-sim: in use by another client\r\n");
+  }
+  EXPECT_TRUE(sim.process.says("another client refused"));
+  first.send(kOpen);
+  EXPECT_FALSE(first.next_sip().empty()) << "the first goes on";
   first.hang_up();
-  EXPECT_TRUE(second.sync());
+  ASSERT_TRUE(sim.process.says("client gone"));
+  RawClient third = RawClient::at(sim.address);
+  third.send(0);
+  EXPECT_FALSE(third.next_sip().empty()) << "the robot is still open";
 }
 
 struct BadOption {

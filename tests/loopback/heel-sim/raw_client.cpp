@@ -84,6 +84,18 @@ void RawClient::hang_up() {
   fd_ = -1;
 }
 
+bool RawClient::is_hung_up_on(double timeout_s) {
+  for (const double end_s = monotonic_s() + timeout_s; monotonic_s() < end_s;) {
+    pollfd state{fd_, POLLIN, 0};
+    if (poll(&state, 1, 20) <= 0) continue;
+    std::array<std::uint8_t, 512> buffer{};
+    const ssize_t size = read(fd_, buffer.data(), buffer.size());
+    if (size <= 0) return true;
+    raw.insert(raw.end(), buffer.begin(), buffer.begin() + size);
+  }
+  return false;
+}
+
 void RawClient::set_rate(speed_t rate) const {
   termios settings{};
   tcgetattr(fd_, &settings);

@@ -31,6 +31,8 @@ class RawClient {
   ~RawClient() { hang_up(); }
 
   void hang_up();
+  /// Reads until the other end closes; false when it has not within the time.
+  bool is_hung_up_on(double timeout_s = kPatience_s);
   /// The terminal's rate, as a client of a serial port sets it.
   void set_rate(speed_t rate) const;
   void send(const Bytes& bytes) const;
