@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <memory>
 #include <regex>
-#include <regex>
 
 #include "core/config.h"
 #include "loopback/daemon/heeld_fixture.h"
