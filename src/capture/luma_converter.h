@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "capture/jpeg_decoder.h"
 #include "capture/pixel_format.h"
+#include "files/jpeg_decoder.h"
 #include "heel/flow.h"
 
 namespace heel {

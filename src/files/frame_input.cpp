@@ -25,7 +25,9 @@ InputFile checked_file(const std::string& path) {
   if (!std::ifstream(path)) throw Error(path + ": cannot read: " + std::strerror(errno));
   if (is_image_file(path)) return {path};
   VideoReader video;
-  if (!video.open(path)) throw Error(path + ": not an image or video (expected one, or a folder of images)");
+  if (!video.open(path))
+    throw Error(fmt::format("{}: not an image or video: {} (expected one, or a folder of images)", path,
+                            video.problem()));
   return {path, true, video.frame_count()};
 }
 
@@ -47,9 +49,14 @@ struct FrameInput::Impl {
   std::uint64_t number = 0;  // of the next frame
   double t_begin_s = 0.0;    // of the current file's first frame
   double t_last_s = 0.0;     // of the last frame
+  int white = 0;             // of the deepest image so far
+  std::vector<std::string> notes;
+  std::vector<std::string> problems;
 
   /// The current file's reader, opened at its first frame.
   VideoReader& current_video();
+  cv::Mat read_image(const std::string& path);
+  void end_video();
   void go_to_next_file();
   double video_time_s() const { return t_begin_s + video.time_s(); }
 };
@@ -58,6 +65,21 @@ VideoReader& FrameInput::Impl::current_video() {
   if (!video.is_open() && !video.open(files[current].path))
     throw Error(files[current].path + ": cannot be opened a second time");
   return video;
+}
+
+cv::Mat FrameInput::Impl::read_image(const std::string& path) {
+  const GreyImage image = read_grey_image(path, white);
+  if (!image.note.empty() && image.white != white) {
+    notes.push_back(path + ": " + image.note);
+    white = image.white;
+  }
+  return image.grey;
+}
+
+void FrameInput::Impl::end_video() {
+  if (const std::string missing = video.missing(); !missing.empty())
+    problems.push_back(files[current].path + ": " + missing);
+  go_to_next_file();
 }
 
 void FrameInput::Impl::go_to_next_file() {
@@ -86,7 +108,7 @@ bool FrameInput::next(InputFrame& frame) {
     const InputFile& file = in.files[in.current];
     frame.file = file.path;
     if (!file.is_video) {
-      frame.grey = read_grey_image(file.path);
+      frame.grey = in.read_image(file.path);
       frame.t_s = in.t_last_s = in.t_begin_s;
       frame.number = in.number++;
       in.go_to_next_file();
@@ -97,7 +119,7 @@ bool FrameInput::next(InputFrame& frame) {
       frame.number = in.number++;
       return true;
     }
-    in.go_to_next_file();
+    in.end_video();
   }
   return false;
 }
@@ -107,7 +129,7 @@ bool FrameInput::skip(std::uint64_t count) {
   while (count > 0 && in.current < in.files.size()) {
     const bool is_video = in.files[in.current].is_video;
     if (is_video && !in.current_video().skip()) {
-      in.go_to_next_file();
+      in.end_video();
       continue;
     }
     in.t_last_s = is_video ? in.video_time_s() : in.t_begin_s;
@@ -131,10 +153,21 @@ std::uint64_t FrameInput::stated_frame_count() const {
   return frames;
 }
 
+const std::vector<std::string>& FrameInput::notes() const {
+  return impl_->notes;
+}
+
+const std::vector<std::string>& FrameInput::problems() const {
+  return impl_->problems;
+}
+
 void require_size(const InputFrame& frame, const CameraModel& camera, const std::string& camera_file) {
   if (frame.grey.cols == camera.width_px && frame.grey.rows == camera.height_px) return;
-  throw Error(fmt::format("{}: {}x{} pixels (expected {}x{} as in {})", frame.file, frame.grey.cols,
-                          frame.grey.rows, camera.width_px, camera.height_px, camera_file));
+  const bool turned = frame.grey.cols == camera.height_px && frame.grey.rows == camera.width_px;
+  throw Error(
+      fmt::format("{}: {}x{} pixels (expected {}x{} as in {}{})", frame.file, frame.grey.cols,
+                  frame.grey.rows, camera.width_px, camera.height_px, camera_file,
+                  turned ? "; pictures and videos are turned as they are shown: calibrate with such" : ""));
 }
 
 }  // namespace heel

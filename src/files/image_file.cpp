@@ -1,8 +1,5 @@
 #include "files/image_file.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -10,9 +7,19 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <opencv2/imgcodecs.hpp>
+#include <string_view>
 
+#include "files/atomic_file.h"
+#include "files/byte_view.h"
+#include "files/exif.h"
+#include "files/jpeg_decoder.h"
 #include "files/natural_order.h"
+#include "files/orientation.h"
+#include "files/picture_depth.h"
+#include "files/png_picture.h"
+#include "files/pnm_picture.h"
 #include "heel/error.h"
 
 namespace heel {
@@ -20,26 +27,108 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Sends standard error to /dev/null for as long as it lives: libpng and libjpeg print messages of their own
-/// there, and a command prints one line for an error.
-class SilencedStderr {
+constexpr const char* kReadableKinds = "PNG, JPEG, PGM, PPM, BMP, TIFF or WebP";
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 29;
+
+/// "a HEIC" for a file of that kind, whatever its name's ending; empty for kinds that heel reads, and unknown
+/// ones.
+std::string unreadable_kind(ByteView file) {
+  if (file.size() >= 12 && begins_with(file.subspan(4), "ftyp")) {
+    const std::string_view brand(reinterpret_cast<const char*>(file.data()) + 8, 4);
+    for (const char* heic : {"heic", "heix", "heim", "heis", "hevc", "hevx", "mif1", "msf1"})
+      if (brand == heic) return "a HEIC";
+    for (const char* avif : {"avif", "avis"})
+      if (brand == avif) return "an AVIF";
+    if (brand == "crx ") return "a camera's raw";
+  }
+  if (begins_with(file, std::string_view("\0\0\0\x0cJXL ", 8)) || begins_with(file, "\xff\x0a"))
+    return "a JPEG XL";
+  if (begins_with(file, "GIF8")) return "a GIF";
+  if (begins_with(file, "%PDF")) return "a PDF";
+  return "";
+}
+
+cv::Mat decode_jpeg(ByteView file, std::string& problem) {
+  JpegDecoder decoder;
+  std::uint32_t width_px = 0, height_px = 0;
+  cv::Mat grey;
+  if (decoder.read_size(file.data(), file.size(), width_px, height_px)) {
+    grey.create(static_cast<int>(height_px), static_cast<int>(width_px), CV_8U);
+    if (decoder.decode(file.data(), file.size(), width_px, height_px, grey.data)) return grey;
+  }
+  problem = decoder.problem();
+  return {};
+}
+
+/// Makes std::cerr silent for as long as it lives: there OpenCV prints what it cannot decode, and heel prints
+/// one line for an error. heel itself prints to stderr, not to std::cerr, while it decodes.
+class SilentCerr {
  public:
-  SilencedStderr() : original_fd_(dup(STDERR_FILENO)) {
-    const int null_fd = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (original_fd_ >= 0 && null_fd >= 0) dup2(null_fd, STDERR_FILENO);
-    if (null_fd >= 0) close(null_fd);
+  SilentCerr() : buffer_(std::cerr.rdbuf(nullptr)) {}
+  ~SilentCerr() {
+    std::cerr.rdbuf(buffer_);
+    std::cerr.clear();
   }
-  ~SilencedStderr() {
-    if (original_fd_ < 0) return;
-    dup2(original_fd_, STDERR_FILENO);
-    close(original_fd_);
-  }
-  SilencedStderr(const SilencedStderr&) = delete;
-  SilencedStderr& operator=(const SilencedStderr&) = delete;
+  SilentCerr(const SilentCerr&) = delete;
+  SilentCerr& operator=(const SilentCerr&) = delete;
 
  private:
-  int original_fd_;
+  std::streambuf* buffer_;
 };
+
+/// BMP, PGM, PPM, TIFF and WebP.
+cv::Mat decode_by_opencv(std::string& file, ByteView view) {
+  // OpenCV turns TIFF pictures, and no others of these, whether it is told to or not.
+  if (const std::size_t at = read_tiff_tags(view).orientation_at; at > 0 && at + 2 <= file.size()) {
+    file[at] = file[at + 1] = 0;
+    file[file.starts_with("II") ? at : at + 1] = kAsStored;
+  }
+  const cv::Mat bytes(1, static_cast<int>(file.size()), CV_8U, file.data());
+  const SilentCerr silent;
+  try {
+    return cv::imdecode(bytes, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
+/// The value of white that the file states; 0 when it states none.
+int stated_white(ByteView file, int significant_bits) {
+  if (significant_bits > 0) return (1 << significant_bits) - 1;
+  if (const int largest = largest_value_of_pnm(file); largest > 0) return largest;
+  return read_tiff_tags(file).max_sample_value;
+}
+
+GreyImage decode_bytes(std::string& bytes, int least_white) {
+  const ByteView file(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  GreyImage image;
+  if (const std::string kind = unreadable_kind(file); !kind.empty()) {
+    image.problem = kind + " file, which heel does not read (expected " + kReadableKinds +
+                    "; save or export it as JPEG or PNG)";
+    return image;
+  }
+  const int orientation = orientation_in_file(file);
+  int significant_bits = 0;
+  cv::Mat raw;
+  if (begins_with(file, "\xff\xd8")) {
+    raw = decode_jpeg(file, image.problem);
+  } else if (begins_with(file, "\x89PNG")) {
+    raw = decode_png(file, significant_bits, image.problem);
+  } else {
+    raw = decode_by_opencv(bytes, file);
+  }
+  if (raw.empty() || (raw.depth() != CV_8U && raw.depth() != CV_16U)) {
+    image.problem = "not a whole image" + (image.problem.empty() ? "" : ": " + image.problem) +
+                    " (expected " + kReadableKinds + " of 8 to 16 bits a pixel)";
+    return image;
+  }
+  image.problem.clear();
+  EightBitPicture picture = to_8_bit(raw, stated_white(file, significant_bits), least_white);
+  image.grey = shown_picture(picture.grey, orientation);
+  image.note = std::move(picture.note);
+  image.white = picture.white;
+  return image;
+}
 
 bool has_image_ending(const std::string& path) {
   static constexpr std::array kEndings{".png", ".jpg", ".jpeg", ".bmp",  ".pgm",
@@ -54,6 +143,9 @@ bool has_image_ending(const std::string& path) {
 
 bool is_image_file(const std::string& path) {
   if (has_image_ending(path)) return true;
+  std::array<std::uint8_t, 16> head{};
+  std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(head.data()), head.size());
+  if (!unreadable_kind(head).empty()) return true;
   try {
     return cv::haveImageReader(path);
   } catch (const cv::Exception&) {
@@ -71,22 +163,21 @@ std::vector<std::string> images_in_folder(const std::string& folder, std::error_
   return images;
 }
 
-cv::Mat decode_grey_image(const std::string& path) {
+GreyImage decode_grey_image(const std::string& path, int least_white) {
   try {
-    return cv::imread(path, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    return {};
+    std::string file = read_whole_file(path, kMaxFileBytes);
+    return decode_bytes(file, least_white);
+  } catch (const std::exception& error) {  // Error, or no memory
+    return {{}, error.what(), "", 0};
   }
 }
 
-cv::Mat read_grey_image(const std::string& path) {
+GreyImage read_grey_image(const std::string& path, int least_white) {
   if (fs::is_directory(path)) throw Error(path + ": a folder (expected an image)");
   if (!std::ifstream(path)) throw Error(path + ": cannot read: " + std::strerror(errno));
-  const SilencedStderr silenced;
-  cv::Mat grey = decode_grey_image(path);
-  if (grey.empty())
-    throw Error(path + ": not a whole image (expected PNG, JPEG, PGM, PPM, BMP, TIFF or WebP)");
-  return grey;
+  GreyImage image = decode_grey_image(path, least_white);
+  if (image.grey.empty()) throw Error(path + ": " + image.problem);
+  return image;
 }
 
 FrameView frame_view_of(const cv::Mat& grey) {

@@ -1,4 +1,7 @@
-// Still images in and out: 8-bit grey, by OpenCV's decoders and encoders.
+// Still images in and out: 8-bit grey.
+//
+// One rule for every reader: a picture is turned as its file says that it is shown (EXIF), its grey values
+// fill the 8 bits by the depth that they really have, and a damaged or cut file is no picture.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +21,18 @@ bool is_image_file(const std::string& path);
 /// the folder could not be read.
 std::vector<std::string> images_in_folder(const std::string& folder, std::error_code& error);
 
-/// The image in grey, one block of memory; empty when it cannot be decoded. A rotation noted in the file
-/// (EXIF) is ignored, because the camera's calibration does not have it.
-cv::Mat decode_grey_image(const std::string& path);
-/// As decode_grey_image, for commands: throws heel::Error naming the file, and keeps the decoders' own
-/// messages from stderr, which for that time is closed to the whole process.
-cv::Mat read_grey_image(const std::string& path);
+struct GreyImage {
+  cv::Mat grey;         ///< one block of memory; empty when there is no whole picture
+  std::string problem;  ///< then: why, with what was expected, without the file's name
+  std::string note;     ///< what was taken for the depth of the pixels, where that is not plain
+  int white = 255;      ///< the value in the file that became 255
+};
+
+/// Nothing is written to standard error, and nothing is thrown. `least_white`: of the pictures before it in a
+/// sequence, so that a dark one is not made brighter than they are.
+GreyImage decode_grey_image(const std::string& path, int least_white = 0);
+/// As decode_grey_image, for commands: throws heel::Error naming the file.
+GreyImage read_grey_image(const std::string& path, int least_white = 0);
 
 /// The image as a frame without time and number; valid as long as `grey` is.
 FrameView frame_view_of(const cv::Mat& grey);

@@ -1,6 +1,7 @@
 // Frames from images, folders and videos: order, numbers, times, and which files count as images.
 #include "files/frame_input.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -11,6 +12,7 @@
 
 #include "files/image_file.h"
 #include "heel/error.h"
+#include "support/made_video.h"
 #include "support/temporary_folder.h"
 
 namespace heel {
@@ -75,6 +77,41 @@ TEST_F(FrameInputTest, AnImageIsRecognisedByItsEndingOrItsContent) {
   EXPECT_FALSE(is_image_file(text));
   EXPECT_THROW(read_grey_image(damaged), Error);
   EXPECT_THROW(FrameInput({text}, 5.0), Error);
+}
+
+TEST_F(FrameInputTest, WhatIsMissingOfAVideoIsSaidWhenItsFramesHaveBeenUsed) {
+  const std::string path = video(20);
+  test::cut_file(path, 0.5);
+  for (const bool skipped : {false, true}) {
+    FrameInput input({path, image("last.png", 77)}, 5.0);
+    InputFrame frame;
+    if (skipped) {
+      EXPECT_FALSE(input.skip(30));
+    } else {
+      ASSERT_TRUE(input.next(frame));
+      EXPECT_THAT(input.problems(), ::testing::IsEmpty()) << "its end has not been reached";
+      while (input.next(frame)) continue;
+      EXPECT_EQ(frame.file, folder_.file("last.png")) << "the next input is used as well";
+    }
+    const std::string frames = std::to_string(input.frames_passed() - 1);
+    EXPECT_THAT(input.problems(), ::testing::ElementsAre(path + ": ends after " + frames + " of 20 frames"));
+  }
+}
+
+TEST_F(FrameInputTest, TheDepthOfPicturesIsSaidOnceAndKept) {
+  std::vector<std::string> paths;
+  for (const int white : {3000, 4000, 900}) {
+    paths.push_back(folder_.file(std::to_string(white) + ".png"));
+    cv::imwrite(paths.back(), cv::Mat(16, 32, CV_16UC1, cv::Scalar(white)));
+  }
+  FrameInput input(paths, 5.0);
+  InputFrame frame;
+  for (const double grey : {3000 * 255.0 / 4095, 4000 * 255.0 / 4095, 900 * 255.0 / 4095}) {
+    ASSERT_TRUE(input.next(frame));
+    EXPECT_NEAR(frame.grey.at<std::uint8_t>(8, 8), grey, 0.51);
+  }
+  ASSERT_EQ(input.notes().size(), 1u);
+  EXPECT_THAT(input.notes()[0], ::testing::HasSubstr("3000.png: 16 bits a pixel, of which 12 are used"));
 }
 
 }  // namespace

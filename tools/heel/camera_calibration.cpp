@@ -105,7 +105,7 @@ void require_determined_focal_length(const Calibration& result) {
 BoardViews find_board(const std::vector<std::string>& images, const Board& board) {
   BoardViews found;
   for (const std::string& image : images) {
-    const cv::Mat grey = read_grey_image(image);
+    const cv::Mat grey = read_grey_image(image).grey;
     if (found.image_size.empty()) found.image_size = grey.size();
     if (grey.size() != found.image_size)
       throw Error(fmt::format("{}: {}x{} pixels (expected {}x{} as in {})", image, grey.cols, grey.rows,

@@ -22,7 +22,9 @@ struct FeaturesOptions {
 };
 
 void write_features(const FeaturesOptions& options) {
-  const cv::Mat grey = read_grey_image(options.image);
+  const GreyImage image = read_grey_image(options.image);
+  const cv::Mat& grey = image.grey;
+  if (!image.note.empty()) fmt::print(stderr, "{}: {}\n", options.image, image.note);
   FeatureExtractor extractor(grey.cols, grey.rows, options.settings);
   FeatureSet features;
   extractor.reserve(features);

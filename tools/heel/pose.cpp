@@ -143,6 +143,12 @@ Error no_first_frame(const PoseOptions& options, std::uint64_t frames) {
                            options.first, ends, frames, frames == 1 ? "" : "s", frames));
 }
 
+/// What is there has been used; the exit status says that it was not all.
+void end_with_problems(const FrameInput& input, const char* command) {
+  for (const std::string& problem : input.problems()) fmt::print(stderr, "{}: {}\n", command, problem);
+  if (!input.problems().empty()) throw CLI::RuntimeError(kExitBadInput);
+}
+
 /// Estimates and prints every frame from the first to the last that the options name.
 void process_frames(const PoseOptions& options, Setup setup) {
   FrameInput input(options.inputs, setup.image_rate_hz);
@@ -155,8 +161,10 @@ void process_frames(const PoseOptions& options, Setup setup) {
   bool more = input.skip(options.first) && input.next(frame);
   if (!more && options.first > 0) throw no_first_frame(options, input.frames_passed());
   if (!options.json) std::puts(pose_table_head().c_str());
+  std::size_t notes = 0;
   for (; more && frame.number <= options.last; more = input.next(frame)) {
     require_size(frame, setup.sent_camera, setup.camera_file);
+    for (; notes < input.notes().size(); ++notes) fmt::print(stderr, "heel pose: {}\n", input.notes()[notes]);
     frame.grey = turned_picture(frame.grey, setup.turn);
     const PoseRow row = estimate(templates, frame, setup.target);
     std::puts((options.json ? pose_json(row) : pose_table_row(row)).c_str());
@@ -168,6 +176,7 @@ void process_frames(const PoseOptions& options, Setup setup) {
   }
   std::fflush(stdout);
   fmt::print(stderr, "heel pose: {}\n", summary.line());
+  end_with_problems(input, "heel pose");
 }
 
 void run_pose(const PoseOptions& options) {

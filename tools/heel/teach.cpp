@@ -56,8 +56,11 @@ std::vector<std::uint8_t> grey_from_file(const TeachOptions& options, int& width
   FrameInput input({options.image}, 30.0);
   InputFrame frame;
   if (!input.skip(wanted_frame(options)) || !input.next(frame)) {
-    throw Error(fmt::format("--frame {}: {} ends before that frame", wanted_frame(options), options.image));
+    const std::string why = input.problems().empty() ? "" : " (" + input.problems().front() + ")";
+    throw Error(
+        fmt::format("--frame {}: {} ends before that frame{}", wanted_frame(options), options.image, why));
   }
+  for (const std::string& note : input.notes()) fmt::print(stderr, "heel teach: {}\n", note);
   const cv::Mat grey = turned_picture(frame.grey, turn_of(options.turn));
   width_px = grey.cols;
   height_px = grey.rows;

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 struct FileSource::Decoder {
   VideoReader video;
   cv::Mat grey;
+  int white = 0;  // of the deepest image so far
 };
 
 FileSource::FileSource(const std::string& path, double rate_hz, double file_speed)
@@ -54,13 +55,17 @@ OpenResult FileSource::open_images() {
   }
   own_rate_hz_ = image_rate_hz_;
   description_ = fmt::format("{}: {} image(s) at {:.4g} Hz", address_, images_.size(), own_rate_hz_);
+  const GreyImage first = decode_grey_image(images_.front());
+  if (!first.note.empty()) description_ += ", " + first.note;
   return OpenResult::Opened;
 }
 
 OpenResult FileSource::open_video() {
   VideoReader& video = decoder_->video;
   if (!video.open(path_)) {
-    return fail(OpenResult::Refused, "cannot be decoded (expected a video, an image or a folder of images)");
+    return fail(OpenResult::Refused,
+                fmt::format("cannot be decoded: {} (expected a video, an image or a folder of images)",
+                            video.problem()));
   }
   own_rate_hz_ = video.rate_hz() > 0.0 ? video.rate_hz() : image_rate_hz_;
   const cv::Size size_px = video.size_px();
@@ -96,37 +101,43 @@ FrameResult FileSource::decode_next() {
   Decoder& decoder = *decoder_;
   if (images_.empty()) {
     if (!decoder.video.read(decoder.grey)) {
-      return fail(FrameResult::EndOfStream, fmt::format("ended after {} frames", next_));
+      const std::string missing = decoder.video.missing();
+      return fail(FrameResult::EndOfStream,
+                  missing.empty() ? fmt::format("ended after {} frames", next_) : missing);
     }
+    period_s_ = decoder.video.time_s() - t_file_s_;
+    t_file_s_ = decoder.video.time_s();
   } else {
     if (next_ == images_.size()) {
       return fail(FrameResult::EndOfStream, fmt::format("ended after {} images", next_));
     }
-    decoder.grey = decode_grey_image(images_[next_]);
+    GreyImage image = decode_grey_image(images_[next_], decoder.white);
+    decoder.grey = image.grey;
+    period_s_ = 1.0 / own_rate_hz_;
+    t_file_s_ = static_cast<double>(next_) / own_rate_hz_;
+    if (decoder.grey.empty()) {
+      ++counters_.corrupt;
+      return fail(FrameResult::Error, images_[next_++] + " cannot be decoded: " + image.problem);
+    }
+    if (!image.note.empty()) decoder.white = image.white;
   }
   ++next_;
-  if (decoder.grey.empty()) {
-    ++counters_.corrupt;
-    return fail(FrameResult::Error, images_[next_ - 1] + " cannot be decoded (expected an image)");
-  }
   decoded_ = true;
   return FrameResult::Frame;
 }
 
 TimeNs FileSource::due_ns() {
-  const std::uint64_t index = next_ - 1;
-  if (file_speed_ <= 0.0) return ns_from_seconds(static_cast<double>(index) / own_rate_hz_);
-  const double period_s = 1.0 / (own_rate_hz_ * file_speed_);
+  if (file_speed_ <= 0.0) return ns_from_seconds(t_file_s_);
   const TimeNs now_ns = monotonic_now_ns();
   if (has_origin_) {
-    const TimeNs due = origin_ns_ + ns_from_seconds(static_cast<double>(index - origin_index_) * period_s);
+    const TimeNs due = origin_ns_ + ns_from_seconds((t_file_s_ - t_origin_s_) / file_speed_);
     // More than a period behind: the reader or the decoder is slow. The due times start again from now, so
     // that the stamps are those of a camera and no burst follows.
-    if (now_ns - due <= ns_from_seconds(period_s)) return due;
+    if (now_ns - due <= ns_from_seconds(period_s_ / file_speed_)) return due;
   }
   has_origin_ = true;
   origin_ns_ = now_ns;
-  origin_index_ = index;
+  t_origin_s_ = t_file_s_;
   return now_ns;
 }
 
@@ -136,6 +147,7 @@ void FileSource::close() {
   next_ = 0;
   decoded_ = false;
   has_origin_ = false;
+  t_file_s_ = 0.0;
 }
 
 }  // namespace heel

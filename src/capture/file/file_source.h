@@ -1,13 +1,12 @@
-// Frames from files: a video that OpenCV can decode, one image, or a folder of images in natural order.
+// Frames from files: a video, one image, or a folder of images in natural order.
 //
-// Rate: that of a video, or camera.rate_hz for images, times `file_speed`. With `file_speed` 0 each frame is
-// given as soon as it is requested.
-// Times: with `file_speed` > 0 those of CLOCK_MONOTONIC: each frame is given at its due time and stamped with
-// it. With `file_speed` 0 the time in the file, from 0, so that runs repeat to the bit.
-// Sequence: the frame's index in the file or folder, from 0. No frame is skipped: a slow reader delays the
-// due times of the frames that follow.
+// Pace: a video's own time stamps, or camera.rate_hz for images, made faster by `file_speed`. With
+// `file_speed` 0 each frame is given as soon as it is requested. Times: with `file_speed` > 0 those of
+// CLOCK_MONOTONIC: each frame is given at its due time and stamped with it. With `file_speed` 0 the time in
+// the file, from 0, so that runs repeat to the bit. Sequence: the frame's index in the file or folder, from
+// 0. No frame is skipped: a slow reader delays the due times of the frames that follow.
 //
-// OpenCV's decoders allocate memory for each frame: this source is for experiments, not for use on the robot.
+// The decoders allocate memory for each frame: this source is for experiments, not for use on the robot.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +28,7 @@ class FileSource final : public FrameSource {
   FrameResult wait_frame(TimeNs timeout_ns, FrameView& frame) override;
   void close() override;
 
-  /// The frame rate of the file itself; valid once opened.
+  /// The mean frame rate of the file itself; valid once opened.
   double rate_hz() const { return own_rate_hz_; }
 
  private:
@@ -47,9 +46,11 @@ class FileSource final : public FrameSource {
   std::vector<std::string> images_;  ///< empty for a video
   std::uint64_t next_ = 0;           ///< index of the frame to decode next
   bool decoded_ = false;             ///< frame next_ − 1 has been decoded and not yet given
-  // Due time of frame k: origin_ns_ + (k − origin_index_) / (rate · speed).
+  double t_file_s_ = 0.0;            ///< of frame next_ − 1, in the file
+  double period_s_ = 0.0;            ///< in the file, since the frame before it
+  // Due time of a frame: origin_ns_ + (t_file_s_ − t_origin_s_) / speed.
   TimeNs origin_ns_ = 0;
-  std::uint64_t origin_index_ = 0;
+  double t_origin_s_ = 0.0;
   bool has_origin_ = false;
 };
 

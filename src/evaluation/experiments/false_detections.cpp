@@ -40,7 +40,7 @@ FalseDetections search_other_prints(const ForeignSet& set, const ForeignTemplate
     PoseTracker tracker(shirt, set.camera, still);
     for (const ForeignPicture& picture : set.pictures) {
       if (picture.is_taught() || picture.is_in_walk() || picture.print == name.second) continue;
-      const cv::Mat grey = read_grey_image(picture.path);
+      const cv::Mat grey = read_grey_image(picture.path).grey;
       const PoseEstimate pose = tracker.estimate(frame_view_of(grey));
       ++result.pictures;
       if (pose.found())

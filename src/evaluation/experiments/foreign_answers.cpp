@@ -69,7 +69,7 @@ std::vector<ForeignRow> answer_foreign_set(const ForeignSet& set, const ForeignT
   std::vector<ForeignRow> rows;
   const auto add = [&](const ForeignPicture& picture, const PoseFunction* estimate, double t_s) {
     ForeignAnswer answer{.reason = "no template"};
-    if (estimate != nullptr) answer = (*estimate)(read_grey_image(picture.path), t_s);
+    if (estimate != nullptr) answer = (*estimate)(read_grey_image(picture.path).grey, t_s);
     rows.push_back({method.name, picture, std::move(answer)});
     if (on_progress) on_progress(rows.size());
   };

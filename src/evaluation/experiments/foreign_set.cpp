@@ -32,7 +32,7 @@ ForeignPicture picture_in(const CsvTable& table, std::size_t row, const std::str
 }
 
 ShirtTemplate template_of(const ForeignPicture& picture, const CameraModel& camera) {
-  const cv::Mat grey = read_grey_image(picture.path);
+  const cv::Mat grey = read_grey_image(picture.path).grey;
   ShirtTemplate shirt;
   shirt.grey.assign(grey.data, grey.data + grey.total());
   shirt.camera = camera;

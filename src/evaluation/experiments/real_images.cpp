@@ -67,7 +67,7 @@ fs::path homography_file(const fs::path& folder, int to) {
 
 PairRow estimate_pair(const fs::path& folder, const Set& set, int to, const VisionConfig& vision) {
   const auto image = [&](int number) {
-    return read_grey_image(folder / fmt::format("img{}{}", number, set.extension));
+    return read_grey_image(folder / fmt::format("img{}{}", number, set.extension)).grey;
   };
   const cv::Mat reference = image(1), current = image(to);
   const ShirtTemplate whole = template_of(reference, {0, 0, reference.cols, reference.rows}, set.oriented);

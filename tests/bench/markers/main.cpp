@@ -54,7 +54,7 @@ class Markers {
 
  private:
   cv::Mat picture(std::size_t row) const {
-    return read_grey_image(folder_ + "/images/" + truth_.text(row, "image"));
+    return read_grey_image(folder_ + "/images/" + truth_.text(row, "image")).grey;
   }
   Eigen::Matrix3d taught_rotation(const std::string& marker, MarkerDetector& detector) const {
     for (std::size_t row = 0; row < truth_.rows(); ++row) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "realtime/clock.h"
+#include "support/made_video.h"
 #include "support/temporary_folder.h"
 
 namespace heel {
@@ -92,6 +93,51 @@ TEST_F(FileSourceTest, AVideosOwnRateTimesTheSpeed) {
     last_ns = frame.header.t_capture_ns;
   }
   EXPECT_EQ(source.wait_frame(60 * kNsPerS, frame), FrameResult::EndOfStream);
+}
+
+TEST_F(FileSourceTest, AVideoOfAVariableRateKeepsItsOwnTimes) {
+  const std::string path = folder_ / "varied.mp4";
+  test::MadeVideo made{
+      .path = path, .greys = {}, .times_s = {0.0, 0.01, 0.02, 0.1, 0.18, 0.2}, .display_abcd = {}};
+  for (std::size_t i = 0; i < made.times_s.size(); ++i)
+    made.greys.emplace_back(48, 64, CV_8U, cv::Scalar(20));
+  test::write_video(made);
+  FileSource at_once(path, 1.0, 0.0);
+  ASSERT_EQ(at_once.open(), OpenResult::Opened) << at_once.problem();
+  FrameView frame;
+  for (const double t_s : made.times_s) {
+    ASSERT_EQ(at_once.wait_frame(0, frame), FrameResult::Frame);
+    EXPECT_NEAR(static_cast<double>(frame.header.t_capture_ns) * 1e-9, t_s, 1e-6);
+  }
+  FileSource paced(path, 1.0, 2.0);
+  ASSERT_EQ(paced.open(), OpenResult::Opened) << paced.problem();
+  TimeNs last_ns = 0;
+  for (std::size_t i = 0; i < made.times_s.size(); ++i) {
+    ASSERT_EQ(paced.wait_frame(60 * kNsPerS, frame), FrameResult::Frame);
+    // A busy machine can only make it later.
+    const TimeNs least_ns = i > 0 ? ns_from_seconds((made.times_s[i] - made.times_s[i - 1]) / 2.0) - 1000 : 0;
+    EXPECT_GE(frame.header.t_capture_ns - last_ns, least_ns) << i;
+    last_ns = frame.header.t_capture_ns;
+  }
+}
+
+TEST_F(FileSourceTest, ACutVideoEndsWithHowMuchOfItThereWas) {
+  const std::string path = folder_ / "cut.mkv";
+  test::MadeVideo made{.path = path, .greys = {}, .times_s = {}, .display_abcd = {}};
+  for (int i = 0; i < 20; ++i) {
+    made.greys.emplace_back(48, 64, CV_8U);
+    cv::randu(made.greys.back(), 0, 255);
+    made.times_s.push_back(0.04 * i);
+  }
+  test::write_video(made);
+  test::cut_file(path, 0.5);
+  FileSource source(path, 1.0, 0.0);
+  ASSERT_EQ(source.open(), OpenResult::Opened) << source.problem();
+  FrameView frame;
+  int frames = 0;
+  while (source.wait_frame(0, frame) == FrameResult::Frame) ++frames;
+  EXPECT_GT(frames, 0);
+  EXPECT_THAT(source.problem(), HasSubstr("ends after " + std::to_string(frames) + " of 20 frames"));
 }
 
 TEST_F(FileSourceTest, TimesOutWhileAFrameIsNotDueYetAndGivesItLater) {

@@ -15,6 +15,7 @@
 #include "files/template_file.h"
 #include "heel/shirt_template.h"
 #include "support/sanitized.h"
+#include "support/test_data.h"
 #include "tools/heel/printed_shirt.h"
 #include "tools/heel/run_heel.h"
 
@@ -170,6 +171,40 @@ TEST_F(TeachAndPose, TeachGivesTheSameTemplateThroughACameraAddress) {
                                     "1.5", "--camera-info", camera, "-o", by_camera});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(test::read_text(by_camera), test::read_text(shirt));
+}
+
+/// The report of exif3.jpg: one photo gave two different templates.
+TEST_F(TeachAndPose, OnePhotoGivesOneTemplateHoweverItIsGiven) {
+  HEEL_NEEDS_TEST_DATA("reports");
+  const std::string reports = test::data_path("reports/");
+  const auto teach_photo = [&](const char* option, const std::string& photo, const std::string& output) {
+    return run_heel({"teach", option, photo, "--roi", test::kRoi, "--distance", "1.5", "--reach-time", "0",
+                     "--camera-info", reports + "common/camera.yaml", "-o", output});
+  };
+  const std::string photo = reports + "photo-exif/exif3.jpg", second = folder.file("second.heel");
+  ASSERT_EQ(teach_photo("--image", photo, shirt).status, 0);
+  ASSERT_EQ(teach_photo("--camera", "file:" + photo, second).status, 0);
+  EXPECT_EQ(test::read_text(shirt), test::read_text(second));
+  const Outcome cut = teach_photo("--image", reports + "jpeg-cut-short/cut.jpg", folder.file("cut.heel"));
+  EXPECT_EQ(cut.status, 2);
+  EXPECT_THAT(cut.err, AllOf(HasSubstr("cut.jpg: not a whole image"), ::testing::EndsWith("pixel)\n")));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("cut.heel")));
+  const Outcome deep =
+      teach_photo("--image", reports + "picture-12-bit/mono12_in16.png", folder.file("deep.heel"));
+  EXPECT_EQ(deep.status, 0);
+  EXPECT_THAT(deep.err, HasSubstr("of which 12 are used"));
+}
+
+TEST_F(TeachAndPose, AVideoThatIsCutShortIsUsedAndSaid) {
+  HEEL_NEEDS_TEST_DATA("reports");
+  const std::string reports = test::data_path("reports/"), video = reports + "video-cut-short/cuttail.mkv";
+  const Outcome outcome = run_heel({"pose", video, "--template", reports + "common/shirt.heel",
+                                    "--camera-info", reports + "common/camera.yaml", "--json"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(lines_of(outcome.out).size(), 20u);
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("found in 20 of 20"),
+                    ::testing::EndsWith("heel pose: " + video + ": ends after 20 of 40 frames\n")));
 }
 
 TEST_F(TeachAndPose, TeachRefusesAPlainShirtWithTheReasonAndStatusOne) {

@@ -1,5 +1,5 @@
 // JPEG to grey: good images are decoded, bad ones are refused and do no harm.
-#include "capture/jpeg_decoder.h"
+#include "files/jpeg_decoder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -87,6 +87,41 @@ TEST_F(JpegDecoderTest, TruncatedImagesAreRefusedWhereverTheyEnd) {
     EXPECT_STRNE(decoder_.problem(), "") << bytes;
   }
   EXPECT_TRUE(decode(jpeg)) << "the decoder must decode the next image: " << decoder_.problem();
+}
+
+// Encoders of cameras leave bytes of padding there.
+TEST_F(JpegDecoderTest, AFewBytesTooManyBeforeAMarkerDoNoHarm) {
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", made_image(), jpeg, {cv::IMWRITE_JPEG_QUALITY, 95, cv::IMWRITE_JPEG_RST_INTERVAL, 2});
+  ASSERT_TRUE(decode(jpeg)) << decoder_.problem();
+  const std::vector<std::uint8_t> clean = grey_;
+  int markers = 0;
+  for (std::size_t at = 2; at + 1 < jpeg.size(); ++at) {
+    const bool marker =
+        jpeg[at] == 0xff && ((jpeg[at + 1] >= 0xd0 && jpeg[at + 1] <= 0xd7) || jpeg[at + 1] == 0xd9);
+    if (!marker) continue;
+    ++markers;
+    for (const std::size_t extra : {1u, 3u, 8u}) {
+      std::vector<std::uint8_t> padded = jpeg;
+      padded.insert(padded.begin() + static_cast<long>(at), extra, static_cast<std::uint8_t>(0x5a + markers));
+      grey_.assign(grey_.size(), 0);
+      EXPECT_TRUE(decode(padded)) << extra << " bytes before marker " << markers << ": "
+                                  << decoder_.problem();
+      EXPECT_EQ(grey_, clean);
+    }
+    std::vector<std::uint8_t> stuffed = jpeg;
+    stuffed.insert(stuffed.begin() + static_cast<long>(at), 40, 0x5a);
+    EXPECT_FALSE(decode(stuffed)) << "so many are the rest of a damaged picture";
+  }
+  EXPECT_GE(markers, 4);
+}
+
+TEST_F(JpegDecoderTest, AMissingPieceInTheMiddleIsRefused) {
+  std::vector<std::uint8_t> jpeg = made_jpeg();
+  const auto middle = jpeg.begin() + static_cast<long>(jpeg.size() / 2);
+  jpeg.erase(middle, middle + 200);
+  EXPECT_FALSE(decode(jpeg));
+  EXPECT_STRNE(decoder_.problem(), "");
 }
 
 TEST_F(JpegDecoderTest, AnotherSizeIsRefusedBeforeAnythingIsWritten) {

@@ -1,12 +1,15 @@
-#include "capture/jpeg_decoder.h"
+#include "files/jpeg_decoder.h"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <csetjmp>
 #include <cstdio>
-// libjpeg's header needs <cstdio> before it.
+// libjpeg's headers need <cstdio> before them.
+#include <jerror.h>
 #include <jpeglib.h>
+
+#include <vector>
 
 namespace heel {
 
@@ -29,9 +32,15 @@ void keep_message(j_common_ptr jpeg) {
   std::longjmp(reinterpret_cast<ErrorManager*>(jpeg->err)->back, 1);
 }
 
-// A warning ("premature end of JPEG file") means a damaged image. libjpeg would fill the rest with grey.
+/// Cameras leave 1 to 8 bytes before a marker. Where a damaged image has lost its place, more are left over,
+/// or too few, which is another warning.
+constexpr int kMaxHarmlessBytes = 16;
+
 void count_warning(j_common_ptr jpeg, int level) {
   if (level >= 0) return;
+  const bool harmless =
+      jpeg->err->msg_code == JWRN_EXTRANEOUS_DATA && jpeg->err->msg_parm.i[0] <= kMaxHarmlessBytes;
+  if (harmless) return;
   if (jpeg->err->num_warnings++ == 0) keep_message(jpeg);
 }
 
@@ -42,7 +51,25 @@ void print_nothing(j_common_ptr) {}
 struct JpegDecoder::Impl {
   jpeg_decompress_struct jpeg{};
   ErrorManager errors;
+  std::vector<std::uint8_t> cmyk_row;
+
+  void read_rows(std::uint8_t* grey);
 };
+
+// libjpeg does not convert CMYK, as image editors write it (inverted), to grey.
+void JpegDecoder::Impl::read_rows(std::uint8_t* grey) {
+  const std::size_t width_px = jpeg.output_width;
+  while (jpeg.output_scanline < jpeg.output_height) {
+    std::uint8_t* const out = grey + jpeg.output_scanline * width_px;
+    JSAMPROW row = jpeg.out_color_space == JCS_CMYK ? cmyk_row.data() : out;
+    jpeg_read_scanlines(&jpeg, &row, 1);
+    if (row == out) continue;
+    for (std::size_t x = 0; x < width_px; ++x) {
+      const std::uint8_t* const p = row + 4 * x;
+      out[x] = static_cast<std::uint8_t>((299 * p[0] + 587 * p[1] + 114 * p[2]) / 1000 * p[3] / 255);
+    }
+  }
+}
 
 JpegDecoder::JpegDecoder() : impl_(std::make_unique<Impl>()) {
   Impl& d = *impl_;
@@ -61,7 +88,23 @@ const char* JpegDecoder::problem() const {
   return impl_->errors.message.data();
 }
 
-// This function must not hold an object with a destructor, because longjmp skips destructors.
+// These functions must not hold an object with a destructor, because longjmp skips destructors.
+bool JpegDecoder::read_size(const std::uint8_t* jpeg, std::size_t bytes, std::uint32_t& width_px,
+                            std::uint32_t& height_px) {
+  Impl& d = *impl_;
+  d.errors.message[0] = '\0';
+  if (setjmp(d.errors.back) != 0) {
+    jpeg_abort_decompress(&d.jpeg);
+    return false;
+  }
+  jpeg_mem_src(&d.jpeg, jpeg, static_cast<unsigned long>(bytes));
+  jpeg_read_header(&d.jpeg, TRUE);
+  width_px = d.jpeg.image_width;
+  height_px = d.jpeg.image_height;
+  jpeg_abort_decompress(&d.jpeg);
+  return true;
+}
+
 bool JpegDecoder::decode(const std::uint8_t* jpeg, std::size_t bytes, std::uint32_t width_px,
                          std::uint32_t height_px, std::uint8_t* grey) {
   Impl& d = *impl_;
@@ -81,12 +124,11 @@ bool JpegDecoder::decode(const std::uint8_t* jpeg, std::size_t bytes, std::uint3
     jpeg_abort_decompress(&d.jpeg);
     return false;
   }
-  d.jpeg.out_color_space = JCS_GRAYSCALE;
+  const bool cmyk = d.jpeg.num_components == 4;
+  d.jpeg.out_color_space = cmyk ? JCS_CMYK : JCS_GRAYSCALE;
+  if (cmyk) d.cmyk_row.resize(std::size_t{width_px} * 4);
   jpeg_start_decompress(&d.jpeg);
-  while (d.jpeg.output_scanline < height_px) {
-    JSAMPROW row = grey + std::size_t{d.jpeg.output_scanline} * width_px;
-    jpeg_read_scanlines(&d.jpeg, &row, 1);
-  }
+  d.read_rows(grey);
   jpeg_finish_decompress(&d.jpeg);
   return d.errors.base.num_warnings == 0;
 }

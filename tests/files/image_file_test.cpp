@@ -1,0 +1,251 @@
+// Pictures: one rule of orientation and of depth for every kind, and refusals of what is no whole picture.
+#include "files/image_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "files/exif.h"
+#include "files/orientation.h"
+#include "support/temporary_folder.h"
+#include "support/test_data.h"
+
+namespace heel {
+namespace {
+
+using test::read_text;
+using test::write_text;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Brighter to the right, and much brighter below: each turn of it is another picture.
+cv::Mat ramp(int depth = CV_8U, double white = 255.0) {
+  cv::Mat picture(24, 40, depth);
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) {
+      const double value = white * (x + 4.0 * y) / (39 + 4.0 * 23);
+      if (depth == CV_8U) picture.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(value);
+      if (depth == CV_16U) picture.at<std::uint16_t>(y, x) = cv::saturate_cast<std::uint16_t>(value);
+    }
+  }
+  return picture;
+}
+
+std::string big_endian(std::uint32_t value) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
+  return bytes;
+}
+
+std::string little_endian(std::uint32_t value, int count = 4) {
+  std::string bytes;
+  for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
+  return bytes;
+}
+
+/// An EXIF block that has an orientation alone.
+std::string exif_block(int orientation, bool little = false) {
+  if (little)
+    return "II" + little_endian(42, 2) + little_endian(8) + little_endian(1, 2) + little_endian(0x112, 2) +
+           little_endian(3, 2) + little_endian(1) + little_endian(static_cast<std::uint32_t>(orientation)) +
+           little_endian(0);
+  return "MM" + std::string("\0\x2a", 2) + big_endian(8) + std::string("\0\x01\x01\x12\0\x03", 6) +
+         big_endian(1) + std::string(1, '\0') + static_cast<char>(orientation) + std::string(2, '\0') +
+         big_endian(0);
+}
+
+std::string png_chunk(const std::string& name, const std::string& data) {
+  const std::string body = name + data;
+  const auto sum = crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
+  return big_endian(static_cast<std::uint32_t>(data.size())) + body +
+         big_endian(static_cast<std::uint32_t>(sum));
+}
+
+constexpr std::size_t kPngHeaderBytes = 8 + 25;  // the signature and the first chunk
+
+/// A TIFF file, uncompressed, with one strip.
+std::string tiff_of(const cv::Mat& picture, int orientation) {
+  struct Entry {
+    std::uint32_t tag, type, value;
+  };
+  const auto rows = static_cast<std::uint32_t>(picture.rows),
+             columns = static_cast<std::uint32_t>(picture.cols);
+  const auto bytes = static_cast<std::uint32_t>(picture.total() * picture.elemSize());
+  const std::vector<Entry> entries{{0x100, 3, columns},
+                                   {0x101, 3, rows},
+                                   {0x102, 3, static_cast<std::uint32_t>(8 * picture.elemSize())},
+                                   {0x103, 3, 1},
+                                   {0x106, 3, 1},
+                                   {0x111, 4, 8},
+                                   {0x112, 3, static_cast<std::uint32_t>(orientation)},
+                                   {0x115, 3, 1},
+                                   {0x116, 3, rows},
+                                   {0x117, 4, bytes}};
+  std::string file = "II" + little_endian(42, 2) + little_endian(8 + bytes);
+  file.append(reinterpret_cast<const char*>(picture.data), bytes);
+  file += little_endian(static_cast<std::uint32_t>(entries.size()), 2);
+  for (const Entry& entry : entries)
+    file += little_endian(entry.tag, 2) + little_endian(entry.type, 2) + little_endian(1) +
+            little_endian(entry.value);
+  return file + little_endian(0);
+}
+
+class Pictures : public ::testing::Test {
+ protected:
+  std::string bytes_of(const std::string& ending, const cv::Mat& picture) {
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(ending, picture, bytes);
+    return {bytes.begin(), bytes.end()};
+  }
+  GreyImage decode(const std::string& bytes) { return decode_grey_image(write_text(path, bytes)); }
+  static double difference(const cv::Mat& a, const cv::Mat& b) {
+    return a.size() == b.size() ? cv::norm(a, b, cv::NORM_L1) / static_cast<double>(a.total()) : 1e9;
+  }
+
+  test::TemporaryFolder folder;
+  std::string path = folder.file("picture.bin");
+};
+
+TEST_F(Pictures, OfEveryKindAreTurnedAsTheirFileSays) {
+  const std::string jpeg = bytes_of(".jpg", ramp()), png = bytes_of(".png", ramp()),
+                    webp = bytes_of(".webp", ramp());
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    SCOPED_TRACE(orientation);
+    const std::string exif = exif_block(orientation, orientation % 2 == 0);
+    const std::string segment = std::string("Exif\0\0", 6) + exif;
+    const std::string app1 = std::string("\xff\xe1\0", 3) + static_cast<char>(segment.size() + 2) + segment;
+    const std::string extended = "VP8X" + little_endian(10) + std::string("\x08\0\0\0", 4) +
+                                 little_endian(39, 3) + little_endian(23, 3);
+    const std::string body = "WEBP" + extended + webp.substr(12) + "EXIF" +
+                             little_endian(static_cast<std::uint32_t>(exif.size())) + exif;
+    const cv::Mat shown = shown_picture(ramp(), orientation);
+    for (const std::string& file :
+         {jpeg.substr(0, 2) + app1 + jpeg.substr(2),
+          png.substr(0, kPngHeaderBytes) + png_chunk("eXIf", exif) + png.substr(kPngHeaderBytes),
+          "RIFF" + little_endian(static_cast<std::uint32_t>(body.size())) + body,
+          tiff_of(ramp(), orientation)}) {
+      const GreyImage image = decode(file);
+      ASSERT_FALSE(image.grey.empty()) << file.substr(0, 4) << ": " << image.problem;
+      EXPECT_LT(difference(image.grey, shown), 3.0) << file.substr(0, 4);
+      EXPECT_TRUE(image.grey.isContinuous());
+    }
+  }
+}
+
+TEST(Orientation, OfDamagedOrAbsentTagsIsAsStored) {
+  const std::string exif = exif_block(6);
+  for (std::size_t bytes = 0; bytes < exif.size(); ++bytes) {
+    const auto* data = reinterpret_cast<const std::uint8_t*>(exif.data());
+    const int orientation = read_tiff_tags({data, bytes}).orientation;
+    EXPECT_TRUE(orientation == 1 || (orientation == 6 && bytes >= 22)) << bytes;
+  }
+  const std::string wrong = exif_block(9);
+  EXPECT_EQ(read_tiff_tags({reinterpret_cast<const std::uint8_t*>(wrong.data()), wrong.size()}).orientation,
+            1);
+}
+
+TEST_F(Pictures, OfMoreBitsFillTheEightByTheDepthThatTheyHave) {
+  struct Row {
+    double white;
+    const char* note;
+  };
+  for (const Row& row : {Row{1023, "10 are used"}, Row{4095, "12 are used"}, Row{16383, "14 are used"},
+                         Row{65535, ""}, Row{4095 * 16, ""}}) {
+    const cv::Mat deep = ramp(CV_16U, row.white);
+    for (const std::string& file : {bytes_of(".png", deep), tiff_of(deep, 1), bytes_of(".pgm", deep)}) {
+      const GreyImage image = decode(file);
+      SCOPED_TRACE(std::to_string(row.white) + " " + file.substr(1, 3));
+      ASSERT_FALSE(image.grey.empty()) << image.problem;
+      const bool says_white = file.starts_with("P5");  // 65535, in its header
+      if (!says_white || *row.note == '\0') {
+        EXPECT_LT(difference(image.grey, ramp()), 0.6);
+        EXPECT_THAT(image.note, HasSubstr(row.note));
+      }
+    }
+  }
+}
+
+TEST_F(Pictures, StatedDepthsAreTaken) {
+  // The header of a PGM file and the sBIT chunk of a PNG file name the white of a picture that has none.
+  const cv::Mat dim = ramp(CV_16U, 900);
+  std::string pgm = "P5 # made by a camera\n40 24\n4095\n", png = bytes_of(".png", dim);
+  for (int i = 0; i < static_cast<int>(dim.total()); ++i) {
+    const auto value = dim.at<std::uint16_t>(i / dim.cols, i % dim.cols);
+    pgm += {static_cast<char>(value >> 8), static_cast<char>(value & 0xff)};
+  }
+  png.insert(kPngHeaderBytes, png_chunk("sBIT", "\x0c"));
+  for (const std::string& file : {pgm, png}) {
+    const GreyImage image = decode(file);
+    ASSERT_FALSE(image.grey.empty()) << image.problem;
+    EXPECT_EQ(image.white, 4095);
+    EXPECT_THAT(image.note, HasSubstr("12 are used (largest value 900); white is 4095"));
+    EXPECT_LT(difference(image.grey, ramp(CV_8U, 255.0 * 900 / 4095)), 0.6);
+  }
+  const GreyImage four_bits = decode("P2\n2 1\n15\n0 15\n");
+  ASSERT_FALSE(four_bits.grey.empty());
+  EXPECT_EQ(four_bits.grey.at<std::uint8_t>(0, 1), 255);
+}
+
+TEST_F(Pictures, OfASequenceKeepTheWhiteOfABrighterOne) {
+  const std::string dark = write_text(path, bytes_of(".png", ramp(CV_16U, 900)));
+  EXPECT_EQ(decode_grey_image(dark).white, 1023);
+  EXPECT_EQ(decode_grey_image(dark, 4095).white, 4095);
+}
+
+TEST_F(Pictures, CutAnywhereAreRefusedWithoutALineOfALibrary) {
+  cv::Mat noisy(96, 128, CV_8U);
+  cv::randu(noisy, 0, 255);
+  for (const char* ending : {".jpg", ".png", ".bmp", ".pgm", ".webp", ".tif"}) {
+    const std::string whole = bytes_of(ending, noisy);
+    ASSERT_FALSE(decode(whole).grey.empty()) << ending;
+    for (const double share : {0.0, 0.001, 0.02, 0.3, 0.6, 0.95}) {
+      const auto bytes = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
+      ::testing::internal::CaptureStderr();
+      const GreyImage image = decode(whole.substr(0, bytes));
+      EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << ending << " " << share;
+      EXPECT_TRUE(image.grey.empty()) << ending << " " << share;
+      EXPECT_THAT(image.problem, AllOf(HasSubstr("expected"), Not(HasSubstr("\n"))))
+          << ending << " " << share;
+    }
+  }
+}
+
+TEST_F(Pictures, OfKindsThatAreNotReadAreNamed) {
+  const std::vector<std::pair<std::string, std::string>> rows{
+      {std::string("\0\0\0\x18", 4) + "ftypheic" + std::string(20, '\0'), "a HEIC file"},
+      {std::string("\0\0\0\x18", 4) + "ftypmif1" + std::string(20, '\0'), "a HEIC file"},
+      {std::string("\0\0\0\x18", 4) + "ftypavif" + std::string(20, '\0'), "an AVIF file"},
+      {"GIF89a" + std::string(20, '\0'), "a GIF file"},
+  };
+  for (const auto& [bytes, kind] : rows) {
+    EXPECT_THAT(decode(bytes).problem, AllOf(HasSubstr(kind), HasSubstr("JPEG or PNG")));
+    EXPECT_TRUE(is_image_file(path)) << kind;
+  }
+}
+
+TEST_F(Pictures, OfPublicReportsAreRight) {
+  HEEL_NEEDS_TEST_DATA("reports");
+  const std::string reports = test::data_path("reports/");
+  const cv::Mat reference = read_grey_image(reports + "common/ref.jpg").grey;
+  cv::Mat turned;
+  cv::rotate(reference, turned, cv::ROTATE_180);
+  EXPECT_LT(difference(read_grey_image(reports + "photo-exif/exif3.jpg").grey, turned), 1e-9);
+  EXPECT_TRUE(decode_grey_image(reports + "jpeg-cut-short/cut.jpg").grey.empty());
+  const GreyImage deep = decode_grey_image(reports + "picture-12-bit/mono12_in16.png");
+  EXPECT_EQ(deep.white, 4095);
+  const cv::Mat clean = read_grey_image(reports + "mjpeg-harmless-warnings/mj_clean.jpg").grey;
+  for (const char* name : {"mj_extraneous_eoi.jpg", "mj_extraneous_rst.jpg"})
+    EXPECT_EQ(difference(read_grey_image(reports + "mjpeg-harmless-warnings/" + name).grey, clean), 0.0)
+        << name;
+  EXPECT_TRUE(decode_grey_image(reports + "mjpeg-harmless-warnings/truly_cut.jpg").grey.empty());
+  EXPECT_THAT(decode_grey_image(reports + "small-messages/fake.heic").problem, HasSubstr("a HEIC file"));
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,192 @@
+// Videos: their own time stamps to the last frame, the picture as it is shown, and what is missing of a cut
+// one.
+#include "files/video_reader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "support/made_video.h"
+#include "support/temporary_folder.h"
+#include "support/test_data.h"
+
+namespace heel {
+namespace {
+
+using test::MadeVideo;
+using test::write_video;
+using ::testing::HasSubstr;
+
+constexpr int kVideoWidth_px = 64, kVideoHeight_px = 48;
+
+/// Of frame `index`: its upper left quarter is brighter than the rest.
+cv::Mat made_frame(int index) {
+  cv::Mat grey(kVideoHeight_px, kVideoWidth_px, CV_8U, cv::Scalar(40 + 2 * index));
+  grey(cv::Rect(0, 0, kVideoWidth_px / 2, kVideoHeight_px / 2)).setTo(200);
+  return grey;
+}
+
+class Videos : public ::testing::Test {
+ protected:
+  MadeVideo walk(const std::string& name, int frames, double period_s = 0.05) {
+    MadeVideo video{.path = folder.file(name), .greys = {}, .times_s = {}, .display_abcd = {}};
+    for (int i = 0; i < frames; ++i) {
+      video.greys.push_back(made_frame(i));
+      video.times_s.push_back(i * period_s);
+    }
+    return video;
+  }
+  std::vector<double> times_of(const std::string& path) {
+    EXPECT_TRUE(reader.open(path)) << reader.problem();
+    std::vector<double> times_s;
+    for (cv::Mat grey; reader.read(grey);) times_s.push_back(reader.time_s());
+    return times_s;
+  }
+
+  test::TemporaryFolder folder;
+  VideoReader reader;
+};
+
+TEST_F(Videos, HaveTheirOwnTimeStampsToTheLastFrameAlsoWithBFrames) {
+  for (const char* name : {"walk.mp4", "walk.mkv"}) {
+    for (const int b_frames : {0, 2}) {
+      MadeVideo video = walk(name, 31);
+      video.b_frames = b_frames;
+      write_video(video);
+      const std::vector<double> times_s = times_of(video.path);
+      ASSERT_EQ(times_s.size(), 31u) << name << " " << b_frames;
+      for (std::size_t i = 0; i < times_s.size(); ++i)
+        EXPECT_NEAR(times_s[i], 0.05 * static_cast<double>(i), 1.1e-3);
+      EXPECT_EQ(reader.missing(), "");
+      EXPECT_NEAR(reader.rate_hz(), 20.0, 0.1);
+    }
+  }
+}
+
+TEST_F(Videos, OfAVariableRateHaveTheirOwnTimeStamps) {
+  for (const char* name : {"slower.mp4", "slower.mkv"}) {
+    MadeVideo video = walk(name, 20);
+    for (int i = 20; i < 40; ++i) {
+      video.greys.push_back(made_frame(i));
+      video.times_s.push_back(0.95 + 0.2 * (i - 19));
+    }
+    write_video(video);
+    const std::vector<double> times_s = times_of(video.path);
+    ASSERT_EQ(times_s.size(), 40u) << name;
+    EXPECT_NEAR(times_s[19], 0.95, 1.1e-3) << name;
+    EXPECT_NEAR(times_s[39], 4.95, 1.1e-3) << name;
+    EXPECT_EQ(reader.missing(), "") << name;
+  }
+}
+
+TEST_F(Videos, SkippedFramesCountAndHaveTimes) {
+  const MadeVideo video = walk("walk.mp4", 5);
+  write_video(video);
+  ASSERT_TRUE(reader.open(video.path));
+  EXPECT_EQ(reader.frame_count(), 5u);
+  EXPECT_EQ(reader.size_px(), cv::Size(kVideoWidth_px, kVideoHeight_px));
+  EXPECT_TRUE(reader.skip());
+  EXPECT_TRUE(reader.skip());
+  EXPECT_NEAR(reader.time_s(), 0.05, 1.1e-3);
+  EXPECT_TRUE(reader.open(video.path)) << "again, from the beginning";
+  EXPECT_TRUE(reader.skip());
+  EXPECT_EQ(reader.time_s(), 0.0);
+}
+
+struct Turn {
+  std::vector<double> abcd;
+  int bright_x, bright_y;  ///< the quarter that is bright: 0 left or upper, 1 right or lower
+  bool on_its_side;
+};
+
+TEST_F(Videos, AreTurnedAndMirroredAsTheirDisplayMatrixSays) {
+  const std::vector<Turn> turns{{{1, 0, 0, 1}, 0, 0, false},  {{-1, 0, 0, -1}, 1, 1, false},
+                                {{0, 1, -1, 0}, 1, 0, true},  {{0, -1, 1, 0}, 0, 1, true},
+                                {{-1, 0, 0, 1}, 1, 0, false}, {{1, 0, 0, -1}, 0, 1, false},
+                                {{0, 1, 1, 0}, 0, 0, true},   {{0, -1, -1, 0}, 1, 1, true}};
+  for (const Turn& turn : turns) {
+    SCOPED_TRACE(::testing::PrintToString(turn.abcd));
+    MadeVideo video = walk("turned.mp4", 2);
+    video.display_abcd = turn.abcd;
+    write_video(video);
+    ASSERT_TRUE(reader.open(video.path));
+    cv::Mat grey;
+    ASSERT_TRUE(reader.read(grey));
+    EXPECT_EQ(grey.cols, turn.on_its_side ? kVideoHeight_px : kVideoWidth_px);
+    EXPECT_EQ(reader.size_px(), grey.size());
+    for (int y : {0, 1})
+      for (int x : {0, 1})
+        EXPECT_EQ(grey.at<std::uint8_t>((1 + 2 * y) * grey.rows / 4, (1 + 2 * x) * grey.cols / 4) > 120,
+                  x == turn.bright_x && y == turn.bright_y);
+  }
+}
+
+TEST_F(Videos, TurnedByAnotherAngleAreRefused) {
+  MadeVideo video = walk("tilted.mp4", 2);
+  video.display_abcd = {0.7071, 0.7071, -0.7071, 0.7071};
+  write_video(video);
+  EXPECT_FALSE(reader.open(video.path));
+  EXPECT_THAT(reader.problem(), HasSubstr("multiple of 90 degrees"));
+}
+
+TEST_F(Videos, CutShortGiveWhatThereIsAndSayWhatIsMissing) {
+  for (const char* name : {"cut.mp4", "cut.mkv", "cut.avi"}) {
+    MadeVideo video = walk(name, 40);
+    for (cv::Mat& grey : video.greys) cv::randu(grey, 0, 255);  // so that the frames are most of the file
+    video.index_first = true;
+    if (std::string(name).ends_with(".avi")) video.ticks_per_s = 20;
+    for (const double share : {0.4, 0.6, 0.8}) {
+      SCOPED_TRACE(std::string(name) + " " + std::to_string(share));
+      write_video(video);
+      test::cut_file(video.path, share);
+      const std::size_t frames = times_of(video.path).size();
+      EXPECT_GT(frames, 0u);
+      EXPECT_LT(frames, 40u);
+      EXPECT_EQ(reader.missing(), "ends after " + std::to_string(frames) + " of 40 frames");
+    }
+  }
+}
+
+TEST_F(Videos, WithoutTheirIndexAreSaidToBeCut) {
+  const MadeVideo video = walk("no_index.mp4", 10);
+  write_video(video);
+  test::cut_file(video.path, 0.7);
+  EXPECT_FALSE(reader.open(video.path));
+  EXPECT_THAT(reader.problem(), HasSubstr("cut short"));
+}
+
+TEST_F(Videos, AreNothingElse) {
+  for (const auto& [name, text] :
+       {std::pair{"words.txt", "no video\n"}, std::pair{"list.m3u8", "#EXTM3U\n#EXTINF:1,\nwalk.mp4\n"},
+        std::pair{"list.ffconcat", "ffconcat version 1.0\nfile walk.mp4\n"}}) {
+    write_video(walk("walk.mp4", 2));
+    EXPECT_FALSE(reader.open(test::write_text(folder.file(name), text))) << name;
+    EXPECT_NE(reader.problem(), "") << name;
+  }
+  EXPECT_FALSE(reader.is_open());
+  EXPECT_FALSE(reader.open(folder.file("%d.png")));
+}
+
+TEST_F(Videos, OfPublicReportsAreRight) {
+  HEEL_NEEDS_TEST_DATA("reports");
+  const std::string reports = test::data_path("reports/");
+  const std::vector<double> walk_s = times_of(reports + "video-last-frames-at-zero/walk.mp4");
+  ASSERT_EQ(walk_s.size(), 40u);
+  EXPECT_NEAR(walk_s[38], 1.90, 1e-6);
+  EXPECT_NEAR(walk_s[39], 1.95, 1e-6);
+  EXPECT_EQ(reader.missing(), "");
+  const std::vector<double> varied_s = times_of(reports + "video-variable-rate-in-heeld/vfr.mp4");
+  ASSERT_EQ(varied_s.size(), 40u);
+  EXPECT_NEAR(varied_s[19], 0.95, 1e-6);
+  EXPECT_NEAR(varied_s[39], 4.75, 1e-6);
+  EXPECT_EQ(reader.missing(), "");
+  EXPECT_EQ(times_of(reports + "video-cut-short/cuttail.mkv").size(), 20u);
+  EXPECT_EQ(reader.missing(), "ends after 20 of 40 frames");
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,27 @@
+// Video files made by FFmpeg's libraries, with time stamps and a display matrix of the test's choice.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+namespace heel::test {
+
+struct MadeVideo {
+  std::string path;  ///< its ending says which container: .mp4, .mkv, .avi …
+  std::vector<cv::Mat> greys;
+  std::vector<double> times_s;       ///< one of each frame
+  int b_frames = 0;                  ///< between two others: the frames are then stored in another order
+  std::vector<double> display_abcd;  ///< the display matrix's a, b, c, d; empty: none
+  int ticks_per_s = 1000;            ///< of its clock; of AVI files: the frame rate
+  bool index_first = false;          ///< of an MP4 file, so that it can be read when its end is missing
+};
+
+/// MPEG-4 video of nearly these pictures, whose sides must be multiples of 16. Throws std::runtime_error.
+void write_video(const MadeVideo& video);
+
+/// The first `share` of the file.
+void cut_file(const std::string& path, double share);
+
+}  // namespace heel::test
