@@ -60,11 +60,7 @@ class FrameSource {
   const std::string& description() const { return description_; }
   SourceCounters counters() const { return counters_; }
 
-  /// A device that gives no frame for this long has stalled: wait_frame() returns Lost.
-  static constexpr TimeNs kStall_ns = 2 * kNsPerS;
-
  protected:
-  static constexpr const char* kStallText = "no frame for 2 s";
   static constexpr const char* kDamagedText = "the driver marked the frame as damaged";
 
   /// Sets problem() and returns `result`. Allocates only when the text is longer than 256 bytes.

@@ -15,6 +15,7 @@
 #include "config/config_value.h"
 #include "models/robot_models.h"
 #include "support/complaint.h"
+#include "support/temporary_folder.h"
 
 namespace heel {
 namespace {
@@ -153,6 +154,18 @@ TEST(ConfigLoad, PathsInAddressesAreRelativeToTheFile) {
     const std::string text = std::string("[camera]\nsource = \"") + address + "\"\n";
     EXPECT_EQ(parse_config(text, "/etc/heel/f.toml").config.camera.source, address) << "it holds no path";
   }
+}
+
+TEST(ConfigLoad, AnEmptyFileMeansAllDefaults) {
+  for (const char* text : {"", "\n", "# nothing\n", "\xEF\xBB\xBF\r\n"}) {
+    const LoadedConfig loaded = parse_config(text, "f.toml");
+    EXPECT_EQ(loaded.config.camera.rate_hz, Config().camera.rate_hz);
+    EXPECT_EQ(loaded.config.control.law, Config().control.law);
+    for (const int line : loaded.line_of) EXPECT_EQ(line, 0);
+  }
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(load_config(test::write_text(folder.file("empty.toml"), "")).config.control.law,
+            Config().control.law);
 }
 
 TEST(ConfigLoad, MissingFileIsNamed) {

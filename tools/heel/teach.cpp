@@ -25,7 +25,8 @@
 namespace heel::cli {
 namespace {
 
-constexpr TimeNs kFrameTimeout_ns = 2 * kNsPerS;
+constexpr TimeNs kFrameTimeout_ns = kNsPerS;
+constexpr TimeNs kLongestSilence_ns = 10 * kNsPerS;
 constexpr std::uint64_t kSettlingFrames = 30;  // the camera's automatic exposure has settled by then
 
 struct TeachOptions {
@@ -78,12 +79,15 @@ std::vector<std::uint8_t> grey_from_camera(const TeachOptions& options, int& wid
   const std::unique_ptr<FrameSource> source = open_frame_source(config);
   const std::uint64_t wanted = wanted_frame(options);
   FrameView view;
+  TimeNs silent_ns = 0;  // a source that works says itself when it has waited long enough
   for (std::uint64_t received = 0; received <= wanted;) {
     const FrameResult result = source->wait_frame(kFrameTimeout_ns, view);
     if (result == FrameResult::Frame) {
       ++received;
+      silent_ns = 0;
       continue;
     }
+    if (result == FrameResult::Timeout && (silent_ns += kFrameTimeout_ns) < kLongestSilence_ns) continue;
     throw Error(fmt::format("{}: {} (expected frame {}, got {} frames)", options.camera_address,
                             source->problem().empty() ? to_string(result) : source->problem(), wanted,
                             received));

@@ -13,6 +13,7 @@
 #include "capture/driver_sequence.h"
 #include "capture/frame_source.h"
 #include "capture/luma_converter.h"
+#include "capture/stall_watch.h"
 #include "core/config.h"
 #include "realtime/spsc_queue.h"
 
@@ -46,7 +47,7 @@ class LibcameraSession {
 
   DriverSequence sequence;
   libcamera::Request* held = nullptr;  ///< its buffer is in use until the next wait_frame()
-  TimeNs t_last_frame_ns = 0;
+  StallWatch stall;
 
  private:
   /// The first plane of a buffer (the luma), mapped.

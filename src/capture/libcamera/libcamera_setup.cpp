@@ -143,7 +143,7 @@ OpenResult LibcameraSession::start(const CameraConfig& config) {
     return fail(OpenResult::Absent, fmt::format("does not start: {}", std::strerror(-error)));
   }
   started_ = true;
-  t_last_frame_ns = monotonic_now_ns();
+  stall.opened(monotonic_now_ns());
   for (const auto& request : requests_) {
     if (camera_->queueRequest(request.get()) != 0) return fail(OpenResult::Absent, "takes no requests");
   }

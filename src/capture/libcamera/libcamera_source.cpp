@@ -44,10 +44,11 @@ FrameResult LibcameraSource::wait_frame(TimeNs timeout_ns, FrameView& frame) {
   if (s.disconnected()) abandon_session("the camera is gone");
   const TimeNs now_ns = monotonic_now_ns();
   if (s.held == nullptr) {
-    if (now_ns - s.t_last_frame_ns > kStall_ns) abandon_session(kStallText);
+    if (s.stall.stalled(now_ns))
+      abandon_session(fmt::format("no frame for {} s", s.stall.allowed_ns() / kNsPerS).c_str());
     return FrameResult::Timeout;
   }
-  s.t_last_frame_ns = now_ns;
+  s.stall.frame(now_ns);
   if (s.held->status() == libcamera::Request::RequestCancelled) abandon_session("a request was cancelled");
   return deliver_held_request(now_ns, frame);
 }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <linux/videodev2.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -62,6 +64,7 @@ bool is_offered(const std::vector<std::uint32_t>& offered, PixelFormat format) {
 
 /// S_FMT. True: the device has set exactly what was requested.
 bool set_format(V4l2Device& device, const CameraConfig& config, PixelFormat wanted, V4l2Setup& setup) {
+  setup.busy = false;
   v4l2_format format{};
   format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   format.fmt.pix.width = static_cast<std::uint32_t>(config.width_px);
@@ -72,6 +75,7 @@ bool set_format(V4l2Device& device, const CameraConfig& config, PixelFormat want
       fmt::format("{}x{} {}", format.fmt.pix.width, format.fmt.pix.height, to_string(wanted));
   const int error = device.control(VIDIOC_S_FMT, &format);
   if (error != 0) {
+    setup.busy = error == EBUSY;
     setup.problem = fmt::format("cannot set {}: {}", requested, std::strerror(error));
     return false;
   }
@@ -134,7 +138,8 @@ bool try_format(V4l2Device& device, const CameraConfig& config, PixelFormat want
 
 }  // namespace
 
-void set_up_format(V4l2Device& device, const CameraConfig& config, V4l2Setup& setup) {
+void set_up_format(V4l2Device& device, const CameraConfig& config, const std::vector<PixelFormat>& without,
+                   V4l2Setup& setup) {
   const std::vector<std::uint32_t> offered = offered_formats(device);
   PixelFormat named = PixelFormat::Grey;
   if (parse_pixel_format(config.format, named)) {
@@ -145,7 +150,9 @@ void set_up_format(V4l2Device& device, const CameraConfig& config, V4l2Setup& se
   PixelFormat fastest = PixelFormat::Grey;
   double fastest_hz = -1.0;
   for (const PixelFormat candidate : pixel_formats()) {
-    if (!is_offered(offered, candidate)) continue;
+    if (!is_offered(offered, candidate) ||
+        std::find(without.begin(), without.end(), candidate) != without.end())
+      continue;
     any = true;
     if (!try_format(device, config, candidate, setup)) continue;
     if (setup.rate_hz >= config.rate_hz * (1.0 - kRateTolerance)) {
@@ -157,6 +164,7 @@ void set_up_format(V4l2Device& device, const CameraConfig& config, V4l2Setup& se
       fastest_hz = setup.rate_hz;
     }
   }
+  setup.none_left = !any && !without.empty();
   if (!any) {
     std::string names;
     for (const std::uint32_t fourcc : offered) names += (names.empty() ? "" : ", ") + fourcc_text(fourcc);

@@ -37,10 +37,11 @@ bool check_capabilities(V4l2Device& device, V4l2Setup& setup) {
 
 }  // namespace
 
-V4l2Setup set_up_device(V4l2Device& device, const CameraConfig& config) {
+V4l2Setup set_up_device(V4l2Device& device, const CameraConfig& config,
+                        const std::vector<PixelFormat>& without) {
   V4l2Setup setup;
   if (!check_capabilities(device, setup)) return setup;
-  set_up_format(device, config, setup);
+  set_up_format(device, config, without, setup);
   if (setup.complete) setup.complete = set_up_controls(device, config, setup);
   return setup;
 }

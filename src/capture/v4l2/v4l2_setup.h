@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "capture/pixel_format.h"
 #include "capture/v4l2/v4l2_device.h"
@@ -14,7 +15,9 @@ namespace heel {
 /// The set-up of a device, or why it failed.
 struct V4l2Setup {
   bool complete = false;
-  std::string problem;  ///< one line without the address, unless complete
+  bool busy = false;       ///< not complete because another program streams from the device
+  bool none_left = false;  ///< not complete because every format was left out
+  std::string problem;     ///< one line without the address, unless complete
 
   PixelFormat format = PixelFormat::Grey;
   std::uint32_t width_px = 0;
@@ -26,6 +29,8 @@ struct V4l2Setup {
   std::string controls;            ///< the fixed controls, e.g. "exposure (ms) 5, gain 20"
 };
 
-V4l2Setup set_up_device(V4l2Device& device, const CameraConfig& config);
+/// `without`: formats that are not tried where the configuration leaves the format free.
+V4l2Setup set_up_device(V4l2Device& device, const CameraConfig& config,
+                        const std::vector<PixelFormat>& without = {});
 
 }  // namespace heel

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "capture/v4l2/device_users.h"
 #include "realtime/clock.h"
 
 namespace heel {
@@ -53,21 +54,53 @@ V4l2Source::~V4l2Source() {
   close();
 }
 
+/// Formats for which the USB bus has no bandwidth are left out, one after the other, when the format is free.
 OpenResult V4l2Source::open() {
-  close();
-  OpenResult result = open_device();
-  if (result == OpenResult::Opened) result = start_streaming();
-  if (result != OpenResult::Opened) close();
-  return result;
+  std::vector<PixelFormat> without;
+  for (;;) {
+    close();
+    OpenResult result = open_device(without);
+    if (result == OpenResult::Opened) result = start_streaming();
+    if (result == OpenResult::Opened) return result;
+    if (no_bandwidth_) without.push_back(setup_.format);
+    PixelFormat named = PixelFormat::Grey;
+    if (no_bandwidth_ && !parse_pixel_format(config_.format, named)) continue;
+    close();
+    return no_bandwidth_ || setup_.none_left ? fail_without_bandwidth(without) : result;
+  }
 }
 
-OpenResult V4l2Source::open_device() {
+OpenResult V4l2Source::fail_without_bandwidth(const std::vector<PixelFormat>& tried) {
+  std::string names;
+  for (const PixelFormat format : tried)
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", to_string(format));
+  return fail(
+      OpenResult::Absent,
+      fmt::format("does not start streaming: too little USB bandwidth for {}x{} at {:g} Hz as {} (expected "
+                  "fewer cameras on this USB controller, camera.format = \"MJPG\", a smaller picture or a "
+                  "lower rate)",
+                  config_.width_px, config_.height_px, config_.rate_hz, names));
+}
+
+std::string V4l2Source::in_use_by() const {
+  const std::string programs = programs_holding(path_);
+  return programs.empty() ? "; another program is using it" : "; in use by " + programs;
+}
+
+OpenResult V4l2Source::open_device(const std::vector<PixelFormat>& without) {
+  no_bandwidth_ = false;
+  setup_ = {};
   if (const int error = device_->open(path_); error != 0) {
     const OpenResult result = means_device_absent(error) ? OpenResult::Absent : OpenResult::Refused;
     if (error == ENOTTY) return fail(result, "is not a device (expected a camera such as /dev/video0)");
-    return fail(result, fmt::format("cannot be opened: {}", std::strerror(error)));
+    std::string hint;
+    if (error == EACCES || error == EPERM)
+      hint = " (expected a user of the group video: sudo usermod -aG video USER, then log in again)";
+    if (error == EBUSY) hint = in_use_by();
+    return fail(result, fmt::format("cannot be opened: {}{}", std::strerror(error), hint));
   }
-  setup_ = set_up_device(*device_, config_);
+  setup_ = set_up_device(*device_, config_, without);
+  if (setup_.busy) return fail(OpenResult::Absent, setup_.problem + in_use_by());
   if (!setup_.complete) return fail(OpenResult::Refused, setup_.problem);
   description_ = fmt::format("{}: {}, {} {}x{} at {:.4g} Hz", address_, setup_.card, to_string(setup_.format),
                              setup_.width_px, setup_.height_px, setup_.rate_hz);
@@ -88,11 +121,13 @@ OpenResult V4l2Source::start_streaming() {
   }
   int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   if (const int error = device_->control(VIDIOC_STREAMON, &type); error != 0) {
-    return fail(OpenResult::Absent, fmt::format("does not start streaming: {}", std::strerror(error)));
+    no_bandwidth_ = error == ENOSPC;
+    return fail(OpenResult::Absent, fmt::format("does not start streaming: {}{}", std::strerror(error),
+                                                error == EBUSY ? in_use_by() : ""));
   }
   streaming_ = true;
   sequence_.restart();
-  t_last_frame_ns_ = monotonic_now_ns();
+  stall_.opened(monotonic_now_ns());
   converter_.configure(setup_.format, setup_.width_px, setup_.height_px, setup_.stride_bytes);
   return OpenResult::Opened;
 }
@@ -105,7 +140,7 @@ OpenResult V4l2Source::map_buffers() {
   if (const int error = device_->control(VIDIOC_REQBUFS, &request); error != 0) {
     const OpenResult result = means_device_absent(error) ? OpenResult::Absent : OpenResult::Refused;
     return fail(result, fmt::format("gives no buffers: {}{}", std::strerror(error),
-                                    error == EBUSY ? "; another program is using it" : ""));
+                                    error == EBUSY ? in_use_by() : ""));
   }
   if (request.count < kMinBuffers) {
     return fail(OpenResult::Refused,
@@ -137,11 +172,12 @@ FrameResult V4l2Source::wait_frame(TimeNs timeout_ns, FrameView& frame) {
   const int error = ready == PollResult::Ready ? device_->control(VIDIOC_DQBUF, &buffer) : EAGAIN;
   const TimeNs now_ns = monotonic_now_ns();
   if (error == EAGAIN) {
-    return now_ns - t_last_frame_ns_ > kStall_ns ? fail(FrameResult::Lost, kStallText) : FrameResult::Timeout;
+    if (!stall_.stalled(now_ns)) return FrameResult::Timeout;
+    return fail(FrameResult::Lost, fmt::format("no frame for {} s", stall_.allowed_ns() / kNsPerS));
   }
   if (error != 0) return fail_lost("gives no frame", error);
   if (buffer.index >= buffers_.size()) return fail_lost("gives a buffer that it does not have", EINVAL);
-  t_last_frame_ns_ = now_ns;
+  stall_.frame(now_ns);
   holding_ = true;
   held_ = buffer.index;
   sequence_.advance(buffer.sequence);

@@ -11,6 +11,7 @@
 #include "capture/driver_sequence.h"
 #include "capture/frame_source.h"
 #include "capture/luma_converter.h"
+#include "capture/stall_watch.h"
 #include "capture/v4l2/v4l2_device.h"
 #include "capture/v4l2/v4l2_setup.h"
 
@@ -39,7 +40,9 @@ class V4l2Source final : public FrameSource {
     std::size_t bytes = 0;
   };
 
-  OpenResult open_device();
+  OpenResult open_device(const std::vector<PixelFormat>& without);
+  OpenResult fail_without_bandwidth(const std::vector<PixelFormat>& tried);
+  std::string in_use_by() const;
   OpenResult start_streaming();
   OpenResult map_buffers();
   int queue(std::uint32_t index);
@@ -52,10 +55,11 @@ class V4l2Source final : public FrameSource {
   V4l2Setup setup_;
   std::vector<Buffer> buffers_;
   LumaConverter converter_;
+  bool no_bandwidth_ = false;  ///< the last start of streaming failed for lack of USB bandwidth
   bool streaming_ = false;
   bool holding_ = false;  ///< buffer `held_` is in use until the next call
   std::uint32_t held_ = 0;
-  TimeNs t_last_frame_ns_ = 0;  ///< when the device last gave a buffer
+  StallWatch stall_;
   DriverSequence sequence_;
 };
 

@@ -52,7 +52,9 @@ struct ScriptedCamera {
   std::map<std::uint32_t, ScriptedControl> controls;
   std::uint32_t most_buffers = 8;
   int open_error = 0;
-  std::map<unsigned long, int> errors;  ///< by request: errno, for as long as it stands here
+  TimeNs first_frame_after_ns = 0;              ///< after STREAMON
+  std::set<std::uint32_t> without_bandwidth{};  ///< formats for which STREAMON answers ENOSPC
+  std::map<unsigned long, int> errors;          ///< by request: errno, for as long as it stands here
   std::deque<ScriptedFrame> frames;
 
   // The calls that it received.
@@ -88,7 +90,8 @@ class ScriptedV4l2Device final : public V4l2Device {
   void unmap(void*, std::size_t) override { ++camera_.unmapped; }
   PollResult wait_readable(TimeNs timeout_ns) override {
     EXPECT_TRUE(camera_.streaming);
-    if (!camera_.frames.empty()) return PollResult::Ready;
+    const bool started = monotonic_now_ns() - t_streamon_ns_ >= camera_.first_frame_after_ns;
+    if (started && !camera_.frames.empty()) return PollResult::Ready;
     sleep_until_ns(monotonic_now_ns() + std::min(timeout_ns, kNsPerMs));
     return PollResult::Timeout;
   }
@@ -121,7 +124,9 @@ class ScriptedV4l2Device final : public V4l2Device {
       case VIDIOC_DQBUF:
         return dequeue(*static_cast<v4l2_buffer*>(argument));
       case VIDIOC_STREAMON:
+        if (camera_.without_bandwidth.contains(camera_.format)) return ENOSPC;
         camera_.streaming = true;
+        t_streamon_ns_ = monotonic_now_ns();
         return 0;
       case VIDIOC_STREAMOFF:
         camera_.streaming = false;
@@ -237,6 +242,7 @@ class ScriptedV4l2Device final : public V4l2Device {
 
   ScriptedCamera& camera_;
   std::size_t image_bytes_ = 0;
+  TimeNs t_streamon_ns_ = 0;
   std::vector<std::vector<std::uint8_t>> memory_;
 };
 

@@ -9,8 +9,11 @@
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
+#include "capture/v4l2/device_users.h"
 #include "capture/v4l2/scripted_v4l2_device.h"
 #include "support/allocation_count.h"
+#include "support/process.h"
+#include "support/temporary_folder.h"
 
 namespace heel {
 namespace {
@@ -227,13 +230,74 @@ TEST_F(V4l2SourceTest, EveryErrorOfTheDeviceMeansLostAndItCanBeOpenedAgain) {
 TEST_F(V4l2SourceTest, AShortSilenceIsATimeoutAndALongOneMeansLost) {
   V4l2Source source = make();
   ASSERT_EQ(source.open(), OpenResult::Opened);
+  give(0);
+  expect_frame(source, 0);
   const TimeNs opened_ns = monotonic_now_ns();
   FrameResult result = FrameResult::Timeout;
   while (result == FrameResult::Timeout && monotonic_now_ns() - opened_ns < 60 * kNsPerS) {
     result = source.wait_frame(kNsPerMs, frame_);
   }
   EXPECT_EQ(result, FrameResult::Lost);
-  EXPECT_GE(monotonic_now_ns() - opened_ns, V4l2Source::kStall_ns);
+  EXPECT_GE(monotonic_now_ns() - opened_ns, StallWatch::kBetweenFrames_ns);
+  EXPECT_THAT(source.problem(), HasSubstr("no frame for 2 s"));
+}
+
+TEST_F(V4l2SourceTest, ACameraThatTakesLongToStartGivesItsFrames) {
+  camera_.first_frame_after_ns = 2600 * kNsPerMs;
+  V4l2Source source = make();
+  ASSERT_EQ(source.open(), OpenResult::Opened);
+  give(0);
+  FrameResult result = FrameResult::Timeout;
+  while (result == FrameResult::Timeout) result = source.wait_frame(100 * kNsPerMs, frame_);
+  EXPECT_EQ(result, FrameResult::Frame) << source.problem();
+  EXPECT_EQ(camera_.opened, 1);
+}
+
+TEST(StallWatch, GrowsWithEachOpeningThatGaveNoFrame) {
+  StallWatch watch;
+  for (const TimeNs allowed_s : {4, 8, 16, 16}) {
+    watch.opened(0);
+    EXPECT_FALSE(watch.stalled(allowed_s * kNsPerS));
+    EXPECT_TRUE(watch.stalled(allowed_s * kNsPerS + 1));
+  }
+  watch.frame(100 * kNsPerS);
+  EXPECT_TRUE(watch.stalled(102 * kNsPerS + 1));
+  watch.opened(0);
+  EXPECT_TRUE(watch.stalled(4 * kNsPerS + 1)) << "a frame has shown that the camera works";
+}
+
+TEST_F(V4l2SourceTest, FormatsWithoutUsbBandwidthAreLeftOut) {
+  camera_.formats = {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_MJPEG};
+  camera_.without_bandwidth = {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_YUYV};
+  V4l2Source source = make();
+  ASSERT_EQ(source.open(), OpenResult::Opened) << source.problem();
+  EXPECT_EQ(camera_.format, std::uint32_t{V4L2_PIX_FMT_MJPEG});
+  EXPECT_THAT(source.description(), HasSubstr("MJPG 8x4"));
+
+  camera_.without_bandwidth.insert(V4L2_PIX_FMT_MJPEG);
+  EXPECT_EQ(source.open(), OpenResult::Absent);
+  EXPECT_THAT(source.problem(), testing::AllOf(HasSubstr("too little USB bandwidth for 8x4"),
+                                               HasSubstr("as GREY, YUYV, MJPG")));
+  EXPECT_EQ(camera_.unmapped, camera_.mapped);
+
+  config_.format = "YUYV";
+  V4l2Source named = make();
+  EXPECT_EQ(named.open(), OpenResult::Absent);
+  EXPECT_THAT(named.problem(), HasSubstr("USB bandwidth"));
+  EXPECT_EQ(camera_.format, std::uint32_t{V4L2_PIX_FMT_YUYV}) << "a named format is not replaced";
+}
+
+TEST_F(V4l2SourceTest, ThatAnotherProgramUsesTheCameraIsSaidWithItsName) {
+  const test::TemporaryFolder folder;
+  const std::string path = test::write_text(folder.file("camera"), "");
+  const test::Process other({"sleep", "600"});
+  EXPECT_EQ(programs_holding(path), "");
+  const test::Process holder({"/bin/sh", "-c", "exec 9<" + path + "; exec sleep 600"});
+  EXPECT_TRUE(test::eventually([&] { return programs_holding(path).starts_with("sleep (process "); }));
+  camera_.errors = {{VIDIOC_S_FMT, EBUSY}};
+  V4l2Source source(path, config_, std::make_unique<ScriptedV4l2Device>(camera_));
+  EXPECT_EQ(source.open(), OpenResult::Absent);
+  EXPECT_THAT(source.problem(), HasSubstr("; in use by sleep (process "));
 }
 
 TEST_F(V4l2SourceTest, OpeningGivesAbsentOrRefusedWithTheReason) {
@@ -243,6 +307,7 @@ TEST_F(V4l2SourceTest, OpeningGivesAbsentOrRefusedWithTheReason) {
   EXPECT_THAT(source.problem(), HasSubstr("v4l2:/dev/scripted: cannot be opened: No such file"));
   camera_.open_error = EACCES;
   EXPECT_EQ(source.open(), OpenResult::Refused);
+  EXPECT_THAT(source.problem(), HasSubstr("Permission denied (expected a user of the group video"));
   camera_.open_error = ENOTTY;
   EXPECT_EQ(source.open(), OpenResult::Refused);
   EXPECT_THAT(source.problem(), HasSubstr("is not a device"));
