@@ -1,128 +1,51 @@
-// The three kinds of camera file, of which ROS camera_info YAML is also written:
-//
-// ROS:     camera_matrix: {rows, cols, data}, distortion_model: plumb_bob, distortion_coefficients: {…}
-// OpenCV:  %YAML:1.0, camera_matrix: !!opencv-matrix {rows, cols, dt, data}, no model name
-// Both:    image_width, image_height; coefficients in the order k1 k2 p1 p2 [k3].
+// What the values of a camera file mean, and whether a camera can have them. Coefficients in OpenCV's order:
+// k1 k2 p1 p2 [k3 [k4 k5 k6 [s1 s2 s3 s4 [tx ty]]]]; of a fisheye lens k1 k2 k3 k4.
 #include "files/camera_info.h"
 
 #include <fmt/ranges.h>
-#include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "files/atomic_file.h"
+#include "files/camera_yaml.h"
 #include "heel/camera_model.h"
 #include "heel/error.h"
+#include "vision/lens/lens_fold.h"
 
 namespace heel {
 namespace {
 
-constexpr std::size_t kMaxCameraInfoBytes = 1 << 20;
-constexpr int kMaxSensorSide_px = 32768;
-// From a fisheye lens to a long telephoto lens.
+// From a wide-angle lens to a long telephoto lens.
 constexpr double kMinFocalPerWidth = 0.2;
 constexpr double kMaxFocalPerWidth = 10.0;
+// The field of view of a fisheye lens across the picture.
+constexpr double kMinFisheyeView_deg = 5.0;
+constexpr double kMaxFisheyeView_deg = 240.0;
+constexpr std::size_t kFisheyeCoefficients = 4;
 
-Error key_error(const std::string& path, const std::string& key, const std::string& found,
-                const std::string& expected) {
-  return Error(fmt::format("{}: {}: {} (expected {})", path, key, found, expected));
-}
-
-/// OpenCV begins its files with "%YAML:1.0", which is not a YAML directive. The line is emptied, not removed,
-/// so that line numbers in messages stay right.
-std::string without_opencv_directive(std::string text) {
-  if (text.starts_with("%YAML:")) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    text.replace(0, end, "");
-  }
-  return text;
-}
-
-YAML::Node parse_file(const std::string& path) {
-  const std::string text = read_whole_file(path, kMaxCameraInfoBytes);
-  if (text.starts_with("<?xml")) {
-    throw Error(path + ": this is XML (expected camera_info YAML, or OpenCV FileStorage in YAML or JSON)");
-  }
-  YAML::Node root;
-  try {
-    root = YAML::Load(without_opencv_directive(text));
-  } catch (const YAML::Exception& error) {
-    throw Error(fmt::format("{}:{}:{}: not YAML: {} (expected a camera_info file)", path, error.mark.line + 1,
-                            error.mark.column + 1, error.msg));
-  }
-  if (!root.IsMap()) {
-    throw Error(path +
-                ": not a camera file (expected YAML with image_width, image_height, camera_matrix, "
-                "distortion_coefficients)");
-  }
-  return root;
-}
-
-YAML::Node required(const YAML::Node& parent, const std::string& path, const std::string& key,
-                    const std::string& expected) {
-  const YAML::Node node = parent[key];
-  if (!node || node.IsNull()) throw key_error(path, key, "missing", expected);
-  return node;
-}
-
-int read_image_side(const YAML::Node& root, const std::string& path, const std::string& key) {
-  const std::string expected = fmt::format("whole number of pixels, 1…{}", kMaxSensorSide_px);
-  const YAML::Node node = required(root, path, key, expected);
-  int side_px = 0;
-  if (!node.IsScalar() || !YAML::convert<int>::decode(node, side_px) || side_px < 1 ||
-      side_px > kMaxSensorSide_px) {
-    throw key_error(path, key, node.IsScalar() ? "'" + node.Scalar() + "'" : "not a number", expected);
-  }
-  return side_px;
-}
-
-/// The numbers of a matrix; their count must be rows × cols where the file states those.
-std::vector<double> read_matrix(const YAML::Node& root, const std::string& path, const std::string& key,
-                                const std::string& expected) {
-  const YAML::Node matrix = required(root, path, key, expected);
-  const YAML::Node data = matrix.IsMap() ? matrix["data"] : matrix;
-  if (!data || !data.IsSequence()) throw key_error(path, key + ".data", "missing or not a list", expected);
-
-  std::vector<double> values;
-  for (std::size_t i = 0; i < data.size(); ++i) {
-    double value = 0.0;
-    if (!data[i].IsScalar() || !YAML::convert<double>::decode(data[i], value) || !std::isfinite(value)) {
-      throw key_error(path, fmt::format("{}.data[{}]", key, i),
-                      data[i].IsScalar() ? "'" + data[i].Scalar() + "'" : "not a number", "a finite number");
-    }
-    values.push_back(value);
-  }
-  if (matrix.IsMap() && matrix["rows"] && matrix["cols"]) {
-    long rows = 0;
-    long cols = 0;
-    if (!YAML::convert<long>::decode(matrix["rows"], rows) ||
-        !YAML::convert<long>::decode(matrix["cols"], cols) ||
-        rows * cols != static_cast<long>(values.size())) {
-      throw key_error(path, key, fmt::format("{} numbers", values.size()), "rows × cols of them");
-    }
-  }
-  return values;
-}
+constexpr const char* kModels = "plumb_bob, rational_polynomial or equidistant";
 
 /// Refuses a focal length or a principal point that no camera with this size of picture has.
-void require_possible(const CameraModel& camera, const std::string& path) {
-  const std::string key = "camera_matrix.data";
+void require_possible(const CameraModel& camera, const std::string& path, const std::string& key) {
   const double least_px = kMinFocalPerWidth * camera.width_px, most_px = kMaxFocalPerWidth * camera.width_px;
   const auto focal = [&](const char* name, double value_px) {
     if (value_px >= least_px && value_px <= most_px) return;
-    throw key_error(path, key, fmt::format("{} {:g}", name, value_px),
-                    fmt::format("{:g}…{:g} px; {}", least_px, most_px,
-                                value_px < least_px ? "is it in millimetres?" : "was image_width edited?"));
+    throw camera_key_error(
+        path, key, fmt::format("{} {:g}", name, value_px),
+        fmt::format("{:g}…{:g} px; {}", least_px, most_px,
+                    value_px < least_px ? "is it in millimetres?" : "was image_width edited?"));
   };
   const auto centre = [&](const char* name, double value_px, int side_px, const char* side) {
     if (value_px >= 0.0 && value_px <= side_px) return;
-    throw key_error(path, key, fmt::format("{} {:g}", name, value_px),
-                    fmt::format("inside the picture, 0…{} px{}", side_px,
-                                value_px > side_px ? fmt::format("; was {} edited?", side) : ""));
+    throw camera_key_error(path, key, fmt::format("{} {:g}", name, value_px),
+                           fmt::format("inside the picture, 0…{} px{}", side_px,
+                                       value_px > side_px ? fmt::format("; was {} edited?", side) : ""));
   };
   focal("fx", camera.fx);
   focal("fy", camera.fy);
@@ -130,26 +53,25 @@ void require_possible(const CameraModel& camera, const std::string& path) {
   centre("cy", camera.cy, camera.height_px, "image_height");
 }
 
-void read_intrinsics(const YAML::Node& root, const std::string& path, CameraModel& camera) {
-  const std::string key = "camera_matrix";
-  const std::vector<double> k = read_matrix(root, path, key, "3 × 3: fx 0 cx, 0 fy cy, 0 0 1");
-  if (k.size() != 9) {
-    throw key_error(path, key + ".data", fmt::format("{} numbers", k.size()), "9: fx 0 cx, 0 fy cy, 0 0 1");
-  }
-  if (k[1] != 0.0) throw key_error(path, key + ".data[1]", fmt::format("skew {}", k[1]), "0: no skew");
-  if (k[3] != 0.0 || k[6] != 0.0 || k[7] != 0.0 || k[8] != 1.0) {
-    throw key_error(path, key + ".data", "not a pinhole camera's matrix",
-                    "fx 0 cx, 0 fy cy, 0 0 1, row by row");
-  }
-  if (k[0] <= 0.0 || k[4] <= 0.0) {
-    throw key_error(path, key + ".data", fmt::format("fx {}, fy {}", k[0], k[4]),
-                    "focal lengths above 0, px");
-  }
+void read_intrinsics(const CameraYaml& file, CameraModel& camera) {
+  const std::string key = file.matrix_key();
+  const std::string data_key = key == "K" || key == "k" ? key : key + ".data";
+  const std::vector<double> k = file.matrix(key, "3 × 3: fx 0 cx, 0 fy cy, 0 0 1");
+  const auto refuse = [&](const std::string& found, const std::string& expected) {
+    throw camera_key_error(file.path(), data_key, found, expected);
+  };
+  if (k.size() != 9) refuse(fmt::format("{} numbers", k.size()), "9: fx 0 cx, 0 fy cy, 0 0 1");
+  if (k[1] != 0.0)
+    throw camera_key_error(file.path(), data_key + "[1]", fmt::format("skew {}", k[1]), "0: no skew");
+  if (k[3] != 0.0 || k[6] != 0.0 || k[7] != 0.0 || k[8] != 1.0)
+    refuse("not a pinhole camera's matrix", "fx 0 cx, 0 fy cy, 0 0 1, row by row");
+  if (k[0] <= 0.0 || k[4] <= 0.0)
+    refuse(fmt::format("fx {}, fy {}", k[0], k[4]), "focal lengths above 0, px");
   camera.fx = k[0];
   camera.cx = k[2];
   camera.fy = k[4];
   camera.cy = k[5];
-  require_possible(camera, path);
+  require_possible(camera, file.path(), data_key);
 }
 
 /// The lens model of OpenCV that has this number of coefficients.
@@ -166,23 +88,104 @@ std::string model_with_coefficients(std::size_t count) {
   }
 }
 
-void read_distortion(const YAML::Node& root, const std::string& path, CameraModel& camera) {
-  if (const YAML::Node model = root["distortion_model"]) {
-    const std::string name = model.IsScalar() ? model.Scalar() : "";
-    if (name != "plumb_bob") throw key_error(path, "distortion_model", "'" + name + "'", "plumb_bob");
+/// The model that the file names; of a file that names none, as OpenCV writes it: by the number of
+/// coefficients.
+LensModel named_model(const CameraYaml& file, std::size_t coefficients) {
+  const std::string name = file.word("distortion_model");
+  if (name == "plumb_bob" || name == "radtan") return LensModel::PlumbBob;
+  if (name == "rational_polynomial" || name == "rational") return LensModel::Rational;
+  if (name == "equidistant" || name == "fisheye" || name == "kannala_brandt4") return LensModel::Fisheye;
+  if (!name.empty() && name != "none")
+    throw camera_key_error(file.path(), "distortion_model", "'" + name + "'", kModels);
+  if (file.count("fisheye_model") != 0) return LensModel::Fisheye;
+  return coefficients > 5 ? LensModel::Rational : LensModel::PlumbBob;
+}
+
+/// The first `used` of the coefficients. The others must be 0: then the lens is the same without them.
+std::vector<double> leading(const CameraYaml& file, const std::vector<double>& d, std::size_t used,
+                            const std::string& expected) {
+  std::vector<double> first = d;
+  first.resize(used, 0.0);
+  const bool rest_is_0 = std::all_of(d.begin() + static_cast<long>(std::min(used, d.size())), d.end(),
+                                     [](double value) { return value == 0.0; });
+  if (!rest_is_0) {
+    const std::string key = file.distortion_key();
+    throw camera_key_error(file.path(), key == "D" || key == "d" ? key : key + ".data",
+                           fmt::format("{} numbers: {}", d.size(), model_with_coefficients(d.size())),
+                           expected);
   }
-  const std::string key = "distortion_coefficients";
-  const std::vector<double> d = read_matrix(root, path, key, "k1 k2 p1 p2 [k3]");
-  if (d.size() != 4 && d.size() != 5) {
-    throw key_error(path, key + ".data",
-                    fmt::format("{} numbers: {}", d.size(), model_with_coefficients(d.size())),
-                    "4 or 5, plumb_bob: k1 k2 p1 p2 [k3]");
+  return first;
+}
+
+void require_known_count(const CameraYaml& file, std::size_t count) {
+  for (const std::size_t known : {0u, 4u, 5u, 8u, 12u, 14u})
+    if (count == known) return;
+  throw camera_key_error(file.path(), file.distortion_key(), fmt::format("{} numbers", count),
+                         "4 or 5: k1 k2 p1 p2 [k3]; 8 of the rational model; 4 of a fisheye lens");
+}
+
+void read_distortion(const CameraYaml& file, CameraModel& camera) {
+  const std::vector<double> given = file.matrix(file.distortion_key(), "k1 k2 p1 p2 [k3]");
+  require_known_count(file, given.size());
+  const LensModel model = named_model(file, given.size());
+  if (model == LensModel::Fisheye) {
+    const std::vector<double> d = leading(file, given, kFisheyeCoefficients, "4, equidistant: k1 k2 k3 k4");
+    camera.lens = model;
+    camera.k1 = d[0];
+    camera.k2 = d[1];
+    camera.k3 = d[2];
+    camera.k4 = d[3];
+    return;
   }
+  const std::vector<double> d =
+      model == LensModel::Rational
+          ? leading(file, given, 8, "8, rational_polynomial: k1 k2 p1 p2 k3 k4 k5 k6")
+          : leading(file, given, 5,
+                    "4 or 5, plumb_bob: k1 k2 p1 p2 [k3]; or distortion_model: rational_polynomial");
   camera.k1 = d[0];
   camera.k2 = d[1];
   camera.p1 = d[2];
   camera.p2 = d[3];
-  camera.k3 = d.size() == 5 ? d[4] : 0.0;
+  camera.k3 = d[4];
+  if (model != LensModel::Rational || (d[5] == 0.0 && d[6] == 0.0 && d[7] == 0.0)) return;
+  camera.lens = model;
+  camera.k4 = d[5];
+  camera.k5 = d[6];
+  camera.k6 = d[7];
+}
+
+/// The distortion of no lens: two directions are seen at one pixel, or the picture shows more than there is.
+void require_lens(const CameraModel& camera, const CameraYaml& file) {
+  if (camera.lens == LensModel::Fisheye) {
+    const double view_deg = camera.width_px / camera.fx * 180.0 / std::numbers::pi;
+    if (view_deg < kMinFisheyeView_deg || view_deg > kMaxFisheyeView_deg) {
+      throw camera_key_error(file.path(), file.matrix_key(),
+                             fmt::format("a field of view of {:.0f}°", view_deg),
+                             fmt::format("{:g}…{:g}°", kMinFisheyeView_deg, kMaxFisheyeView_deg));
+    }
+  }
+  const std::optional<double> fold_px = fold_in_picture_px(camera);
+  if (!fold_px) return;
+  throw camera_key_error(
+      file.path(), file.distortion_key(),
+      fmt::format("the picture folds {:.0f} px from the principal point, which no lens does", *fold_px),
+      "coefficients that hold up to the corners: calibrate with the board in the corners too; is the order "
+      "k1 k2 p1 "
+      "p2 k3?");
+}
+
+/// A CameraInfo message describes the whole sensor, of which it may give a part, or every second pixel.
+void refuse_part_of_sensor(const CameraYaml& file) {
+  for (const char* key : {"binning_x", "binning_y"}) {
+    if (const long binning = file.count(key); binning > 1)
+      throw camera_key_error(file.path(), key, std::to_string(binning),
+                             "0 or 1: K of the pictures as they are");
+  }
+  for (const char* key : {"x_offset", "y_offset"}) {
+    if (const long offset = file.count("roi", key); offset != 0)
+      throw camera_key_error(file.path(), fmt::format("roi.{}", key), std::to_string(offset),
+                             "0: the whole picture");
+  }
 }
 
 std::string matrix_yaml(const std::string& key, int rows, int cols, const std::vector<double>& values) {
@@ -194,22 +197,38 @@ std::string matrix_yaml(const std::string& key, int rows, int cols, const std::v
 }  // namespace
 
 CameraModel read_camera_model(const std::string& path) {
-  const YAML::Node root = parse_file(path);
+  const CameraYaml file(path);
   CameraModel camera;
-  camera.width_px = read_image_side(root, path, "image_width");
-  camera.height_px = read_image_side(root, path, "image_height");
-  read_intrinsics(root, path, camera);
-  read_distortion(root, path, camera);
+  camera.width_px = file.side_px(file.width_key());
+  camera.height_px = file.side_px(file.height_key());
+  refuse_part_of_sensor(file);
+  read_intrinsics(file, camera);
+  read_distortion(file, camera);
+  require_lens(camera, file);
   return camera;
 }
 
+const char* lens_model_name(LensModel lens) {
+  switch (lens) {
+    case LensModel::PlumbBob:
+      return "plumb_bob";
+    case LensModel::Rational:
+      return "rational_polynomial";
+    case LensModel::Fisheye:
+      return "equidistant";
+  }
+  return "?";
+}
+
 void write_camera_model(const CameraModel& camera, const std::string& path) {
+  std::vector<double> d{camera.k1, camera.k2, camera.p1, camera.p2, camera.k3};
+  if (camera.lens == LensModel::Rational) d.insert(d.end(), {camera.k4, camera.k5, camera.k6});
+  if (camera.lens == LensModel::Fisheye) d = {camera.k1, camera.k2, camera.k3, camera.k4};
   std::string text = fmt::format("image_width: {}\nimage_height: {}\ncamera_name: camera\n", camera.width_px,
                                  camera.height_px);
   text += matrix_yaml("camera_matrix", 3, 3, {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1});
-  text += "distortion_model: plumb_bob\n";
-  text +=
-      matrix_yaml("distortion_coefficients", 1, 5, {camera.k1, camera.k2, camera.p1, camera.p2, camera.k3});
+  text += fmt::format("distortion_model: {}\n", lens_model_name(camera.lens));
+  text += matrix_yaml("distortion_coefficients", 1, static_cast<int>(d.size()), d);
   text += matrix_yaml("rectification_matrix", 3, 3, {1, 0, 0, 0, 1, 0, 0, 0, 1});
   text += matrix_yaml("projection_matrix", 3, 4,
                       {camera.fx, 0, camera.cx, 0, 0, camera.fy, camera.cy, 0, 0, 0, 1, 0});

@@ -7,9 +7,13 @@
 
 namespace heel {
 
-/// Reads ROS camera_info YAML, or OpenCV FileStorage (camera_matrix, distortion_coefficients, image_width,
-/// image_height). Throws heel::Error naming the file, the key and what was expected.
+/// Reads ROS camera_info YAML, a CameraInfo message as it is printed, or OpenCV FileStorage
+/// (files/camera_yaml.h). Throws heel::Error naming the file, the key and what was expected, also for values
+/// that no camera has.
 CameraModel read_camera_model(const std::string& path);
+
+/// As ROS calls it.
+const char* lens_model_name(LensModel lens);
 
 /// Writes ROS camera_info YAML.
 void write_camera_model(const CameraModel& camera, const std::string& path);

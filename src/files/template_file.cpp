@@ -58,7 +58,7 @@ void require(bool holds, const std::string& path, const std::string& key, const 
 }
 
 bool all_finite(const CameraModel& c) {
-  for (double value : {c.fx, c.fy, c.cx, c.cy, c.k1, c.k2, c.p1, c.p2, c.k3}) {
+  for (double value : {c.fx, c.fy, c.cx, c.cy, c.k1, c.k2, c.p1, c.p2, c.k3, c.k4, c.k5, c.k6}) {
     if (!std::isfinite(value)) return false;
   }
   return true;

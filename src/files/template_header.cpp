@@ -6,6 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "files/camera_info.h"
 #include "files/template_file.h"
 #include "heel/error.h"
 
@@ -44,6 +45,21 @@ std::vector<std::size_t> parse_further(const Json& header, const std::string& pa
   return image_bytes;
 }
 
+/// Of another lens than plumb_bob, which has no key of its own.
+void read_lens(const Json& camera, const std::string& path, CameraModel& model) {
+  if (!camera.contains("lens")) return;
+  const auto name = camera.at("lens").get<std::string>();
+  for (const LensModel lens : {LensModel::Rational, LensModel::Fisheye}) {
+    if (name == lens_model_name(lens)) model.lens = lens;
+  }
+  if (model.lens == LensModel::PlumbBob)
+    throw Error(
+        fmt::format("{}: camera: lens: '{}' (expected rational_polynomial or equidistant)", path, name));
+  camera.at("k4").get_to(model.k4);
+  camera.at("k5").get_to(model.k5);
+  camera.at("k6").get_to(model.k6);
+}
+
 }  // namespace
 
 std::string template_header(const ShirtTemplate& shirt, const std::vector<std::size_t>& further_bytes) {
@@ -67,6 +83,13 @@ std::string template_header(const ShirtTemplate& shirt, const std::vector<std::s
         {"k3", c.k3}}},
       {"settings", {{"oriented", shirt.oriented}, {"max_features", shirt.max_features}}}};
   if (shirt.turned) header["turned"] = true;
+  if (c.lens != LensModel::PlumbBob) {
+    Json& camera = header["camera"];
+    camera["lens"] = lens_model_name(c.lens);
+    camera["k4"] = c.k4;
+    camera["k5"] = c.k5;
+    camera["k6"] = c.k6;
+  }
   for (std::size_t i = 0; i < further_bytes.size(); ++i)
     header["further_views"].push_back(further_json(shirt.further_views[i], further_bytes[i]));
   return header.dump(2) + "\n";
@@ -96,6 +119,7 @@ std::vector<std::size_t> parse_template_header(std::string_view text, const std:
     camera.at("p1").get_to(shirt.camera.p1);
     camera.at("p2").get_to(shirt.camera.p2);
     camera.at("k3").get_to(shirt.camera.k3);
+    read_lens(camera, path, shirt.camera);
     header.at("settings").at("oriented").get_to(shirt.oriented);
     header.at("settings").at("max_features").get_to(shirt.max_features);
     return parse_further(header, path, shirt);

@@ -185,12 +185,25 @@ TEST_F(CameraFile, RefusalsNameFileKeyAndWhatIsExpected) {
       {"700.5, 0,", "seven, 0,", "camera_matrix.data[0]: 'seven'", "finite number"},
       {"700.5, 0,", ".nan, 0,", "camera_matrix.data[0]: '.nan'", "finite number"},
       {"0, 0, 1]", "0, 1, 1]", "camera_matrix.data", "row by row"},
-      {"plumb_bob", "equidistant", "distortion_model: 'equidistant'", "plumb_bob"},
-      {"plumb_bob", "rational_polynomial", "distortion_model: 'rational_polynomial'", "plumb_bob"},
+      {"plumb_bob", "omnidirectional", "distortion_model: 'omnidirectional'",
+       "plumb_bob, rational_polynomial or equi"},
+      {"plumb_bob", "equidistant", "distortion_coefficients.data: 5 numbers", "equidistant: k1 k2 k3 k4"},
+      {"plumb_bob", "[plumb_bob]", "distortion_model: not a word", "plumb_bob"},
+      {"image_width: 640", "image_width: 640\nimage_width: 640", "camera.yaml:2: image_width: given twice",
+       "once"},
+      {"rows: 3\n  cols: 3\n  data: [700", "rows: 3\n  rows: 3\n  data: [700",
+       "camera.yaml:6: rows: given twice", "once"},
+      {"0.125, 0.001", "0.125 .inf 0.001", "distortion_coefficients.data[2]: '.inf'", "finite number"},
+      {"-0.25, 0.125, 0.001", "-1.5, 0.125, 0.001", "distortion_coefficients: the picture folds",
+       "up to the corners"},
+      {"cols: 5\n  data: [-0.25,", "cols: 6\n  data: [0, -0.25,", "6 numbers", "4 or 5"},
+      {"image_height: 480", "image_height: 480\nbinning_x: 2", "binning_x: 2", "0 or 1"},
+      {"image_height: 480", "image_height: 480\nroi: {x_offset: 10}", "roi.x_offset: 10",
+       "the whole picture"},
+      {"image_width: 640", "cam0: {}", "cam0: a camera chain of kalibr", "camera_info"},
       {"distortion_coefficients", "distortion_coefficient", "distortion_coefficients: missing", "k1 k2"},
       {"cols: 5\n  data: [-0.25,", "cols: 8\n  data: [0, 0, 0, -0.25,", "8 numbers: the rational model",
        "4 or 5"},
-      {"cols: 5\n  data: [-0.25, 0.125, 0.001, -0.002, 0.03]", "cols: 0\n  data: []", "0 numbers", "4 or 5"},
       {"image_width: 640", "<?xml version=\"1.0\"?>", "XML", "camera_info YAML"},
       {"image_width: 640", "image_width: [640", "not YAML", "camera_info"},
   };
@@ -203,6 +216,134 @@ TEST_F(CameraFile, RefusalsNameFileKeyAndWhatIsExpected) {
                 AllOf(HasSubstr(path), HasSubstr(row.key), HasSubstr(row.expected), Not(HasSubstr("\n"))))
         << row.to;
   }
+}
+
+std::string with_distortion(const std::string& model, const std::string& numbers, int count) {
+  std::string text = kRos;
+  text.replace(text.find("plumb_bob"), 9, model);
+  const std::size_t at = text.find("cols: 5");
+  text.replace(at, text.find("rectification") - at,
+               "cols: " + std::to_string(count) + "\n  data: [" + numbers + "]\n");
+  return text;
+}
+
+TEST_F(CameraFile, TakesTheSameLensInOtherSpellings) {
+  const struct {
+    const char* model;
+    const char* numbers;
+    int count;
+    double k1, k2, p1, p2, k3;
+  } rows[] = {
+      {"plumb_bob", "-0.25 0.125 0.001 -0.002 0.03", 5, -0.25, 0.125, 0.001, -0.002, 0.03},
+      {"plumb_bob", "-0.25, 0.125  0.001,\n    -0.002", 4, -0.25, 0.125, 0.001, -0.002, 0.0},
+      {"plumb_bob", "-0.25, 0.125, 0.001, -0.002, 0.03, 0, 0, 0.0", 8, -0.25, 0.125, 0.001, -0.002, 0.03},
+      {"rational_polynomial", "-0.25, 0.125, 0.001, -0.002, 0.03, 0, 0, 0.0", 8, -0.25, 0.125, 0.001, -0.002,
+       0.03},
+      {"plumb_bob", "-0.25, 0.125, 0.001, -0.002, 0.03, 0, 0, 0, 0, 0, 0, 0", 12, -0.25, 0.125, 0.001, -0.002,
+       0.03},
+      {"'Plumb Bob'", "-0.25, 0.125, 0, 0, 0.03, 0, 0, 0, 0, 0, 0, 0, 0, 0", 14, -0.25, 0.125, 0, 0, 0.03},
+      {"plumb_bob", "", 0, 0, 0, 0, 0, 0},
+      {"''", "", 0, 0, 0, 0, 0, 0},
+  };
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.numbers);
+    const CameraModel camera = read(with_distortion(row.model, row.numbers, row.count));
+    EXPECT_EQ(camera.lens, LensModel::PlumbBob);
+    EXPECT_EQ(camera.fx, 700.5);
+    EXPECT_EQ(camera.k1, row.k1);
+    EXPECT_EQ(camera.k2, row.k2);
+    EXPECT_EQ(camera.p1, row.p1);
+    EXPECT_EQ(camera.p2, row.p2);
+    EXPECT_EQ(camera.k3, row.k3);
+  }
+}
+
+TEST_F(CameraFile, TakesRationalAndFisheyeLenses) {
+  const std::string eight = "0.3, 0.02, 0.001, -0.002, 0.001, 0.6, 0.05, 0.004";
+  for (const char* model : {"rational_polynomial", "''"}) {
+    const CameraModel rational = read(with_distortion(model, eight, 8));
+    EXPECT_EQ(rational.lens, LensModel::Rational);
+    EXPECT_EQ(rational.k3, 0.001);
+    EXPECT_EQ(rational.k4, 0.6);
+    EXPECT_EQ(rational.k5, 0.05);
+    EXPECT_EQ(rational.k6, 0.004);
+  }
+  EXPECT_THAT(refusal_of(with_distortion("plumb_bob", eight, 8)), HasSubstr("8 numbers: the rational model"));
+  const std::string prism = eight + ", 0.01, 0, 0, 0";
+  EXPECT_THAT(refusal_of(with_distortion("rational_polynomial", prism, 12)),
+              HasSubstr("12 numbers: the thin prism model"));
+  const CameraModel fisheye = read(with_distortion("equidistant", "0.01, -0.02, 0.003, -0.004", 4));
+  EXPECT_EQ(fisheye.lens, LensModel::Fisheye);
+  EXPECT_EQ(fisheye.k1, 0.01);
+  EXPECT_EQ(fisheye.k2, -0.02);
+  EXPECT_EQ(fisheye.k3, 0.003);
+  EXPECT_EQ(fisheye.k4, -0.004);
+  EXPECT_EQ(fisheye.p1, 0.0);
+  for (const CameraModel& lens : {fisheye, read(with_distortion("rational_polynomial", eight, 8))}) {
+    write_camera_model(lens, path);
+    const CameraModel again = read_camera_model(path);
+    EXPECT_EQ(again.lens, lens.lens);
+    EXPECT_EQ(again.k4, lens.k4);
+    EXPECT_EQ(again.k6, lens.k6);
+  }
+}
+
+TEST_F(CameraFile, TakesACameraInfoMessageAsItIsPrinted) {
+  const std::string message =
+      "header:\n  seq: 3\n  stamp:\n    secs: 1500000000\n    nsecs: 1\n  frame_id: \"cam\"\n"
+      "height: 480\nwidth: 640\ndistortion_model: \"plumb_bob\"\n"
+      "D: [0.01, -0.02, 0.0, 0.0, 0.0]\nK: [612.0, 0.0, 331.0, 0.0, 608.0, 232.0, 0.0, 0.0, 1.0]\n"
+      "binning_x: 0\nbinning_y: 0\nroi: {x_offset: 0, y_offset: 0, height: 0, width: 0, do_rectify: "
+      "false}\n---\n";
+  std::string ros2 = message;
+  for (const auto& [from, to] :
+       {std::pair{"D: [0.01, -0.02, 0.0, 0.0, 0.0]", "d:\n- 0.01\n- -0.02\n- 0.0\n- 0.0\n- 0.0"},
+        std::pair{"K: [", "k: ["}})
+    ros2.replace(ros2.find(from), std::string(from).size(), to);
+  for (const std::string& text : {message, ros2}) {
+    const CameraModel camera = read(text);
+    EXPECT_EQ(camera.width_px, 640);
+    EXPECT_EQ(camera.height_px, 480);
+    EXPECT_EQ(camera.fx, 612.0);
+    EXPECT_EQ(camera.cy, 232.0);
+    EXPECT_EQ(camera.k1, 0.01);
+    EXPECT_EQ(camera.k2, -0.02);
+  }
+  std::string mm = message;
+  mm.replace(mm.find("K: [612.0"), 9, "K: [3.6");
+  EXPECT_THAT(refusal_of(mm), HasSubstr("K: fx 3.6 (expected 128"));
+}
+
+TEST_F(CameraFile, TakesTheNamesOfOldOpenCvFiles) {
+  std::string old = kOpenCv;
+  for (const auto& [from, to] :
+       {std::pair{"image_width", "image_Width"}, std::pair{"image_height", "image_Height"},
+        std::pair{"camera_matrix", "Camera_Matrix"},
+        std::pair{"distortion_coefficients", "Distortion_Coefficients"}})
+    old.replace(old.find(from), std::string(from).size(), to);
+  const CameraModel camera = read(old);
+  EXPECT_EQ(camera.width_px, 1280);
+  EXPECT_EQ(camera.fx, 900.25);
+  EXPECT_EQ(camera.k1, -0.25);
+}
+
+TEST_F(CameraFile, OfPublicReportsAreTakenOrRefusedAsTheyShould) {
+  HEEL_NEEDS_TEST_DATA("reports");
+  const std::string reports = test::data_path("reports/");
+  int taken = 0, refused = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(reports + "camera-file-from-ros")) {
+    const CameraModel camera = read_camera_model(entry.path().string());
+    EXPECT_EQ(camera.fx, 612.0) << entry.path();
+    EXPECT_EQ(camera.lens, LensModel::PlumbBob) << entry.path();
+    ++taken;
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(reports + "camera-file-impossible")) {
+    EXPECT_THAT(test::complaint_of([&] { read_camera_model(entry.path().string()); }),
+                AllOf(HasSubstr("camera_matrix.data: "), HasSubstr("expected")));
+    ++refused;
+  }
+  EXPECT_GE(taken, 4);
+  EXPECT_GE(refused, 3);
 }
 
 TEST_F(CameraFile, RefusesFilesWithoutKeys) {

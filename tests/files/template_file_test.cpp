@@ -120,6 +120,23 @@ TEST_F(TemplateFile, IsReadBackToTheBit) {
   EXPECT_EQ(a.k3, b.k3);
 }
 
+TEST_F(TemplateFile, KeepsTheLensOfAnotherModel) {
+  for (const LensModel lens : {LensModel::Rational, LensModel::Fisheye}) {
+    ShirtTemplate shirt = small_template();
+    shirt.camera.lens = lens;
+    shirt.camera.k4 = 0.1;
+    shirt.camera.k5 = -1.0 / 3.0;
+    shirt.camera.k6 = 1e-3;
+    write_template(shirt, path);
+    const CameraModel kept = read_template(path).camera;
+    EXPECT_EQ(kept.lens, lens);
+    EXPECT_EQ(kept.k3, 0.07);
+    EXPECT_EQ(kept.k4, 0.1);
+    EXPECT_EQ(kept.k5, -1.0 / 3.0);
+    EXPECT_EQ(kept.k6, 1e-3);
+  }
+}
+
 TEST_F(TemplateFile, AnOlderFileWithoutYawIsFromBehind) {
   write_template(small_template(), path);
   write_text(path, with_header(read_text(path), "\"yaw_rad\"", "\"not_read\""));

@@ -61,7 +61,9 @@ bool same_camera(const CameraModel& a, const CameraModel& b) {
   return a.width_px == b.width_px && a.height_px == b.height_px && std::abs(a.fx - b.fx) < kSame_px &&
          std::abs(a.fy - b.fy) < kSame_px && std::abs(a.cx - b.cx) < kSame_px &&
          std::abs(a.cy - b.cy) < kSame_px && std::abs(a.k1 - b.k1) < kSame && std::abs(a.k2 - b.k2) < kSame &&
-         std::abs(a.p1 - b.p1) < kSame && std::abs(a.p2 - b.p2) < kSame && std::abs(a.k3 - b.k3) < kSame;
+         std::abs(a.p1 - b.p1) < kSame && std::abs(a.p2 - b.p2) < kSame && std::abs(a.k3 - b.k3) < kSame &&
+         a.lens == b.lens && std::abs(a.k4 - b.k4) < kSame && std::abs(a.k5 - b.k5) < kSame &&
+         std::abs(a.k6 - b.k6) < kSame;
 }
 
 }  // namespace

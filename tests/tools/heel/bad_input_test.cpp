@@ -33,9 +33,9 @@ class Files {
     cv::imwrite(at("back.png"), image);
     cv::imwrite(at("small.png"), image(cv::Rect(0, 0, 320, 240)));
     write_camera_model(test::shirt_camera(), at("camera.yaml"));
-    std::string rational = read_text(at("camera.yaml"));
-    rational.replace(rational.find("plumb_bob"), 9, "equidistant");
-    write_text(at("fisheye.yaml"), rational);
+    std::string other = read_text(at("camera.yaml"));
+    other.replace(other.find("plumb_bob"), 9, "omnidirectional");
+    write_text(at("mirror.yaml"), other);
     write_text(at("words.txt"), "neither image nor template\n");
     const std::string png = read_text(at("back.png"));
     write_text(at("cut.png"), std::string_view(png).substr(0, png.size() / 2));
@@ -129,8 +129,8 @@ TEST(BadInput, OfTeachIsRefused) {
       {f.teach({"--distance", "nan"}), "heel teach: ", "--distance"},
       {f.teach({"--camera-info", f.at("absent.yaml")}), "heel teach: ", "absent.yaml: cannot read"},
       {f.teach({"--camera-info", f.at("words.txt")}), "heel teach: ", "words.txt: not a camera file"},
-      {f.teach({"--camera-info", f.at("fisheye.yaml")}),
-       "heel teach: ", "fisheye.yaml: distortion_model: 'equidistant'"},
+      {f.teach({"--camera-info", f.at("mirror.yaml")}),
+       "heel teach: ", "mirror.yaml: distortion_model: 'omnidirectional'"},
       {f.teach({"-o", f.at("no/such/folder.heel")}), "heel teach: ", "no/such/folder.heel: cannot write"},
       {f.teach({"--picture", f.at("verdict.xyz")}), "heel teach: ", "verdict.xyz: unknown kind of picture"},
       {f.teach({"--max", "0"}), "heel teach: ", "--max"},
@@ -150,8 +150,7 @@ TEST(BadInput, OfPoseIsRefused) {
       {f.pose({image, "--template", f.at("words.txt")}), "heel pose: ", "words.txt: not a template"},
       {f.pose({image, "--template", f.at("cut.heel")}), "heel pose: ", "cut.heel: truncated"},
       {f.pose({image, "--template", f.at("flipped.heel")}), "heel pose: ", "flipped.heel: checksum"},
-      {f.pose({image, "--camera-info", f.at("fisheye.yaml")}),
-       "heel pose: ", "fisheye.yaml: distortion_model"},
+      {f.pose({image, "--camera-info", f.at("mirror.yaml")}), "heel pose: ", "mirror.yaml: distortion_model"},
       {f.pose({image, "--first", "-1"}), "heel pose: ", "--first: '-1' (expected a frame number, 0 or more)"},
       {f.pose({image, "--last", "-1"}), "heel pose: ", "--last: '-1' (expected a frame number, 0 or more)"},
       {f.pose({image, "--first", "3"}),

@@ -1,0 +1,178 @@
+#include "files/camera_yaml.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <sstream>
+
+#include "files/atomic_file.h"
+
+namespace heel {
+namespace {
+
+constexpr std::size_t kMaxCameraInfoBytes = 1 << 20;
+constexpr int kMaxSensorSide_px = 32768;
+
+/// OpenCV begins its files with "%YAML:1.0", which is not a YAML directive. The line is emptied, not removed,
+/// so that line numbers in messages stay right.
+std::string without_opencv_directive(std::string text) {
+  if (text.starts_with("%YAML:")) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    text.replace(0, end, "");
+  }
+  return text;
+}
+
+YAML::Node parse_camera_file(const std::string& path) {
+  const std::string text = read_whole_file(path, kMaxCameraInfoBytes);
+  if (text.starts_with("<?xml")) {
+    throw Error(path + ": this is XML (expected camera_info YAML, or OpenCV FileStorage in YAML or JSON)");
+  }
+  YAML::Node root;
+  try {
+    root = YAML::Load(without_opencv_directive(text));
+  } catch (const YAML::Exception& error) {
+    throw Error(fmt::format("{}:{}:{}: not YAML: {} (expected a camera_info file)", path, error.mark.line + 1,
+                            error.mark.column + 1, error.msg));
+  }
+  if (!root.IsMap()) {
+    throw Error(path +
+                ": not a camera file (expected YAML with image_width, image_height, camera_matrix, "
+                "distortion_coefficients)");
+  }
+  return root;
+}
+
+/// YAML takes the first of two values and says nothing.
+void refuse_duplicates(const YAML::Node& map, const std::string& path) {
+  std::set<std::string> keys;
+  for (const auto& entry : map) {
+    const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
+    if (!keys.insert(key).second) {
+      throw Error(
+          fmt::format("{}:{}: {}: given twice (expected once)", path, entry.first.Mark().line + 1, key));
+    }
+    if (entry.second.IsMap()) refuse_duplicates(entry.second, path);
+  }
+}
+
+/// Adds the numbers of a node: one, several between spaces, or a list of these.
+void add_numbers(const YAML::Node& node, const std::string& path, const std::string& key,
+                 std::vector<double>& values) {
+  if (node.IsSequence()) {
+    for (const YAML::Node& part : node) add_numbers(part, path, key, values);
+    return;
+  }
+  std::istringstream words(node.IsScalar() ? node.Scalar() : "?");
+  for (std::string word; words >> word;) {
+    double value = 0.0;
+    if (!node.IsScalar() || !YAML::convert<double>::decode(YAML::Node(word), value) ||
+        !std::isfinite(value)) {
+      throw camera_key_error(path, fmt::format("{}[{}]", key, values.size()),
+                             node.IsScalar() ? "'" + word + "'" : "not a number", "a finite number");
+    }
+    values.push_back(value);
+  }
+}
+
+}  // namespace
+
+Error camera_key_error(const std::string& path, const std::string& key, const std::string& found,
+                       const std::string& expected) {
+  return Error(fmt::format("{}: {}: {} (expected {})", path, key, found, expected));
+}
+
+CameraYaml::CameraYaml(const std::string& path) : path_(path), root_(parse_camera_file(path)) {
+  refuse_duplicates(root_, path);
+  if (root_["cam0"]) {
+    throw Error(path +
+                ": cam0: a camera chain of kalibr (expected camera_info YAML: image_width, image_height, "
+                "camera_matrix, distortion_model, distortion_coefficients)");
+  }
+}
+
+std::string CameraYaml::key_of(const std::vector<std::string>& spellings) const {
+  for (const std::string& key : spellings)
+    if (root_[key]) return key;
+  return spellings.front();
+}
+
+std::string CameraYaml::width_key() const {
+  return key_of({"image_width", "image_Width", "width"});
+}
+
+std::string CameraYaml::height_key() const {
+  return key_of({"image_height", "image_Height", "height"});
+}
+
+std::string CameraYaml::matrix_key() const {
+  return key_of({"camera_matrix", "Camera_Matrix", "cameraMatrix", "K", "k"});
+}
+
+std::string CameraYaml::distortion_key() const {
+  return key_of({"distortion_coefficients", "Distortion_Coefficients", "distCoeffs", "D", "d"});
+}
+
+YAML::Node CameraYaml::required(const std::string& key, const std::string& expected) const {
+  const YAML::Node node = root_[key];
+  if (!node || node.IsNull()) throw camera_key_error(path_, key, "missing", expected);
+  return node;
+}
+
+int CameraYaml::side_px(const std::string& key) const {
+  const std::string expected = fmt::format("whole number of pixels, 1…{}", kMaxSensorSide_px);
+  const YAML::Node node = required(key, expected);
+  int side_px = 0;
+  if (!node.IsScalar() || !YAML::convert<int>::decode(node, side_px) || side_px < 1 ||
+      side_px > kMaxSensorSide_px) {
+    throw camera_key_error(path_, key, node.IsScalar() ? "'" + node.Scalar() + "'" : "not a number",
+                           expected);
+  }
+  return side_px;
+}
+
+std::vector<double> CameraYaml::matrix(const std::string& key, const std::string& expected) const {
+  const YAML::Node matrix = required(key, expected);
+  const bool is_map = matrix.IsMap();
+  const YAML::Node data = is_map ? matrix["data"] : matrix;
+  const std::string data_key = is_map ? key + ".data" : key;
+  if (!data || data.IsNull() || data.IsMap())
+    throw camera_key_error(path_, data_key, "missing or not a list", expected);
+
+  std::vector<double> values;
+  add_numbers(data, path_, data_key, values);
+  if (is_map && matrix["rows"] && matrix["cols"]) {
+    long rows = 0;
+    long cols = 0;
+    if (!YAML::convert<long>::decode(matrix["rows"], rows) ||
+        !YAML::convert<long>::decode(matrix["cols"], cols) ||
+        rows * cols != static_cast<long>(values.size())) {
+      throw camera_key_error(path_, key, fmt::format("{} numbers", values.size()), "rows × cols of them");
+    }
+  }
+  return values;
+}
+
+std::string CameraYaml::word(const std::string& key) const {
+  const YAML::Node node = root_[key];
+  if (!node || node.IsNull()) return "";
+  if (!node.IsScalar()) throw camera_key_error(path_, key, "not a word", "plumb_bob");
+  std::string word = node.Scalar();
+  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) {
+    return c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(c));
+  });
+  return word;
+}
+
+long CameraYaml::count(const std::string& key, const std::string& sub_key) const {
+  YAML::Node node = root_[key];
+  if (node && node.IsMap() && !sub_key.empty()) node.reset(node[sub_key]);
+  long value = 0;
+  return node && node.IsScalar() && YAML::convert<long>::decode(node, value) ? value : 0;
+}
+
+}  // namespace heel
