@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <string_view>
 
@@ -61,10 +62,11 @@ cv::Mat decode_jpeg(ByteView file, std::string& problem) {
 }
 
 /// Makes std::cerr silent for as long as it lives: there OpenCV prints what it cannot decode, and heel prints
-/// one line for an error. heel itself prints to stderr, not to std::cerr, while it decodes.
+/// one line for an error. heel itself prints to stderr, not to std::cerr, while it decodes. One thread at a
+/// time.
 class SilentCerr {
  public:
-  SilentCerr() : buffer_(std::cerr.rdbuf(nullptr)) {}
+  SilentCerr() : lock_(mutex()), buffer_(std::cerr.rdbuf(nullptr)) {}
   ~SilentCerr() {
     std::cerr.rdbuf(buffer_);
     std::cerr.clear();
@@ -73,6 +75,12 @@ class SilentCerr {
   SilentCerr& operator=(const SilentCerr&) = delete;
 
  private:
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+
+  std::lock_guard<std::mutex> lock_;
   std::streambuf* buffer_;
 };
 

@@ -1,7 +1,9 @@
-// heel calibrate: chessboard views → camera_info YAML, with the error of every view.
+// heel calibrate: views of a board → camera_info YAML, with the error of every view.
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "camera_calibration.h"
 #include "commands.h"
 #include "files/camera_info.h"
+#include "files/image_file.h"
 #include "heel/error.h"
 
 namespace heel::cli {
@@ -20,6 +23,7 @@ struct CalibrateOptions {
   double square_m = 0.0;
   std::string output;
   bool with_k3 = false;
+  std::string pattern = "chessboard";
 };
 
 /// "9x6": inner corners along a row, and down a column.
@@ -34,22 +38,62 @@ cv::Size parse_corners(const std::string& text) {
   return {across, down};
 }
 
+Pattern parse_pattern(const std::string& name) {
+  if (name == "chessboard") return Pattern::Chessboard;
+  if (name == "circles") return Pattern::Circles;
+  if (name == "asymmetric-circles") return Pattern::AsymmetricCircles;
+  throw Error("--pattern: '" + name + "' (expected chessboard, circles or asymmetric-circles)");
+}
+
+void print_progress(const SearchedImage& searched) {
+  fmt::print("{:<40} {}  ({} of {}{})\n", searched.image, searched.found ? "found" : "no board",
+             searched.done, searched.images,
+             searched.left_s >= 1.0 ? fmt::format(", about {:.0f} s left", searched.left_s) : "");
+  std::fflush(stdout);
+}
+
 void print_report(const std::vector<BoardView>& views, const Calibration& result, const std::string& output) {
   for (const BoardView& view : views) fmt::print("{:<40} {:6.3f} px\n", view.image, view.rms_px);
   const CameraModel& camera = result.camera;
   fmt::print("rms {:.3f} px over {} views\n", result.rms_px, views.size());
   fmt::print("fx {:.2f} ± {:.2f}  fy {:.2f} ± {:.2f}  cx {:.2f}  cy {:.2f} px\n", camera.fx,
              result.fx_sigma_px, camera.fy, result.fy_sigma_px, camera.cx, camera.cy);
-  fmt::print("k1 {:.5f}  k2 {:.5f}  p1 {:.5f}  p2 {:.5f}  k3 {:.5f}\n", camera.k1, camera.k2, camera.p1,
-             camera.p2, camera.k3);
+  const std::array<double, 3>& sigma = result.radial_sigma;
+  fmt::print("k1 {:.5f} ± {:.5f}  k2 {:.5f} ± {:.5f}  p1 {:.5f}  p2 {:.5f}  k3 {:.5f} ± {:.5f}\n", camera.k1,
+             sigma[0], camera.k2, sigma[1], camera.p1, camera.p2, camera.k3, sigma[2]);
+  const EdgeErrors& edges = result.edges;
+  fmt::print(
+      "error of a direction, at 3 m (95 %): middle {:.1f} cm, left and right edge {:.1f} cm, corners {:.1f} "
+      "cm\n",
+      edges.centre_cm, edges.side_cm, edges.corner_cm);
+  if (const std::string warning = warning_of(result); !warning.empty()) fmt::print("warning: {}\n", warning);
   fmt::print("wrote {}\n", output);
 }
 
+/// The images of folders among them, in natural order.
+std::vector<std::string> all_images(const std::vector<std::string>& inputs) {
+  std::vector<std::string> images;
+  for (const std::string& input : inputs) {
+    if (!std::filesystem::is_directory(input)) {
+      images.push_back(input);
+      continue;
+    }
+    std::error_code error;
+    const std::vector<std::string> inside = images_in_folder(input, error);
+    if (error) throw Error(input + ": cannot read the folder: " + error.message());
+    if (inside.empty()) throw Error(input + ": no image in this folder (expected at least one)");
+    images.insert(images.end(), inside.begin(), inside.end());
+  }
+  return images;
+}
+
 void run_calibrate(const CalibrateOptions& options) {
-  const Board board{parse_corners(options.board), options.square_m};
-  BoardViews found = find_board(options.images, board);
-  for (const std::string& image : found.images_without_board)
-    fmt::print("{:<40} no {} board\n", image, options.board);
+  const Board board{parse_corners(options.board), options.square_m, parse_pattern(options.pattern)};
+  if (board.pattern == Pattern::AsymmetricCircles && board.corners.height % 2 == 0)
+    throw Error("--board: '" + options.board +
+                "' (expected an odd number of rows of asymmetric circles, e.g. 4x11: an even one "
+                "looks the same upside down)");
+  BoardViews found = find_board(all_images(options.images), board, kMinViews, print_progress);
   const Calibration result = calibrate_camera(board, found.image_size, options.with_k3, found.views);
   require_good_calibration(found.views, result);
   write_camera_model(result.camera, options.output);
@@ -62,20 +106,30 @@ void add_calibrate_command(CLI::App& app) {
   auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command = app.add_subcommand(
       "calibrate",
-      "Camera calibration from photographs of a chessboard; writes ROS camera_info YAML.\n"
+      "Camera calibration from photographs of a board; writes ROS camera_info YAML.\n"
       "Take ten to twenty views at the resolution that heel will use, with fixed focus. The board\n"
       "should fill much of the image, reach its corners, and be tilted up to 45 degrees each way.");
-  command->add_option("images", options->images, "photographs of the board")->required()->type_name("IMAGES");
-  command->add_option("--board", options->board, "inner corners, across x down, e.g. 9x6")
+  command->add_option("images", options->images, "photographs of the board, or folders of them")
+      ->required()
+      ->type_name("IMAGES");
+  command
+      ->add_option("--board", options->board,
+                   "inner corners (where four squares meet), across x down, e.g. 9x6 for 10x7 squares;\n"
+                   "of a grid of circles: circles in a row x rows")
       ->required()
       ->type_name("CxR");
-  command->add_option("--square", options->square_m, "side of one square, metres")
+  command
+      ->add_option("--square", options->square_m,
+                   "side of one square, or from one circle to the next, metres; of asymmetric\n"
+                   "circles: half the distance of two circles of a row")
       ->required()
       ->type_name("M")
       ->check(number_from(1e-4, 10.0));
   command->add_option("-o,--output", options->output, "camera file to write")
       ->required()
       ->type_name("CAM.yaml");
+  command->add_option("--pattern", options->pattern, "chessboard (default), circles or asymmetric-circles")
+      ->type_name("KIND");
   command->add_flag("--k3", options->with_k3,
                     "also estimate the third radial coefficient (wide-angle lenses)");
   command->callback([options] { run_calibrate(*options); });

@@ -6,41 +6,22 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgproc.hpp>
+#include <optional>
 
-#include "files/image_file.h"
 #include "heel/error.h"
+#include "vision/lens/lens_fold.h"
 
 namespace heel::cli {
 namespace {
 
-constexpr std::size_t kMinViews = 5;
 constexpr double kMaxViewRms_px = 1.5;        // above: wrong corners, or a board that is not flat
 constexpr double kMinTurn_deg = 20.0;         // parallel boards do not determine the focal length
 constexpr double kMaxFocalSigmaShare = 0.02;  // above: the views do not determine the focal length
-
-std::vector<cv::Point2f> find_corners(const cv::Mat& grey, cv::Size board) {
-  std::vector<cv::Point2f> corners_px;
-  if (cv::findChessboardCornersSB(grey, board, corners_px, cv::CALIB_CB_ACCURACY)) return corners_px;
-  // The older search finds boards with a narrow white margin, which the newer one does not.
-  if (cv::findChessboardCorners(grey, board, corners_px)) {
-    const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 1e-3);
-    cv::cornerSubPix(grey, corners_px, {5, 5}, {-1, -1}, stop);
-    return corners_px;
-  }
-  return {};
-}
-
-std::vector<cv::Point3f> board_points(const Board& board) {
-  std::vector<cv::Point3f> points_m;
-  for (int row = 0; row < board.corners.height; ++row) {
-    for (int column = 0; column < board.corners.width; ++column) {
-      points_m.emplace_back(static_cast<float>(column * board.square_m),
-                            static_cast<float>(row * board.square_m), 0.f);
-    }
-  }
-  return points_m;
-}
+constexpr std::size_t kMaxParts = 10;         // of the views, for the jackknife
+constexpr double kAsGood = 1.05;              // a reprojection error larger by less than this is as good
+constexpr double kMinCornerSigma_px = 0.05;   // no camera sees corners better, whatever the residuals are
+constexpr double kMaxSideError_cm = 30.0;     // above: refused
+constexpr double kGoodSideError_cm = 10.0;    // above: a warning
 
 double largest_turn_deg(const std::vector<cv::Mat>& rotations) {
   std::vector<cv::Vec3d> normals;
@@ -100,34 +81,67 @@ void require_determined_focal_length(const Calibration& result) {
                     kNotDetermined, 100.0 * share, 100.0 * kMaxFocalSigmaShare));
 }
 
+std::string what_to_add(const Calibration& calibration) {
+  if (calibration.not_shown.empty())
+    return "add views with the board at the edges and in the corners, tilted 30 to 45 degrees";
+  return fmt::format(
+      "no view shows the board in {} of the picture; add views with the board there, and tilted",
+      calibration.not_shown);
+}
+
+void require_determined_edges(const Calibration& result) {
+  if (const std::optional<double> fold_px = fold_in_picture_px(result.camera))
+    throw Error(fmt::format(
+        "the views do not determine the distortion: beyond {:.0f} px from the middle the result is no "
+        "lens's; {}",
+        *fold_px, what_to_add(result)));
+  if (!(result.edges.side_cm <= kMaxSideError_cm))
+    throw Error(fmt::format(
+        "the views do not determine the edges of the picture: a person 3 m away may be {:.0f} cm from "
+        "where they are seen there (expected at most {:.0f} cm); {}",
+        result.edges.side_cm, kMaxSideError_cm, what_to_add(result)));
+}
+
 }  // namespace
 
-BoardViews find_board(const std::vector<std::string>& images, const Board& board) {
-  BoardViews found;
-  for (const std::string& image : images) {
-    const cv::Mat grey = read_grey_image(image).grey;
-    if (found.image_size.empty()) found.image_size = grey.size();
-    if (grey.size() != found.image_size)
-      throw Error(fmt::format("{}: {}x{} pixels (expected {}x{} as in {})", image, grey.cols, grey.rows,
-                              found.image_size.width, found.image_size.height, images.front()));
-    BoardView view{image, find_corners(grey, board.corners)};
-    if (view.corners_px.empty()) {
-      found.images_without_board.push_back(image);
-    } else {
-      found.views.push_back(std::move(view));
-    }
+namespace {
+
+/// Calibrations each without one of at most kMaxParts parts of the views, from the whole one's result.
+std::vector<CameraModel> calibrations_without_a_part(const std::vector<cv::Point3f>& points_m,
+                                                     const std::vector<std::vector<cv::Point2f>>& corners_px,
+                                                     cv::Size image_size, const cv::Mat& K,
+                                                     const cv::Mat& distortion, bool with_k3) {
+  const std::size_t parts = std::min(kMaxParts, corners_px.size());
+  std::vector<CameraModel> cameras;
+  for (std::size_t part = 0; part < parts; ++part) {
+    std::vector<std::vector<cv::Point2f>> others_px;
+    for (std::size_t view = 0; view < corners_px.size(); ++view)
+      if (view % parts != part) others_px.push_back(corners_px[view]);
+    cv::Mat K_part = K.clone(), distortion_part = distortion.clone();
+    std::vector<cv::Mat> rotations, translations;
+    cv::calibrateCamera(std::vector<std::vector<cv::Point3f>>(others_px.size(), points_m), others_px,
+                        image_size, K_part, distortion_part, rotations, translations,
+                        cv::CALIB_USE_INTRINSIC_GUESS | (with_k3 ? 0 : cv::CALIB_FIX_K3));
+    cameras.push_back(camera_model(image_size, K_part, distortion_part));
   }
-  if (found.views.size() < kMinViews) {
-    const std::string without_board =
-        found.images_without_board.empty()
-            ? ""
-            : fmt::format("; not seen in {}", fmt::join(found.images_without_board, ", "));
-    throw Error(fmt::format("only {} of {} images show the whole {}x{} board (expected at least {}){}",
-                            found.views.size(), images.size(), board.corners.width, board.corners.height,
-                            kMinViews, without_board));
-  }
-  return found;
+  return cameras;
 }
+
+/// The camera without the last radial coefficient, if it explains the views nearly as well: then they do not
+/// determine that coefficient.
+std::optional<CameraModel> simpler_camera(const std::vector<std::vector<cv::Point3f>>& points_m,
+                                          const std::vector<std::vector<cv::Point2f>>& corners_px,
+                                          cv::Size image_size, bool with_k3, double rms_px) {
+  cv::Mat K, distortion;
+  std::vector<cv::Mat> rotations, translations;
+  const int flags = cv::CALIB_FIX_K3 | (with_k3 ? 0 : cv::CALIB_FIX_K2);
+  const double simpler_rms_px =
+      cv::calibrateCamera(points_m, corners_px, image_size, K, distortion, rotations, translations, flags);
+  if (simpler_rms_px > kAsGood * rms_px) return std::nullopt;
+  return camera_model(image_size, K, distortion);
+}
+
+}  // namespace
 
 Calibration calibrate_camera(const Board& board, cv::Size image_size, bool with_k3,
                              std::vector<BoardView>& views) {
@@ -148,12 +162,35 @@ Calibration calibrate_camera(const Board& board, cv::Size image_size, bool with_
   result.fx_sigma_px = intrinsic_sigmas.at<double>(0);
   result.fy_sigma_px = intrinsic_sigmas.at<double>(1);
   result.camera = camera_model(image_size, K, distortion);
+  const double sigma_px = std::max(result.rms_px, kMinCornerSigma_px);
+  result.edges = edge_errors(
+      result.camera,
+      cameras_within_95(result.camera, with_k3, sigma_px, points_m.front(), rotations, translations),
+      calibrations_without_a_part(points_m.front(), corners_px, image_size, K, distortion, with_k3),
+      simpler_camera(points_m, corners_px, image_size, with_k3, result.rms_px));
+  result.not_shown = parts_not_shown(image_size, corners_px);
+  for (std::size_t i = 0; i < 3; ++i)
+    result.radial_sigma[i] = intrinsic_sigmas.at<double>(i < 2 ? 4 + static_cast<int>(i) : 8);
   return result;
 }
 
 void require_good_calibration(const std::vector<BoardView>& views, const Calibration& calibration) {
   require_good_views(views);
   require_determined_focal_length(calibration);
+  require_determined_edges(calibration);
+}
+
+std::string warning_of(const Calibration& calibration) {
+  const EdgeErrors& edges = calibration.edges;
+  if (edges.side_cm > kGoodSideError_cm || edges.corner_cm > kMaxSideError_cm)
+    return fmt::format(
+        "a person 3 m away at the edge of the picture may be {:.0f} cm from where they are seen, in the "
+        "corners {:.0f} cm; {}",
+        edges.side_cm, edges.corner_cm, what_to_add(calibration));
+  if (!calibration.not_shown.empty())
+    return fmt::format("no view shows the board in {} of the picture; add views with the board there",
+                       calibration.not_shown);
+  return "";
 }
 
 }  // namespace heel::cli

@@ -11,6 +11,7 @@
 
 #include "files/camera_info.h"
 #include "heel/camera_model.h"
+#include "support/test_data.h"
 #include "tools/heel/run_heel.h"
 
 namespace heel {
@@ -91,6 +92,49 @@ cv::Mat render_board(const BoardPose& pose) {
   return image;
 }
 
+/// A drawing of a board in a plane, 1000 px a metre, seen by a camera without distortion.
+cv::Mat picture_of(const cv::Mat& drawing, const BoardPose& pose) {
+  const double rad = CV_PI / 180.0;
+  cv::Matx33d Rx, Ry, Rz;
+  cv::Rodrigues(cv::Vec3d(pose.pitch_deg * rad, 0, 0), Rx);
+  cv::Rodrigues(cv::Vec3d(0, pose.yaw_deg * rad, 0), Ry);
+  cv::Rodrigues(cv::Vec3d(0, 0, pose.roll_deg * rad), Rz);
+  const cv::Matx33d R = Rz * Ry * Rx;
+  const cv::Vec3d t = cv::Vec3d(pose.x_m, pose.y_m, pose.z_m) -
+                      R * cv::Vec3d(0.0005 * drawing.cols, 0.0005 * drawing.rows, 0);
+  const cv::Matx33d camera_from_drawing(R(0, 0), R(0, 1), t[0], R(1, 0), R(1, 1), t[1], R(2, 0), R(2, 1),
+                                        t[2]);
+  const cv::Matx33d H = kTrueK * camera_from_drawing * cv::Matx33d(0.001, 0, 0, 0, 0.001, 0, 0, 0, 1);
+  // Four times as large, then made smaller, so that edges are smooth.
+  cv::Mat large, picture;
+  const cv::Matx33d to_large(4, 0, 1.5, 0, 4, 1.5, 0, 0, 1);
+  cv::warpPerspective(drawing, large, to_large * H, {4 * kWidth_px, 4 * kHeight_px}, cv::INTER_LINEAR,
+                      cv::BORDER_CONSTANT, cv::Scalar(230));
+  cv::resize(large, picture, {kWidth_px, kHeight_px}, 0, 0, cv::INTER_AREA);
+  return picture;
+}
+
+cv::Mat drawn_circles(bool asymmetric) {
+  cv::Mat drawing(asymmetric ? 290 : 240, 330, CV_8U, cv::Scalar(230));
+  for (int row = 0; row < (asymmetric ? 11 : 6); ++row) {
+    for (int column = 0; column < (asymmetric ? 4 : 8); ++column) {
+      const int x = asymmetric ? 2 * column + row % 2 : column;
+      const int step = asymmetric ? 20 : 30;
+      cv::circle(drawing, {50 + step * x, 45 + step * row}, asymmetric ? 7 : 9, cv::Scalar(25), cv::FILLED,
+                 cv::LINE_AA);
+    }
+  }
+  return drawing;
+}
+
+cv::Mat drawn_chessboard() {
+  cv::Mat drawing(270, 360, CV_8U, cv::Scalar(235));
+  for (int row = 0; row < 7; ++row)
+    for (int column = 0; column < 10; ++column)
+      if ((row + column) % 2 == 0) drawing(cv::Rect(30 + 30 * column, 30 + 30 * row, 30, 30)).setTo(25);
+  return drawing;
+}
+
 class Calibrate : public ::testing::Test {
  protected:
   std::vector<std::string> write_views(const std::vector<BoardPose>& poses) {
@@ -98,6 +142,14 @@ class Calibrate : public ::testing::Test {
     for (std::size_t i = 0; i < poses.size(); ++i) {
       images.push_back(folder.file("view" + std::to_string(i) + ".png"));
       cv::imwrite(images.back(), render_board(poses[i]));
+    }
+    return images;
+  }
+  std::vector<std::string> write_pictures(const cv::Mat& drawing, const std::vector<BoardPose>& poses) {
+    std::vector<std::string> images;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      images.push_back(folder.file("picture" + std::to_string(i) + ".png"));
+      cv::imwrite(images.back(), picture_of(drawing, poses[i]));
     }
     return images;
   }
@@ -114,6 +166,7 @@ class Calibrate : public ::testing::Test {
 TEST_F(Calibrate, FindsTheTrueCamera) {
   const Outcome outcome = calibrate(write_views(kGoodPoses));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+
   EXPECT_EQ(outcome.err, "");
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("view7.png"), HasSubstr("rms 0.0"), HasSubstr("over 8 views")));
 
@@ -129,6 +182,73 @@ TEST_F(Calibrate, FindsTheTrueCamera) {
   EXPECT_NEAR(camera.p1, kTrueDistortion[2], 0.001);
   EXPECT_NEAR(camera.p2, kTrueDistortion[3], 0.001);
   EXPECT_EQ(camera.k3, 0.0);
+}
+
+TEST_F(Calibrate, SaysWhatCountsWhenSquaresAreGivenForCorners) {
+  const std::vector<BoardPose> poses(kGoodPoses.begin(), kGoodPoses.begin() + 5);
+  const Outcome outcome = calibrate(write_pictures(drawn_chessboard(), poses), "10x7");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("only 0 of 5"), HasSubstr("counts inner corners"),
+                                 HasSubstr("9x6 is seen in 5 of 5")));
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("picture0.png"), HasSubstr("no board  (1 of 5"), HasSubstr("(5 of 5)")));
+}
+
+TEST_F(Calibrate, TakesGridsOfCircles) {
+  for (const bool asymmetric : {false, true}) {
+    write_pictures(drawn_circles(asymmetric), kGoodPoses);
+    const Outcome outcome = run_heel(
+        {"calibrate", folder.path().string(), "--pattern", asymmetric ? "asymmetric-circles" : "circles",
+         "--board", asymmetric ? "4x11" : "8x6", "--square", asymmetric ? "0.02" : "0.03", "-o", output});
+    ASSERT_EQ(outcome.status, 0) << asymmetric << outcome.err << outcome.out;
+    const CameraModel camera = read_camera_model(output);
+    EXPECT_NEAR(camera.fx, kTrueK(0, 0), 6.0) << asymmetric;
+    EXPECT_NEAR(camera.cx, kTrueK(0, 2), 4.0) << asymmetric;
+    std::filesystem::remove(output);
+  }
+}
+
+TEST_F(Calibrate, RefusesViewsThatDoNotShowTheEdges) {
+  std::vector<BoardPose> far;
+  for (const BoardPose& pose : kGoodPoses)
+    far.push_back({pose.pitch_deg, pose.yaw_deg, pose.roll_deg, 0.1 * pose.x_m, 0.1 * pose.y_m, 1.6});
+  std::vector<std::string> images = write_pictures(drawn_chessboard(), far);
+  cv::RNG random(5);
+  for (const std::string& image : images) {
+    cv::Mat picture = cv::imread(image, cv::IMREAD_GRAYSCALE), noise(picture.size(), CV_16S), noisy;
+    random.fill(noise, cv::RNG::NORMAL, 0, 12);
+    cv::add(picture, noise, noisy, cv::noArray(), CV_8U);
+    cv::imwrite(image, noisy);
+  }
+  const Outcome outcome = calibrate(images);
+  EXPECT_EQ(outcome.status, 2) << outcome.out;
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("the views do not determine the "),
+                                 HasSubstr("no view shows the board in the left 4"), HasSubstr("add views")));
+  EXPECT_FALSE(std::filesystem::exists(output));
+}
+
+/// Such pictures took minutes.
+TEST_F(Calibrate, IsDoneSoonWithPicturesOfNoise) {
+  cv::Mat noise(960, 1280, CV_8U);
+  cv::randu(noise, 0, 255);
+  const std::string image = folder.file("noise.png");
+  cv::imwrite(image, noise);
+  const double start_s = test::monotonic_s();
+  EXPECT_EQ(calibrate({image}).status, 2);
+  EXPECT_LT(test::monotonic_s() - start_s, 60.0);
+}
+
+TEST_F(Calibrate, JudgesTheBoardsOfPublicReports) {
+  HEEL_NEEDS_TEST_DATA("reports");
+  const std::string reports = test::data_path("reports/");
+  const Outcome centre = calibrate({reports + "calibrate-centre-only"});
+  EXPECT_EQ(centre.status, 2);
+  EXPECT_THAT(centre.err, AllOf(HasSubstr("3 m away may be"), HasSubstr("no view shows the board in")));
+  EXPECT_THAT(calibrate({reports + "calibrate-squares-for-corners"}, "10x7").err,
+              HasSubstr("9x6 is seen in 8 of 8"));
+  const Outcome dark = calibrate({reports + "calibrate-dark-photo/dark1280.png"});
+  EXPECT_EQ(dark.status, 2);
+  EXPECT_THAT(dark.out, HasSubstr("no board  (1 of 1)"));
 }
 
 TEST_F(Calibrate, RefusesTooFewViewsNamingThoseWithoutABoard) {
@@ -178,6 +298,14 @@ TEST_F(Calibrate, RefusesImpossibleBoardSizes) {
     EXPECT_EQ(outcome.status, 2) << board;
     EXPECT_THAT(outcome.err, HasSubstr("--board")) << board;
   }
+  const Outcome even = run_heel({"calibrate", "unused.png", "--board", "4x10", "--pattern",
+                                 "asymmetric-circles", "--square", "0.02", "-o", output});
+  EXPECT_EQ(even.status, 2);
+  EXPECT_THAT(even.err, HasSubstr("odd number of rows"));
+  const Outcome unknown = run_heel({"calibrate", "unused.png", "--board", "9x6", "--pattern", "hexagons",
+                                    "--square", "0.02", "-o", output});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("--pattern: 'hexagons' (expected chessboard"));
 }
 
 }  // namespace
