@@ -36,8 +36,11 @@ YAML::Node parse_camera_file(const std::string& path) {
   try {
     root = YAML::Load(without_opencv_directive(text));
   } catch (const YAML::Exception& error) {
+    std::string why = error.msg;  // which may quote a byte of the file
+    std::replace_if(
+        why.begin(), why.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
     throw Error(fmt::format("{}:{}:{}: not YAML: {} (expected a camera_info file)", path, error.mark.line + 1,
-                            error.mark.column + 1, error.msg));
+                            error.mark.column + 1, why));
   }
   if (!root.IsMap()) {
     throw Error(path +

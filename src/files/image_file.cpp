@@ -29,6 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kReadableKinds = "PNG, JPEG, PGM, PPM, BMP, TIFF or WebP";
+constexpr std::size_t kMaxPixels = std::size_t{1} << 27;
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 29;
 
 /// "a HEIC" for a file of that kind, whatever its name's ending; empty for kinds that heel reads, and unknown
@@ -44,9 +45,28 @@ std::string unreadable_kind(ByteView file) {
   }
   if (begins_with(file, std::string_view("\0\0\0\x0cJXL ", 8)) || begins_with(file, "\xff\x0a"))
     return "a JPEG XL";
+  if (begins_with(file, std::string_view("\0\0\0\x0cjP  ", 8))) return "a JPEG 2000";
   if (begins_with(file, "GIF8")) return "a GIF";
   if (begins_with(file, "%PDF")) return "a PDF";
   return "";
+}
+
+bool is_jpeg(ByteView file) {
+  return begins_with(file, "\xff\xd8");
+}
+
+bool is_png(ByteView file) {
+  return begins_with(file, "\x89PNG");
+}
+
+/// BMP, PGM, PPM, TIFF and WebP. OpenCV is given no other kind: its reader of DICOM files ends the program at
+/// some.
+bool is_for_opencv(ByteView file) {
+  const bool is_pnm =
+      file.size() > 2 && file[0] == 'P' && file[1] >= '1' && file[1] <= '6' && std::isspace(file[2]) != 0;
+  const bool is_webp = begins_with(file, "RIFF") && file.size() >= 12 && begins_with(file.subspan(8), "WEBP");
+  return begins_with(file, "BM") || begins_with(file, std::string_view("II*\0", 4)) ||
+         begins_with(file, std::string_view("MM\0*", 4)) || is_pnm || is_webp;
 }
 
 cv::Mat decode_jpeg(ByteView file, std::string& problem) {
@@ -54,6 +74,10 @@ cv::Mat decode_jpeg(ByteView file, std::string& problem) {
   std::uint32_t width_px = 0, height_px = 0;
   cv::Mat grey;
   if (decoder.read_size(file.data(), file.size(), width_px, height_px)) {
+    if (std::size_t{width_px} * height_px > kMaxPixels) {
+      problem = "too large";
+      return {};
+    }
     grey.create(static_cast<int>(height_px), static_cast<int>(width_px), CV_8U);
     if (decoder.decode(file.data(), file.size(), width_px, height_px, grey.data)) return grey;
   }
@@ -84,7 +108,6 @@ class SilentCerr {
   std::streambuf* buffer_;
 };
 
-/// BMP, PGM, PPM, TIFF and WebP.
 cv::Mat decode_by_opencv(std::string& file, ByteView view) {
   // OpenCV turns TIFF pictures, and no others of these, whether it is told to or not.
   if (const std::size_t at = read_tiff_tags(view).orientation_at; at > 0 && at + 2 <= file.size()) {
@@ -118,11 +141,11 @@ GreyImage decode_bytes(std::string& bytes, int least_white) {
   const int orientation = orientation_in_file(file);
   int significant_bits = 0;
   cv::Mat raw;
-  if (begins_with(file, "\xff\xd8")) {
+  if (is_jpeg(file)) {
     raw = decode_jpeg(file, image.problem);
-  } else if (begins_with(file, "\x89PNG")) {
+  } else if (is_png(file)) {
     raw = decode_png(file, significant_bits, image.problem);
-  } else {
+  } else if (is_for_opencv(file)) {
     raw = decode_by_opencv(bytes, file);
   }
   if (raw.empty() || (raw.depth() != CV_8U && raw.depth() != CV_16U)) {
@@ -153,12 +176,7 @@ bool is_image_file(const std::string& path) {
   if (has_image_ending(path)) return true;
   std::array<std::uint8_t, 16> head{};
   std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(head.data()), head.size());
-  if (!unreadable_kind(head).empty()) return true;
-  try {
-    return cv::haveImageReader(path);
-  } catch (const cv::Exception&) {
-    return false;
-  }
+  return is_jpeg(head) || is_png(head) || is_for_opencv(head) || !unreadable_kind(head).empty();
 }
 
 std::vector<std::string> images_in_folder(const std::string& folder, std::error_code& error) {

@@ -12,7 +12,7 @@ namespace {
 
 // Of red and green; blue has the rest. The weights of JPEG and of OpenCV.
 constexpr double kRed = 0.299, kGreen = 0.587;
-constexpr std::size_t kMaxPixels = std::size_t{1} << 27;
+constexpr std::size_t kMaxPngPixels = std::size_t{1} << 27;
 
 /// What libpng's callbacks and the code after a jump need.
 struct PngReading {
@@ -61,7 +61,7 @@ int stated_bits(png_structp png, png_infop info) {
 void read_all(png_structp png, png_infop info, PngReading& reading) {
   png_read_info(png, info);
   const png_uint_32 width_px = png_get_image_width(png, info), height_px = png_get_image_height(png, info);
-  if (std::size_t{width_px} * height_px > kMaxPixels) png_error(png, "too large");
+  if (std::size_t{width_px} * height_px > kMaxPngPixels) png_error(png, "too large");
   const bool deep = png_get_bit_depth(png, info) == 16;
   reading.significant_bits = stated_bits(png, info);
   set_transformations(png, info);

@@ -350,6 +350,8 @@ TEST_F(CameraFile, RefusesFilesWithoutKeys) {
   EXPECT_THAT(refusal_of(""), HasSubstr("not a camera file"));
   EXPECT_THAT(refusal_of("just words\n"), HasSubstr("not a camera file"));
   EXPECT_THAT(refusal_of("%YAML:1.0"), HasSubstr("not a camera file"));
+  EXPECT_THAT(refusal_of("width: \"\\\n"), Not(HasSubstr("\n"))) << "yaml-cpp quotes the line's end";
+  EXPECT_THAT(refusal_of("roi: {x: 0}\n---\n\"\\\x01\""), Not(HasSubstr("\x01")));
   EXPECT_THROW(read_camera_model(folder.file("absent.yaml")), Error);
 }
 

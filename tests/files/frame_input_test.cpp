@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 #include <string>
@@ -80,7 +81,14 @@ TEST_F(FrameInputTest, AnImageIsRecognisedByItsEndingOrItsContent) {
 }
 
 TEST_F(FrameInputTest, WhatIsMissingOfAVideoIsSaidWhenItsFramesHaveBeenUsed) {
-  const std::string path = video(20);
+  const std::string path = folder_.file("cut.mkv");
+  test::MadeVideo made{.path = path, .greys = {}, .times_s = {}, .display_abcd = {}};
+  for (int i = 0; i < 20; ++i) {
+    made.greys.emplace_back(48, 64, CV_8U);
+    cv::randu(made.greys.back(), 0, 255);
+    made.times_s.push_back(0.1 * i);
+  }
+  test::write_video(made);
   test::cut_file(path, 0.5);
   for (const bool skipped : {false, true}) {
     FrameInput input({path, image("last.png", 77)}, 5.0);

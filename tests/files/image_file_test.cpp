@@ -216,6 +216,13 @@ TEST_F(Pictures, CutAnywhereAreRefusedWithoutALineOfALibrary) {
   }
 }
 
+/// OpenCV's reader of DICOM files ends the program at an assertion in some of them.
+TEST_F(Pictures, OfUnknownKindsAreNotGivenToOpenCv) {
+  const std::string dicom = std::string(128, '\0') + "DICM\xff" + "FFFOBFF?\x0e" + std::string(40, '\0');
+  EXPECT_THAT(decode(dicom).problem, HasSubstr("not a whole image"));
+  EXPECT_FALSE(is_image_file(path));
+}
+
 TEST_F(Pictures, OfKindsThatAreNotReadAreNamed) {
   const std::vector<std::pair<std::string, std::string>> rows{
       {std::string("\0\0\0\x18", 4) + "ftypheic" + std::string(20, '\0'), "a HEIC file"},

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
 #include <string>
 #include <vector>
 
@@ -149,6 +150,28 @@ TEST_F(Videos, CutShortGiveWhatThereIsAndSayWhatIsMissing) {
       EXPECT_EQ(reader.missing(), "ends after " + std::to_string(frames) + " of 40 frames");
     }
   }
+}
+
+TEST_F(Videos, DamagedMotionJpegFramesAreLeftOutAndCounted) {
+  const std::string path = folder.file("damaged.avi");
+  cv::VideoWriter writer(path, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 20.0,
+                         cv::Size(64, 48));
+  cv::Mat noise(48, 64, CV_8UC3);
+  for (int i = 0; i < 6; ++i) {
+    cv::randu(noise, 0, 255);
+    writer.write(noise);
+  }
+  writer.release();
+  EXPECT_EQ(times_of(path).size(), 6u);
+  EXPECT_EQ(reader.missing(), "");
+  std::string bytes = test::read_text(path);
+  std::size_t third = 0;
+  for (int i = 0; i < 3; ++i) third = bytes.find("\xff\xd8\xff", third + 1);
+  bytes.replace(third + 900, 2, "\xff\xd9");  // the frame ends in its middle
+  const std::vector<double> times_s = times_of(test::write_text(path, bytes));
+  ASSERT_EQ(times_s.size(), 5u);
+  EXPECT_NEAR(times_s[2], 0.15, 1e-6) << "the others keep their times";
+  EXPECT_EQ(reader.missing(), "1 of 6 frames are damaged and left out");
 }
 
 TEST_F(Videos, WithoutTheirIndexAreSaidToBeCut) {

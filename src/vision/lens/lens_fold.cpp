@@ -1,5 +1,6 @@
 #include "vision/lens/lens_fold.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
