@@ -16,6 +16,7 @@ pkg_check_modules(SERIALPORT REQUIRED IMPORTED_TARGET libserialport)
 # FFmpeg's libraries: OpenCV's reader of videos loses time stamps and display matrices.
 pkg_check_modules(LIBAV REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
 pkg_check_modules(SYSTEMD REQUIRED IMPORTED_TARGET libsystemd)
+pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 option(HEEL_WITH_LIBCAMERA "Cameras through libcamera, where it is installed" ON)
 if(HEEL_WITH_LIBCAMERA)
   pkg_check_modules(LIBCAMERA IMPORTED_TARGET libcamera)
