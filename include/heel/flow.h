@@ -375,6 +375,7 @@ struct VelocityCommand {
 /// One control tick: its inputs and its decisions.
 struct TickRecord {
   std::uint64_t tick = 0;
+  std::uint64_t configuration = 0;  ///< in use: 0 that of the start, one more with each reconfigure()
   ControlInput input;
   MeasurementStatus measurement = MeasurementStatus::None;  ///< of input.pose
   TargetState target;
@@ -434,12 +435,20 @@ struct CaptureCounters {
   bool operator==(const CaptureCounters&) const = default;
 };
 
+/// Bytes on the robot's line as they were read or written; several when there were more.
+struct WireBytes {
+  TimeNs t_ns = 0;
+  bool to_robot = false;  ///< false: from it
+  std::uint8_t count = 0;
+  std::array<std::uint8_t, 118> bytes{};
+};
+
 /// These structs are copied between threads byte by byte.
 template <typename... T>
 inline constexpr bool kAllTriviallyCopyable = (std::is_trivially_copyable_v<T> && ...);
 static_assert(
     kAllTriviallyCopyable<FrameHeader, FrameView, PoseEstimate, RobotState, TargetState, VelocityCommand,
-                          OperatorRequest, ControlInput, TickRecord, Event, CaptureCounters>);
+                          OperatorRequest, ControlInput, TickRecord, Event, CaptureCounters, WireBytes>);
 
 /// The texts of reasons and phases in logs, records and status lines.
 const char* to_string(PoseReason reason);

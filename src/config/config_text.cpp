@@ -64,6 +64,17 @@ std::string default_config_text() {
   return text;
 }
 
+std::string config_toml(const Config& config) {
+  std::string text;
+  for (const auto& section : config_sections()) {
+    text += fmt::format("[{}]\n", section.name);
+    for (const auto& key : config_keys()) {
+      if (key.section == section.name) text += fmt::format("{} = {}\n", key.name, toml_value(key, config));
+    }
+  }
+  return text;
+}
+
 std::string config_manual_text() {
   const Config defaults;
   std::string text(kManualIntroduction);

@@ -14,4 +14,7 @@ std::string config_manual_text();
 /// One line for each key: its name, its value, and where the value comes from.
 std::string config_listing(const LoadedConfig& loaded);
 
+/// Every key with its value, as TOML that parse_config() reads back as the same configuration.
+std::string config_toml(const Config& config);
+
 }  // namespace heel

@@ -78,6 +78,7 @@ struct ControlStage::Impl {
   bool search_done = false;  // the last tick's search has come to its end
   VelocityCommand last_command;
   std::uint64_t ticks = 0;
+  std::uint64_t configuration = 0;
   std::uint64_t reconnects = 0;
   bool any_pose = false;
   std::uint64_t last_frame_sequence = 0;
@@ -164,12 +165,14 @@ ControlStage& ControlStage::operator=(ControlStage&&) noexcept = default;
 
 void ControlStage::reconfigure(const Config& config) {
   impl_->reconfigure(config);
+  ++impl_->configuration;
 }
 
 TickRecord ControlStage::tick(const ControlInput& input) {
   Impl& impl = *impl_;
   TickRecord record;
   record.tick = impl.ticks++;
+  record.configuration = impl.configuration;
   record.input = input;
 
   impl.use_model(input.robot.kind);

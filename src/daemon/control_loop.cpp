@@ -14,7 +14,7 @@ constexpr TimeNs kOldestStart_ns = 500 * kNsPerMs;
 }  // namespace
 
 ControlLoop::ControlLoop(const Config& config, Mailbox<PoseEstimate>& poses, TelemetryQueues& queues)
-    : link_(config.robot),
+    : link_(config.robot, &queues.wire),
       stage_(config, robot_models()),
       deadline_(ns_from_seconds(1.0 / config.control.rate_hz), monotonic_now_ns()),
       poses_(poses),

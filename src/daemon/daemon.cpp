@@ -13,6 +13,7 @@
 #include "capture/factory/frame_source_factory.h"
 #include "capture/frame_source.h"
 #include "config/config_load.h"
+#include "config/config_text.h"
 #include "daemon/capture_loop.h"
 #include "daemon/control_loop.h"
 #include "daemon/control_port.h"
@@ -83,6 +84,7 @@ class Daemon {
   std::thread capture_thread_, vision_thread_, control_thread_, telemetry_thread_, settings_thread_,
       operator_thread_;
 
+  std::uint64_t configurations_ = 0;  // taken over since the start; for the settings thread
   std::uint64_t reloads_started_ = 0, reloads_ended_ = 0;
   TimeNs t_ended_ns_ = 0;            // when a file camera gave its last frame; 0: not yet
   std::atomic<bool> failed_{false};  // a thread has ended by an exception
@@ -127,7 +129,8 @@ Daemon::Daemon(LoadedConfig loaded, Signals& signals)
       settings_(loaded_, {[this](const Config& config) { check_against_camera(config, inputs_.camera); },
                           [this](const Config& config) { apply(config); }}),
       settings_loop_(settings_),
-      control_port_(control_, capture_) {
+      control_port_(control_, capture_, telemetry_) {
+  telemetry_.configuration({monotonic_now_ns(), configurations_, config_toml(loaded_.config)});
   if (!socket_) return;
   operators_ =
       std::make_unique<OperatorServer>(std::move(*socket_), control_port_, settings_, settings_loop_);
@@ -204,6 +207,7 @@ void Daemon::apply(const Config& config) {
                             seconds_from_ns(kReconfigureTimeout_ns)));
   }
   set_log_level(config.runtime.log_level);
+  telemetry_.configuration({monotonic_now_ns(), ++configurations_, config_toml(config)});
 }
 
 /// True: a file camera has ended, and the robot has been brought to rest.

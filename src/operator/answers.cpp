@@ -62,6 +62,26 @@ std::string command_line(const Request& request, const CommandResult& result, co
   return line_of(out);
 }
 
+std::string settings_request_text(SettingsJobKind kind) {
+  switch (kind) {
+    case SettingsJobKind::Set:
+      return "set";
+    case SettingsJobKind::Save:
+      return "save";
+    case SettingsJobKind::Reload:
+      break;
+  }
+  return "reload";
+}
+
+std::string settings_answer_text(const SettingsAnswer& answered) {
+  if (!answered.errors.empty()) return fmt::format("{}", fmt::join(answered.errors, "; "));
+  std::string text;
+  for (const ConfigChange& change : answered.changes)
+    text += fmt::format("{}{}: {} -> {}", text.empty() ? "" : "; ", change.key, change.before, change.after);
+  return text.empty() ? "nothing has changed" : text;
+}
+
 std::string settings_line(const Request& request, const SettingsAnswer& answered) {
   json out = answer(request.id, answered.errors.empty());
   if (answered.errors.empty()) {

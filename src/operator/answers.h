@@ -23,6 +23,9 @@ std::string status_line(const Request& request, const StatusInput& input, const 
                         bool watched);
 /// What became of start, stop, estop or reset, and the state after it.
 std::string command_line(const Request& request, const CommandResult& result, const StatusInput& input);
+/// The same for the recording: "set", and "gate.v_max_m_s: 0.7 -> 0.3" or why not.
+std::string settings_request_text(SettingsJobKind kind);
+std::string settings_answer_text(const SettingsAnswer& answer);
 /// What set or save has changed.
 std::string settings_line(const Request& request, const SettingsAnswer& answer);
 

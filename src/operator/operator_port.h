@@ -1,6 +1,8 @@
 // What the operator thread needs of the daemon. None of it waits.
 #pragma once
 
+#include <string>
+
 #include "heel/flow.h"
 
 namespace heel {
@@ -15,6 +17,10 @@ class OperatorPort {
   /// True and the newest tick, when there is one not taken before.
   virtual bool take_tick(TickRecord& out) = 0;
   virtual CaptureCounters camera() = 0;
+  /// For the recording: what an operator asked for, and what became of it.
+  virtual void answered(const std::string& who, const std::string& request, const std::string& answer) = 0;
+  /// A mark in the recording. Returns why there is none; empty: done.
+  virtual std::string mark(const std::string& text) = 0;
 };
 
 }  // namespace heel

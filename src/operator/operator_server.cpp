@@ -180,6 +180,12 @@ void OperatorServer::serve(Connection& client, Request request, TimeNs now_ns) {
     case RequestKind::Save:
       start_settings_job(client, std::move(request));
       return;
+    case RequestKind::Mark: {
+      const std::string error = port_.mark(request.text);
+      port_.answered(client.who(), "mark", error.empty() ? "done" : error);
+      client.send_line(error.empty() ? done_line(request) : error_line(request.id, error));
+      return;
+    }
     case RequestKind::Start:
       if (client.peer_gone()) {
         spdlog::warn("operator ({}): start: not done: the client is gone", client.who());
@@ -237,8 +243,11 @@ void OperatorServer::settle_commands(TimeNs now_ns) {
     Request request;
     Connection* client = take_asker(result.ticket, request);
     const StatusInput input = status_input(now_ns);
-    spdlog::info("operator ({}): {}: {}", client != nullptr ? client->who() : "gone",
-                 to_string(result.command), result.error.empty() ? to_string(tick_.state) : result.error);
+    const std::string who = client != nullptr ? client->who() : "gone";
+    spdlog::info("operator ({}): {}: {}", who, to_string(result.command),
+                 result.error.empty() ? to_string(tick_.state) : result.error);
+    port_.answered(who, to_string(result.command),
+                   result.error.empty() ? to_string(result.outcome) : result.error);
     if (client != nullptr) client->send_line(command_line(request, result, input));
   }
 }
@@ -249,8 +258,10 @@ void OperatorServer::settle_settings() {
     for (const auto& client : clients_)
       if (client->watch) client->watch->changed = true;
     Request request;
-    if (Connection* client = take_asker(answer.ticket, request))
-      client->send_line(settings_line(request, answer));
+    Connection* client = take_asker(answer.ticket, request);
+    port_.answered(client != nullptr ? client->who() : "gone", settings_request_text(answer.kind),
+                   settings_answer_text(answer));
+    if (client != nullptr) client->send_line(settings_line(request, answer));
   }
 }
 

@@ -22,6 +22,7 @@ constexpr RequestRow kTable[] = {
     {RequestKind::Save, "save", "", "writes the values that were set into the configuration file"},
     {RequestKind::Watch, "watch", "period_s",
      "sends the status at each change, and at least once in a period, until the connection ends"},
+    {RequestKind::Mark, "mark", "text", "puts a mark with this text into the recording"},
     {RequestKind::Alive, "alive", "", "says that the operator is there (supervisor.operator_timeout_s)"},
     {RequestKind::Help, "help", "", "answers with this list"},
 };
@@ -56,6 +57,7 @@ class Reader {
     }
     if (row->kind == RequestKind::Set) read_values(object);
     if (row->kind == RequestKind::Watch) read_period(object);
+    if (row->kind == RequestKind::Mark) read_text(object);
   }
 
   void fail(std::string error) {
@@ -114,6 +116,16 @@ class Reader {
         return;
       }
       out_.request.assignments.push_back(std::move(assignment));
+    }
+  }
+
+  void read_text(const json& object) {
+    const auto text = object.find("text");
+    if (text == object.end()) return;
+    if (text->is_string() && text->get_ref<const std::string&>().size() <= kMaxMarkBytes) {
+      out_.request.text = text->get<std::string>();
+    } else {
+      fail(fmt::format("text: expected a text of at most {} bytes", kMaxMarkBytes));
     }
   }
 

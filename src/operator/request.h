@@ -17,14 +17,28 @@ namespace heel {
 inline constexpr int kProtocolVersion = 1;
 /// The longest line, without its end.
 inline constexpr std::size_t kMaxRequestBytes = 4096;
+inline constexpr std::size_t kMaxMarkBytes = 200;
 inline constexpr double kWatchPeriodMin_s = 0.1, kWatchPeriodMax_s = 60.0;
 
-enum class RequestKind : std::uint8_t { Help, Status, Start, Stop, EStop, Reset, Set, Save, Watch, Alive };
+enum class RequestKind : std::uint8_t {
+  Help,
+  Status,
+  Start,
+  Stop,
+  EStop,
+  Reset,
+  Set,
+  Save,
+  Watch,
+  Mark,
+  Alive
+};
 
 struct Request {
   std::optional<std::int64_t> id;  ///< the client's number, which the answer repeats
   RequestKind kind = RequestKind::Help;
   std::vector<ConfigAssignment> assignments;  ///< of Set, in the order of the line
+  std::string text;                           ///< of Mark
   double period_s = 1.0;                      ///< of Watch: the longest time between two lines
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/wire_pieces.h"
 #include "realtime/clock.h"
 
 namespace heel {
@@ -16,9 +17,10 @@ constexpr TimeNs kAdapter_ns = 20 * kNsPerMs;  // a USB adapter's own buffering
 
 }  // namespace
 
-RobotLink::RobotLink(const RobotConfig& config)
+RobotLink::RobotLink(const RobotConfig& config, SpscQueue<WireBytes>* wire)
     : session_(config),
       connector_(parse_robot_address(config.address), ns_from_seconds(config.reconnect_s)),
+      wire_(wire),
       line_baud_(session_.wanted_baud()) {
   connector_.open(line_baud_);
 }
@@ -51,11 +53,17 @@ void RobotLink::lose_line(TimeNs now_ns) {
   connector_.open(line_baud_);
 }
 
+void RobotLink::report(std::span<const std::uint8_t> bytes, bool to_robot, TimeNs t_ns) {
+  if (wire_ == nullptr) return;
+  for_each_wire_piece(bytes, to_robot, t_ns, [this](const WireBytes& piece) { wire_->push(piece); });
+}
+
 void RobotLink::read_all(SerialLine& line, TimeNs now_ns) {
   std::array<std::uint8_t, 512> chunk{};
   // Bounded: a line that never runs dry must not hold the tick.
   for (int i = 0; i < 8; ++i) {
     const SerialLine::Transfer got = line.read(chunk);
+    report(std::span(chunk).first(got.count), /*to_robot=*/false, now_ns);
     session_.receive(std::span(chunk).first(got.count), now_ns);
     if (got.status == SerialLine::Status::Lost) return lose_line(now_ns);
     if (got.count < chunk.size()) return;
@@ -67,6 +75,7 @@ void RobotLink::write_pending(TimeNs now_ns) {
   if (line == nullptr) return;
   const auto waiting = std::span(pending_).subspan(pending_begin_, pending_end_ - pending_begin_);
   const SerialLine::Transfer put = line->write(waiting);
+  report(waiting.first(put.count), /*to_robot=*/true, now_ns);
   pending_begin_ += put.count;
   if (put.status == SerialLine::Status::Lost) lose_line(now_ns);
 }
@@ -129,6 +138,7 @@ void RobotLink::shutdown(TimeNs now_ns) {
     while (!rest.empty() && left_ns() > 0) {
       const SerialLine::Transfer put = line->write(rest);
       if (put.status == SerialLine::Status::Lost) return;
+      report(rest.first(put.count), /*to_robot=*/true, monotonic_now_ns());
       rest = rest.subspan(put.count);
       if (put.count == 0) line->drain(2 * kNsPerMs);
     }

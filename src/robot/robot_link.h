@@ -5,11 +5,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "core/config.h"
 #include "heel/flow.h"
+#include "realtime/spsc_queue.h"
 #include "robot/arcos_session.h"
 #include "robot/link_connector.h"
 
@@ -18,8 +20,9 @@ namespace heel {
 class RobotLink {
  public:
   /// Throws heel::Error when the address cannot be understood. Begins to open the line at once, on a helper
-  /// thread: opening a device or looking up a host may take seconds.
-  explicit RobotLink(const RobotConfig& config);
+  /// thread: opening a device or looking up a host may take seconds. `wire`, where given, gets every byte
+  /// that is read or written; it is borrowed.
+  explicit RobotLink(const RobotConfig& config, SpscQueue<WireBytes>* wire = nullptr);
   /// Shuts down, if that has not been done.
   ~RobotLink();
 
@@ -58,9 +61,11 @@ class RobotLink {
   void read_all(SerialLine& line, TimeNs now_ns);
   void write_pending(TimeNs now_ns);
   void lose_line(TimeNs now_ns);
+  void report(std::span<const std::uint8_t> bytes, bool to_robot, TimeNs t_ns);
 
   ArcosSession session_;
   LinkConnector connector_;
+  SpscQueue<WireBytes>* const wire_;
   bool line_up_ = false;  ///< session_.line_opened() has been called
   bool finished_ = false;
   int line_baud_;

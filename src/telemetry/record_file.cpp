@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <spdlog/spdlog.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -15,7 +16,6 @@ namespace heel {
 RecordFile::RecordFile(std::string path) : path_(std::move(path)) {
   fd_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
   if (fd_ < 0) throw Error(path_ + ": cannot create the recording: " + std::strerror(errno));
-  waiting_.reserve(kMaxWaitingBytes);
 }
 
 RecordFile::~RecordFile() {
@@ -23,17 +23,24 @@ RecordFile::~RecordFile() {
   ::close(fd_);
 }
 
-void RecordFile::append(std::string_view line) {
-  if (waiting_.size() + line.size() > kMaxWaitingBytes) {
-    ++lines_lost_;
-    return;
+bool RecordFile::append(std::string_view piece) {
+  if (waiting_.size() + piece.size() > kMaxWaitingBytes) {
+    ++pieces_lost_;
+    return false;
   }
-  waiting_.append(line);
+  waiting_.append(piece);
+  return true;
+}
+
+/// What is written to a file without a name is lost, and fills the disk until the end of the run.
+bool RecordFile::deleted() const {
+  struct stat facts {};
+  return ::fstat(fd_, &facts) == 0 && facts.st_nlink == 0;
 }
 
 void RecordFile::flush() {
   std::size_t written = 0;
-  int error = 0;
+  int error = deleted() ? ENOENT : 0;
   while (written < waiting_.size() && error == 0) {
     const ssize_t n = ::write(fd_, waiting_.data() + written, waiting_.size() - written);
     if (n > 0) {
@@ -43,13 +50,23 @@ void RecordFile::flush() {
       if (error == EINTR) error = 0;
     }
   }
-  // The rest of a line that was written in part stays first, so that the next flush completes it.
+  // The rest of a piece that was written in part stays first, so that the next flush completes it.
   waiting_.erase(0, written);
+  report(error);
+}
+
+void RecordFile::sync() {
+  flush();
+  // EINVAL: not a disk; there is nothing to wait for.
+  if (!failing_ && ::fdatasync(fd_) != 0 && errno != EINVAL && errno != EINTR) report(errno);
+}
+
+void RecordFile::report(int error) {
   if (error != 0 && !failing_) {
     spdlog::error("recording {}: cannot write: {}; recording continues when it can be written again", path_,
                   std::strerror(error));
   } else if (error == 0 && failing_) {
-    spdlog::warn("recording {}: can be written again; {} lines were lost", path_, lines_lost_);
+    spdlog::warn("recording {}: can be written again; {} pieces were lost", path_, pieces_lost_);
   }
   failing_ = error != 0;
 }

@@ -1,5 +1,5 @@
-// A file to which whole lines are appended. When the disk is full, it logs one error, keeps waiting lines in
-// memory as far as they fit, continues when there is space again, and leaves no partial line.
+// A file to which whole pieces are appended. When the disk is full or gone, it logs one error, keeps waiting
+// pieces in memory as far as they fit, continues when it can write again, and leaves no partial piece.
 #pragma once
 
 #include <cstddef>
@@ -17,23 +17,28 @@ class RecordFile {
   RecordFile(const RecordFile&) = delete;
   RecordFile& operator=(const RecordFile&) = delete;
 
-  /// Adds a line (with its line end) to the next flush. When too much is waiting, the line is dropped and
-  /// counted.
-  void append(std::string_view line);
-  /// Writes all waiting lines.
+  /// Adds a piece to the next flush. False: too much is waiting; the piece was dropped and counted.
+  bool append(std::string_view piece);
+  /// Writes all waiting pieces.
   void flush();
+  /// The same, and waits until the disk has them: what was written is there after a power cut.
+  void sync();
 
   const std::string& path() const { return path_; }
-  std::uint64_t lines_lost() const { return lines_lost_; }
+  std::uint64_t pieces_lost() const { return pieces_lost_; }
+  bool failing() const { return failing_; }
 
-  static constexpr std::size_t kMaxWaitingBytes = 1 << 20;
+  static constexpr std::size_t kMaxWaitingBytes = 4 << 20;
 
  private:
+  void report(int error);
+  bool deleted() const;
+
   std::string path_;
   int fd_ = -1;
   std::string waiting_;
   bool failing_ = false;
-  std::uint64_t lines_lost_ = 0;
+  std::uint64_t pieces_lost_ = 0;
 };
 
 }  // namespace heel

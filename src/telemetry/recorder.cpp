@@ -2,102 +2,117 @@
 
 #include <fmt/chrono.h>
 
-#include <array>
+#include <chrono>
 #include <ctime>
 #include <filesystem>
 #include <system_error>
 
+#include "core/wire_pieces.h"
 #include "heel/error.h"
 #include "realtime/clock.h"
-#include "telemetry/csv_columns.h"
+#include "recording/flow_json.h"
+#include "recording/recording_reader.h"
 #include "telemetry/event_text.h"
 
 namespace heel {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-struct RecordingName {
-  const char* stem;
-  const char* extension;
-  fs::path path(const fs::path& folder) const { return folder / fmt::format("{}{}", stem, extension); }
-  fs::path numbered(const fs::path& folder, int n) const {
-    return folder / fmt::format("{}.{}{}", stem, n, extension);
-  }
-};
-
-constexpr std::array<RecordingName, 4> kNames{
-    {{"ticks", ".csv"}, {"poses", ".csv"}, {"capture", ".csv"}, {"events", ".log"}}};
-
-bool any_exists(const fs::path& folder, int n) {
-  for (const RecordingName& name : kNames) {
-    if (fs::exists(n == 0 ? name.path(folder) : name.numbered(folder, n))) return true;
-  }
-  return false;
+RecordingClock RecordingClock::wall() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return {std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() - monotonic_now_ns()};
 }
 
-/// An earlier recording is never overwritten: all of its files get the same number.
-void rename_earlier_recording(const fs::path& folder) {
-  if (!any_exists(folder, 0)) return;
-  int number = 1;
-  while (any_exists(folder, number)) ++number;
-  for (const RecordingName& name : kNames) {
-    if (fs::exists(name.path(folder))) fs::rename(name.path(folder), name.numbered(folder, number));
+Recorder::Recorder(const std::string& path, RecordingClock clock)
+    : clock_(clock),
+      file_(path),
+      writer_([this](std::string_view piece) { return file_.append(piece); }, {}) {
+  for (const TopicRow& row : topic_table()) {
+    const std::uint16_t schema = writer_.add_schema(std::string(row.schema), "jsonschema", row.schema_text());
+    channels_[static_cast<std::size_t>(row.topic)] = writer_.add_channel(std::string(row.name), schema);
   }
+  file_.flush();
 }
 
-}  // namespace
+Recorder::~Recorder() {
+  writer_.finish();
+  file_.flush();
+}
 
-Recorder::Recorder(const std::string& directory) {
-  try {
-    fs::create_directories(directory);
-    rename_earlier_recording(directory);
-  } catch (const fs::filesystem_error& error) {
-    throw Error("telemetry.directory " + directory + ": " + error.code().message() +
-                " (expected a folder that can be written)");
-  }
-  ticks_ = std::make_unique<RecordFile>(kNames[0].path(directory));
-  poses_ = std::make_unique<RecordFile>(kNames[1].path(directory));
-  capture_ = std::make_unique<RecordFile>(kNames[2].path(directory));
-  events_ = std::make_unique<RecordFile>(kNames[3].path(directory));
-  ticks_->append(csv_header(tick_columns()));
-  poses_->append(csv_header(pose_columns()));
-  capture_->append(csv_header(capture_columns()));
-  record_text(monotonic_now_ns(),
-              fmt::format("recording begins at {:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))));
+void Recorder::write(Topic topic, TimeNs t_ns, std::string_view json) {
+  writer_.write(channels_[static_cast<std::size_t>(topic)], t_ns + clock_.offset_ns, json);
+}
+
+template <typename Flow>
+void Recorder::write_flow(Topic topic, TimeNs t_ns, const Flow& record) {
+  json_.clear();
+  append_flow_json(json_, record);
+  write(topic, t_ns, json_);
 }
 
 void Recorder::record(const TickRecord& tick) {
-  ticks_->append(csv_row(line_, tick_columns(), tick));
+  write_flow(Topic::Tick, tick.input.now_ns, tick);
 }
 
 void Recorder::record(const PoseEstimate& pose) {
-  poses_->append(csv_row(line_, pose_columns(), pose));
+  write_flow(Topic::Pose, pose.t_done_ns, pose);
 }
 
 void Recorder::record(const CaptureCounters& capture) {
-  capture_->append(csv_row(line_, capture_columns(), capture));
+  write_flow(Topic::Capture, capture.t_ns, capture);
 }
 
 void Recorder::record(const Event& event) {
-  record_text(event.t_ns, event_text(event));
+  write_flow(Topic::Event, event.t_ns, event);
+}
+
+void Recorder::record(const WireBytes& bytes) {
+  write_flow(Topic::Wire, bytes.t_ns, bytes);
+}
+
+void Recorder::record_wire(std::span<const std::uint8_t> bytes, bool to_robot, TimeNs t_ns) {
+  for_each_wire_piece(bytes, to_robot, t_ns, [this](const WireBytes& piece) { record(piece); });
+}
+
+void Recorder::record(const ConfigurationText& configuration) {
+  write(Topic::Configuration, configuration.t_ns, configuration_json(configuration));
+}
+
+void Recorder::record(const OperatorLine& line) {
+  write(Topic::Operator, line.t_ns, operator_json(line));
+}
+
+void Recorder::record(const RecordingNote& note) {
+  write(Topic::Recording, note.t_ns, note_json(note));
 }
 
 void Recorder::record_text(TimeNs t_ns, std::string_view text) {
-  line_.clear();
-  line_.seconds(t_ns);
-  std::string whole(line_.finish());
-  whole.back() = ' ';
-  whole.append(text).push_back('\n');
-  events_->append(whole);
+  write(Topic::Log, t_ns, log_json({t_ns, std::string(text)}, t_ns + clock_.offset_ns));
 }
 
 void Recorder::flush() {
-  ticks_->flush();
-  poses_->flush();
-  capture_->flush();
-  events_->flush();
+  writer_.end_chunk();
+  file_.flush();
+}
+
+void Recorder::sync() {
+  writer_.end_chunk();
+  file_.sync();
+}
+
+std::string new_recording_path(const std::string& folder) {
+  try {
+    fs::create_directories(folder);
+    const std::string stem =
+        fmt::format("{}/heel-{:%Y%m%dT%H%M%S}Z", folder, fmt::gmtime(std::time(nullptr)));
+    std::string path = stem + kRecordingExtension;
+    for (int number = 1; fs::exists(path); ++number)
+      path = fmt::format("{}-{}{}", stem, number, kRecordingExtension);
+    return path;
+  } catch (const fs::filesystem_error& error) {
+    throw Error("telemetry.directory " + folder + ": " + error.code().message() +
+                " (expected a folder that can be written)");
+  }
 }
 
 }  // namespace heel

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <utility>
+
 #include "core/state_sentence.h"
 #include "logging/journal_sink.h"
 #include "realtime/clock.h"
@@ -16,6 +18,7 @@ namespace {
 constexpr TimeNs kDrainPeriod_ns = 50 * kNsPerMs;
 constexpr TimeNs kFlushPeriod_ns = 500 * kNsPerMs;
 constexpr TimeNs kRepeatedEventPeriod_ns = kNsPerS;
+constexpr std::size_t kMaxWaitingTexts = 256;
 
 static_assert(static_cast<std::size_t>(EventKind::Warning) < 16, "Telemetry::t_logged_ns_ is too short");
 
@@ -34,8 +37,11 @@ std::string refusal_of(const TickRecord& tick) {
 
 }  // namespace
 
-Telemetry::Telemetry(TelemetryQueues& queues, const TelemetryConfig& config) : queues_(queues) {
-  if (!config.directory.empty()) recorder_ = std::make_unique<Recorder>(config.directory);
+Telemetry::Telemetry(TelemetryQueues& queues, const TelemetryConfig& config)
+    : queues_(queues), recording_(!config.directory.empty()) {
+  if (!recording_) return;
+  recorder_ = std::make_unique<Recorder>(new_recording_path(config.directory), RecordingClock::wall());
+  recorder_->record(RecordingNote{monotonic_now_ns(), "begin", "heeld", 0});
 }
 
 void Telemetry::run() {
@@ -50,7 +56,13 @@ void Telemetry::run() {
     drain(now_ns);
   }
   drain(monotonic_now_ns());
-  if (recorder_) recorder_->flush();
+  end_recording();
+}
+
+void Telemetry::end_recording() {
+  if (!recorder_) return;
+  recorder_->record(RecordingNote{monotonic_now_ns(), "end", "heeld stopped", newest_.records_lost});
+  recorder_.reset();
 }
 
 void Telemetry::stop() {
@@ -58,7 +70,47 @@ void Telemetry::stop() {
   futex_wake_all(stop_, FutexScope::Process);
 }
 
+template <typename Text>
+void Telemetry::add_text(std::vector<Text>& waiting, Text text) {
+  const std::lock_guard lock(texts_mutex_);
+  if (waiting.size() < kMaxWaitingTexts) {
+    waiting.push_back(std::move(text));
+  } else {
+    ++texts_.dropped;
+  }
+}
+
+void Telemetry::configuration(ConfigurationText configuration) {
+  add_text(texts_.configurations, std::move(configuration));
+}
+
+void Telemetry::operator_line(OperatorLine line) {
+  add_text(texts_.operator_lines, std::move(line));
+}
+
+bool Telemetry::mark(const std::string& text) {
+  if (!recording_) return false;
+  add_text(texts_.marks, RecordingNote{monotonic_now_ns(), "mark", text, 0});
+  return true;
+}
+
+void Telemetry::take_texts() {
+  Texts texts;
+  {
+    const std::lock_guard lock(texts_mutex_);
+    texts.configurations.swap(texts_.configurations);
+    texts.operator_lines.swap(texts_.operator_lines);
+    texts.marks.swap(texts_.marks);
+    texts_lost_ = texts_.dropped;
+  }
+  if (!recorder_) return;
+  for (const ConfigurationText& configuration : texts.configurations) recorder_->record(configuration);
+  for (const OperatorLine& line : texts.operator_lines) recorder_->record(line);
+  for (const RecordingNote& mark : texts.marks) recorder_->record(mark);
+}
+
 void Telemetry::drain(TimeNs now_ns) {
+  take_texts();
   for (TickRecord tick; queues_.ticks.pop(tick);) take(tick);
   for (PoseEstimate pose; queues_.poses.pop(pose);) {
     ++newest_.poses;
@@ -72,9 +124,11 @@ void Telemetry::drain(TimeNs now_ns) {
   for (SpscQueue<Event>* events : {&queues_.capture_events, &queues_.control_events}) {
     for (Event event; events->pop(event);) take(event);
   }
+  for (WireBytes bytes; queues_.wire.pop(bytes);)
+    if (recorder_) recorder_->record(bytes);
   log_losses(now_ns);
   if (recorder_ && now_ns - t_flushed_ns_ >= kFlushPeriod_ns) {
-    recorder_->flush();
+    recorder_->sync();
     t_flushed_ns_ = now_ns;
   }
   const std::lock_guard lock(published_mutex_);
@@ -154,21 +208,25 @@ void Telemetry::take_measurement(const TickRecord& tick) {
 
 void Telemetry::take(const Event& event) {
   ++newest_.events;
+  if (recorder_) recorder_->record(event);
   TimeNs& t_logged_ns = t_logged_ns_[static_cast<std::size_t>(event.kind)];
   const bool too_soon = t_logged_ns != 0 && event.t_ns - t_logged_ns < kRepeatedEventPeriod_ns;
   if (event_repeats(event.kind) && too_soon) return;
   t_logged_ns = event.t_ns;
   log_event({.part = event_part(event.kind), .event = to_string(event.kind)}, event_level(event.kind),
             event_text(event));
-  if (recorder_) recorder_->record(event);
+  if (recorder_) recorder_->record_text(event.t_ns, event_text(event));
 }
 
 void Telemetry::log_losses(TimeNs now_ns) {
   newest_.records_lost = queues_.ticks.dropped() + queues_.poses.dropped() + queues_.captures.dropped() +
-                         queues_.capture_events.dropped() + queues_.control_events.dropped();
+                         queues_.capture_events.dropped() + queues_.control_events.dropped() +
+                         queues_.wire.dropped() + texts_lost_;
+  if (recorder_) newest_.records_lost += recorder_->messages_lost();
   if (newest_.records_lost == losses_logged_ || now_ns - t_losses_logged_ns_ < kRepeatedEventPeriod_ns)
     return;
   spdlog::warn("telemetry is too slow: {} records lost so far", newest_.records_lost);
+  if (recorder_) recorder_->record(RecordingNote{now_ns, "lost", "records lost", newest_.records_lost});
   losses_logged_ = newest_.records_lost;
   t_losses_logged_ns_ = now_ns;
 }

@@ -15,6 +15,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "core/config.h"
 #include "heel/flow.h"
@@ -49,16 +50,38 @@ class Telemetry {
   /// From any thread.
   TelemetrySnapshot snapshot() const;
 
+  // From any thread but a real-time one (they lock and allocate); written with the next drain. When too many
+  // wait, the new one is dropped and counted.
+  void configuration(ConfigurationText configuration);
+  void operator_line(OperatorLine line);
+  /// A mark in the recording. False: nothing is recorded.
+  bool mark(const std::string& text);
+
  private:
   void take(const TickRecord& tick);
   void take_state(const TickRecord& tick, bool first);
   void take_brakes(const TickRecord& tick);
   void take_measurement(const TickRecord& tick);
   void take(const Event& event);
+  void take_texts();
   void log_losses(TimeNs now_ns);
+  void end_recording();
+
+  template <typename Text>
+  void add_text(std::vector<Text>& waiting, Text text);
 
   TelemetryQueues& queues_;
+  const bool recording_;
   std::unique_ptr<Recorder> recorder_;  // null: nothing is recorded
+
+  struct Texts {
+    std::vector<ConfigurationText> configurations;
+    std::vector<OperatorLine> operator_lines;
+    std::vector<RecordingNote> marks;
+    std::uint64_t dropped = 0;
+  };
+  std::mutex texts_mutex_;
+  Texts texts_;  // guarded by texts_mutex_; those that wait
 
   TelemetrySnapshot newest_;
   mutable std::mutex published_mutex_;
@@ -71,6 +94,7 @@ class Telemetry {
   std::string logged_refusal_;  // the last one: a frame refused for another reason is logged again
   double logged_brakes_m_s2_ = std::numeric_limits<double>::infinity();
   TimeNs t_refusal_logged_ns_ = 0;
+  std::uint64_t texts_lost_ = 0;
   std::uint64_t losses_logged_ = 0;
   TimeNs t_losses_logged_ns_ = 0;
   TimeNs t_flushed_ns_ = 0;

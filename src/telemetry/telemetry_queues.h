@@ -13,6 +13,7 @@ struct TelemetryQueues {
   SpscQueue<CaptureCounters> captures{256};  ///< capture thread
   SpscQueue<Event> capture_events{64};       ///< capture thread
   SpscQueue<Event> control_events{64};       ///< control thread
+  SpscQueue<WireBytes> wire{1024};           ///< control thread; the robot's line
 };
 
 }  // namespace heel

@@ -19,6 +19,8 @@ struct ScriptedPort final : OperatorPort {
   void alive(TimeNs) override {}
   bool take_tick(TickRecord&) override { return false; }
   CaptureCounters camera() override { return {}; }
+  void answered(const std::string&, const std::string&, const std::string&) override {}
+  std::string mark(const std::string&) override { return ""; }
   std::vector<OperatorRequest> requests;
 };
 

@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "operator/operator_port.h"
@@ -51,6 +52,23 @@ class PlayedLoop final : public OperatorPort {
     return true;
   }
   CaptureCounters camera() override { return {.captured = 42}; }
+  void answered(const std::string& who, const std::string& request, const std::string& answer) override {
+    const std::lock_guard lock(mutex_);
+    if (!who.empty()) answers_.push_back(request + ": " + answer);
+  }
+  std::string mark(const std::string& text) override {
+    const std::lock_guard lock(mutex_);
+    marks_.push_back(text);
+    return text == "refuse" ? "nothing is recorded" : "";
+  }
+  std::vector<std::string> answers() {
+    const std::lock_guard lock(mutex_);
+    return answers_;
+  }
+  std::vector<std::string> marks() {
+    const std::lock_guard lock(mutex_);
+    return marks_;
+  }
 
   void be_deaf() {
     const std::lock_guard lock(mutex_);
@@ -88,6 +106,7 @@ class PlayedLoop final : public OperatorPort {
  private:
   std::mutex mutex_;
   TickRecord tick_;
+  std::vector<std::string> answers_, marks_;
   std::vector<OperatorCommand> requests_;
   int signs_of_life_ = 0;
   bool deaf_ = false, held_ = false, holds_ = false;

@@ -37,7 +37,7 @@ TEST(OperatorRequest, EachKindByItsName) {
     EXPECT_EQ(request.kind, row.kind);
     EXPECT_EQ(request.id, 7);
   }
-  EXPECT_EQ(kinds, 10);
+  EXPECT_EQ(kinds, 11);
 }
 
 TEST(OperatorRequest, VersionAndIdMayBeLeftOut) {
@@ -45,6 +45,15 @@ TEST(OperatorRequest, VersionAndIdMayBeLeftOut) {
   EXPECT_EQ(request.kind, RequestKind::Status);
   EXPECT_FALSE(request.id.has_value());
   EXPECT_EQ(good("{\"id\":0,\"do\":\"status\"}").id, 0);
+}
+
+TEST(OperatorRequest, TheTextOfAMarkIsShort) {
+  EXPECT_EQ(good(R"({"do":"mark","text":"it hesitates"})").text, "it hesitates");
+  EXPECT_EQ(good(R"({"do":"mark"})").text, "");
+  EXPECT_THAT(error_of(R"({"do":"mark","text":5})"), HasSubstr("text: expected a text"));
+  const std::string longest(kMaxMarkBytes, 'x');
+  EXPECT_EQ(good("{\"do\":\"mark\",\"text\":\"" + longest + "\"}").text, longest);
+  EXPECT_THAT(error_of("{\"do\":\"mark\",\"text\":\"" + longest + "x\"}"), HasSubstr("at most 200 bytes"));
 }
 
 TEST(OperatorRequest, ValuesOfASet) {

@@ -117,6 +117,21 @@ TEST_F(Server, SetAndSaveAnswerWithTheDifference) {
   EXPECT_EQ(ask(client, R"({"do":"save"})")["changes"].size(), 0u);
 }
 
+TEST_F(Server, WhatWasAskedAndWhatBecameOfItGoesToTheRecording) {
+  SocketClient client(path_);
+  ask(client, R"({"do":"start"})");
+  ask(client, R"({"do":"set","values":{"gate.v_max_m_s":0.25}})");
+  ask(client, R"({"do":"set","values":{"gate.speed":1}})");
+  ask(client, R"({"do":"save"})");
+  EXPECT_EQ(ask(client, R"({"do":"mark","text":"it hesitates"})")["ok"], true);
+  EXPECT_EQ(ask(client, R"({"do":"mark","text":"refuse"})")["error"], "nothing is recorded");
+  EXPECT_THAT(loop_.marks(), testing::ElementsAre("it hesitates", "refuse"));
+  EXPECT_THAT(loop_.answers(), testing::ElementsAre("start: done", "set: gate.v_max_m_s: 0.5 -> 0.25",
+                                                    HasSubstr("set: gate.speed: no such key"),
+                                                    "save: gate.v_max_m_s: 0.5 -> 0.25", "mark: done",
+                                                    "mark: nothing is recorded"));
+}
+
 TEST_F(Server, HelpAndAlive) {
   SocketClient client(path_);
   EXPECT_EQ(ask(client, R"({"do":"help"})")["requests"].size(), request_table().size());

@@ -1,4 +1,4 @@
-// Recordings on disk: lines are whole, earlier recordings are kept, and a full disk does not end the
+// Recordings on disk: pieces are whole, earlier recordings are kept, and a full disk does not end the
 // recording.
 #include "telemetry/recorder.h"
 
@@ -7,8 +7,13 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <filesystem>
+#include <limits>
+#include <random>
 #include <string>
+#include <vector>
 
+#include "recording/recording_reader.h"
 #include "support/collected_log.h"
 #include "support/complaint.h"
 #include "support/temporary_folder.h"
@@ -16,7 +21,6 @@
 namespace heel {
 namespace {
 
-using test::occurrences;
 using test::read_text;
 using testing::HasSubstr;
 
@@ -41,7 +45,7 @@ class SmallDisk {
   rlimit before_{};
 };
 
-TEST(RecordFile, AFullDiskIsLoggedOnceAndPartialLinesAreCompletedLater) {
+TEST(RecordFile, AFullDiskIsLoggedOnceAndPartialPiecesAreCompletedLater) {
   const test::TemporaryFolder folder;
   const test::CollectedLog log;
   RecordFile file(folder.file("record"));
@@ -58,10 +62,10 @@ TEST(RecordFile, AFullDiskIsLoggedOnceAndPartialLinesAreCompletedLater) {
   file.append(line_of('e'));
   file.flush();
   EXPECT_EQ(read_text(file.path()), line_of('a') + line_of('b') + line_of('c') + line_of('d') + line_of('e'));
-  EXPECT_THAT(log.text(), HasSubstr("can be written again; 0 lines were lost"));
+  EXPECT_THAT(log.text(), HasSubstr("can be written again; 0 pieces were lost"));
 }
 
-TEST(RecordFile, LinesThatDoNotFitIntoTheBufferAreLostWholeAndCounted) {
+TEST(RecordFile, PiecesThatDoNotFitIntoTheBufferAreLostWholeAndCounted) {
   const test::TemporaryFolder folder;
   const test::CollectedLog log;
   RecordFile file(folder.file("record"));
@@ -71,66 +75,179 @@ TEST(RecordFile, LinesThatDoNotFitIntoTheBufferAreLostWholeAndCounted) {
     for (std::size_t i = 0; i < fit + 7; ++i) file.append(line_of('x'));
     file.flush();
   }
-  EXPECT_EQ(file.lines_lost(), 7u);
+  EXPECT_EQ(file.pieces_lost(), 7u);
   file.flush();
   EXPECT_EQ(read_text(file.path()).size(), fit * 100);
-  EXPECT_THAT(log.text(), HasSubstr("7 lines were lost"));
+  EXPECT_THAT(log.text(), HasSubstr("7 pieces were lost"));
 }
 
-TEST(Recorder, WritesHeadersAndRowsOfEachKind) {
+/// Everything of a recording.
+class All final : public RecordingVisitor {
+ public:
+  void on_tick(const TickRecord& tick) override { ticks.push_back(tick); }
+  void on_pose(const PoseEstimate& pose) override { poses.push_back(pose); }
+  void on_capture(const CaptureCounters& counters) override { captures.push_back(counters); }
+  void on_event(const Event& event) override { events.push_back(event); }
+  void on_wire(const WireBytes& bytes) override { wire.push_back(bytes); }
+  void on_log(const LogLine& line) override { log.push_back(line); }
+  void on_configuration(const ConfigurationText& text) override { configurations.push_back(text); }
+  void on_operator(const OperatorLine& line) override { operators.push_back(line); }
+  void on_note(const RecordingNote& note) override { notes.push_back(note); }
+
+  std::vector<TickRecord> ticks;
+  std::vector<PoseEstimate> poses;
+  std::vector<CaptureCounters> captures;
+  std::vector<Event> events;
+  std::vector<WireBytes> wire;
+  std::vector<LogLine> log;
+  std::vector<ConfigurationText> configurations;
+  std::vector<OperatorLine> operators;
+  std::vector<RecordingNote> notes;
+};
+
+TEST(Recorder, KeepsRecordsOfEachKind) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("run.mcap");
+  {
+    Recorder recorder(path, RecordingClock{});
+    TickRecord tick;
+    tick.input.now_ns = 1'500'000'000;
+    tick.person_m = std::numeric_limits<double>::infinity();
+    recorder.record(tick);
+    PoseEstimate pose;
+    pose.frame_sequence = 42;
+    recorder.record(pose);
+    recorder.record(CaptureCounters{.t_ns = 2'000'000'000, .captured = 11});
+    Event event;
+    event.t_ns = 3'000'000'000;
+    event.kind = EventKind::FrameRefused;
+    event.a = -320;
+    recorder.record(event);
+    const std::vector<std::uint8_t> bytes(300, 0xfa);
+    recorder.record_wire(bytes, /*to_robot=*/true, 5);
+    recorder.record_text(6, "at rest: \"quoted\"\n");
+    recorder.record(ConfigurationText{7, 1, "[gate]\n"});
+    recorder.record(OperatorLine{8, "pid 3", "set", "done"});
+    recorder.record(RecordingNote{9, "lost", "records lost", 12});
+  }
+  All all;
+  const RecordingReport report = read_recording(path, all);
+  EXPECT_TRUE(report.complete);
+  EXPECT_THAT(report.problems, testing::IsEmpty());
+  EXPECT_THAT(report.other_version, testing::IsEmpty());
+  ASSERT_EQ(all.ticks.size(), 1u);
+  EXPECT_EQ(all.ticks[0].input.now_ns, 1'500'000'000);
+  EXPECT_EQ(all.ticks[0].person_m, std::numeric_limits<double>::infinity());
+  ASSERT_EQ(all.poses.size(), 1u);
+  EXPECT_EQ(all.poses[0].frame_sequence, 42u);
+  ASSERT_EQ(all.captures.size(), 1u);
+  EXPECT_EQ(all.captures[0], (CaptureCounters{.t_ns = 2'000'000'000, .captured = 11}));
+  ASSERT_EQ(all.events.size(), 1u);
+  EXPECT_EQ(all.events[0].kind, EventKind::FrameRefused);
+  EXPECT_EQ(all.events[0].a, -320);
+  ASSERT_EQ(all.wire.size(), 3u) << "118, 118 and 64 bytes";
+  EXPECT_EQ(all.wire[2].count, 64);
+  EXPECT_EQ(all.wire[2].bytes[63], 0xfa);
+  EXPECT_TRUE(all.wire[2].to_robot);
+  ASSERT_EQ(all.log.size(), 1u);
+  EXPECT_EQ(all.log[0].text, "at rest: \"quoted\"\n");
+  ASSERT_EQ(all.configurations.size(), 1u);
+  EXPECT_EQ(all.configurations[0].number, 1u);
+  ASSERT_EQ(all.operators.size(), 1u);
+  EXPECT_EQ(all.operators[0].who, "pid 3");
+  ASSERT_EQ(all.notes.size(), 1u);
+  EXPECT_EQ(all.notes[0].lost, 12u);
+}
+
+TEST(Recorder, WhatWasFlushedIsThereWithoutTheEnd) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("run.mcap");
+  Recorder recorder(path, RecordingClock{});
+  TickRecord tick;
+  for (tick.tick = 0; tick.tick < 60; ++tick.tick) {
+    recorder.record(tick);
+    if (tick.tick == 49) recorder.flush();
+  }
+  const std::string until_now = read_text(path);  // as after a power cut
+  for (const std::size_t cut : {std::size_t{0}, std::size_t{1}, std::size_t{500}}) {
+    const std::string cut_path =
+        test::write_text(folder.file("cut.mcap"), until_now.substr(0, until_now.size() - cut));
+    All all;
+    const RecordingReport report = read_recording(cut_path, all);
+    EXPECT_FALSE(report.complete);
+    ASSERT_EQ(report.problems.size(), 1u);
+    // The index of the chunk stands behind it.
+    EXPECT_EQ(all.ticks.size(), cut < 500 ? 50u : all.ticks.size());
+    EXPECT_THAT(report.problems[0], HasSubstr("messages before it were read"));
+    EXPECT_THAT(report.problems[0], HasSubstr(cut_path + ": byte "));
+  }
+}
+
+TEST(Recorder, AFullDiskLosesWholeChunksAndCountsTheirMessages) {
+  const test::TemporaryFolder folder;
+  const test::CollectedLog log;
+  const std::string path = folder.file("run.mcap");
+  std::uint64_t lost = 0;
+  std::uint64_t written = 0;
+  {
+    Recorder recorder(path, RecordingClock{});
+    // Texts that do not compress: more than the file keeps in memory.
+    std::mt19937 random(7);
+    std::string text(20'000, ' ');
+    {
+      const SmallDisk disk(std::filesystem::file_size(path) + 100);
+      for (int i = 0; i < 600; ++i) {
+        for (char& letter : text) letter = static_cast<char>('!' + random() % 90);
+        recorder.record_text(i, text);
+        recorder.flush();
+      }
+      EXPECT_EQ(log.count("cannot write: "), 1) << log.text();
+    }
+    lost = recorder.messages_lost();
+    EXPECT_GT(lost, 100u);
+    recorder.record_text(1000, "after");
+    recorder.flush();
+    written = recorder.messages();
+  }
+  EXPECT_EQ(lost + written, 601u);
+  All all;
+  const RecordingReport report = read_recording(path, all);
+  EXPECT_TRUE(report.complete);
+  EXPECT_THAT(report.problems, testing::IsEmpty());
+  EXPECT_EQ(all.log.size(), written);
+  EXPECT_EQ(all.log.back().text, "after");
+}
+
+TEST(Recorder, AnEarlierRecordingIsNeverOverwritten) {
   const test::TemporaryFolder folder;
   const std::string directory = folder.file("a/new/folder");
-  Recorder recorder(directory);
-  TickRecord tick;
-  tick.input.now_ns = 1'500'000'000;
-  recorder.record(tick);
-  recorder.record(tick);
-  PoseEstimate pose;
-  pose.frame_sequence = 42;
-  recorder.record(pose);
-  recorder.record(CaptureCounters{.t_ns = 2'000'000'000, .captured = 11});
-  Event event;
-  event.t_ns = 3'000'000'000;
-  event.kind = EventKind::FrameRefused;
-  event.a = 320;
-  event.b = 240;
-  recorder.record(event);
-  recorder.flush();
-
-  const std::string ticks = read_text(directory + "/ticks.csv");
-  EXPECT_EQ(ticks.substr(0, 9), "t_s,tick,");
-  EXPECT_EQ(occurrences(ticks, "\n1.500000000,"), 2);
-  EXPECT_EQ(occurrences(ticks, "\n"), 3);
-  const std::string poses = read_text(directory + "/poses.csv");
-  EXPECT_EQ(occurrences(poses, "\n"), 2);
-  EXPECT_THAT(poses, HasSubstr(",42,"));
-  EXPECT_EQ(read_text(directory + "/capture.csv"),
-            "t_s,captured,dropped_by_driver,dropped_unread,reopened\n2.000000000,11,0,0,0\n");
-  EXPECT_THAT(read_text(directory + "/events.log"),
-              testing::MatchesRegex("[0-9.]+ recording begins at 20[0-9TZ:-]+\n"
-                                    "3\\.000000000 frame refused: 320x240 px .*\n"));
-}
-
-TEST(Recorder, AllFilesOfAnEarlierRecordingGetTheSameNumber) {
-  const test::TemporaryFolder folder;
-  const std::string directory = folder.path();
-  test::write_text(directory + "/ticks.csv", "first");
-  { const Recorder second(directory); }
-  test::write_text(directory + "/poses.2.csv", "someone else's");
-  { const Recorder third(directory); }
-  EXPECT_EQ(read_text(directory + "/ticks.1.csv"), "first");
-  EXPECT_EQ(read_text(directory + "/poses.2.csv"), "someone else's");
-  EXPECT_EQ(read_text(directory + "/ticks.3.csv").substr(0, 4), "t_s,");
-  EXPECT_EQ(read_text(directory + "/poses.3.csv").substr(0, 4), "t_s,");
-  EXPECT_THAT(read_text(directory + "/events.3.log"), HasSubstr("recording begins"));
-  EXPECT_EQ(read_text(directory + "/ticks.csv").substr(0, 4), "t_s,");
+  const std::string first = new_recording_path(directory);
+  { const Recorder recorder(first, RecordingClock::wall()); }
+  const std::string second = new_recording_path(directory);
+  EXPECT_NE(first, second);
+  { const Recorder recorder(second, RecordingClock::wall()); }
+  EXPECT_THAT(first, testing::MatchesRegex(".*/heel-20[0-9T]+Z\\.mcap"));
+  EXPECT_THAT(test::complaint_of([&] { const Recorder recorder(first, RecordingClock{}); }),
+              HasSubstr(first));
 }
 
 TEST(Recorder, AFolderThatCannotBeMadeIsNamed) {
   const test::TemporaryFolder folder;
   const std::string file = test::write_text(folder.file("file"), "not a folder");
-  EXPECT_THAT(test::complaint_of([&] { const Recorder recorder(file + "/run"); }),
+  EXPECT_THAT(test::complaint_of([&] { new_recording_path(file + "/run"); }),
               HasSubstr("telemetry.directory " + file + "/run"));
+}
+
+TEST(RecordFile, ADeletedFileIsNamedOnce) {
+  const test::TemporaryFolder folder;
+  const test::CollectedLog log;
+  RecordFile file(folder.file("record"));
+  std::filesystem::remove(file.path());
+  for (int i = 0; i < 3; ++i) {
+    file.append(line_of('x'));
+    file.flush();
+  }
+  EXPECT_EQ(log.count("cannot write: No such file or directory"), 1) << log.text();
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "support/collected_log.h"
+#include "support/exported.h"
 #include "support/process.h"
 #include "support/temporary_folder.h"
 #include "telemetry/event_text.h"
@@ -205,6 +206,7 @@ TEST_F(TelemetryTest, EveryPushedRecordIsInTheRecordingAfterStop) {
   capture.join();
   telemetry.stop();
   reader.join();
+  test::exported(folder.path());
   for (const char* name : {"ticks.csv", "poses.csv", "capture.csv"}) {
     const std::string text = test::read_text(folder.file(name));
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), kRecords + 1) << name;

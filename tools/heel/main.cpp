@@ -24,6 +24,9 @@ void add_commands(CLI::App& app) {
   add_experiment_command(app);
   add_fit_command(app);
   add_report_command(app);
+  add_mark_command(app);
+  add_replay_command(app);
+  add_export_command(app);
   add_bench_command(app);
   add_status_command(app);
   add_start_command(app);

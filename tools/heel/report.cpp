@@ -51,9 +51,7 @@ void add_report_command(CLI::App& app) {
                          "frames into a run's folder; summary.md and fig1 ... fig8 into a "
                          "folder of `heel experiment`. Figures are PNG and SVG with their "
                          "numbers as CSV; drawing needs the Debian package python3-matplotlib");
-  command
-      ->add_option("directory", options->directory,
-                   "holds truth.csv, ticks.csv and poses.csv; or experiments")
+  command->add_option("directory", options->directory, "holds truth.csv and a recording; or experiments")
       ->required();
   command->add_flag("--json", options->json, "print the summary as JSON");
   add_criteria_options(*command, options->criteria);

@@ -103,7 +103,7 @@ void add_simulate_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option(
       "-o,--out", options->out,
-      std::string("folder for truth.csv, ticks.csv, poses.csv, wire.hex and frames; with several "
+      std::string("folder for the recording run.mcap, truth.csv, wire.hex and frames; with several "
                   "scenarios it has a folder for each (default ") +
           kSimulateDefaultOut + ")");
   command->add_flag("--json", options->json, "metrics as JSON; of several scenarios as a list");

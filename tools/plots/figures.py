@@ -8,6 +8,7 @@ import hard_cases
 import overview
 import real_video
 import reliability
+import replay
 import response
 import run_errors
 import run_frames
@@ -23,6 +24,7 @@ MODULES = (
     run_frames,
     overview,
     hard_cases,
+    replay,
     response,
     walk,
     conditions,

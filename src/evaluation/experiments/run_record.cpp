@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
+#include "config/config_text.h"
 #include "files/folder.h"
 #include "files/image_file.h"
 #include "files/template_file.h"
@@ -76,7 +79,10 @@ FollowReference follow_reference(const sim::LockstepSettings& settings) {
 RunRecord::RunRecord(const std::string& directory, const sim::LockstepSettings& settings)
     : directory_(directory), metrics_(follow_reference(settings)) {
   if (directory.empty()) return;
-  recorder_ = std::make_unique<Recorder>(directory);
+  make_folder(directory);
+  std::filesystem::remove(directory + "/run.mcap");
+  recorder_ = std::make_unique<Recorder>(directory + "/run.mcap", RecordingClock{});
+  recorder_->record(ConfigurationText{0, 0, config_toml(sim::control_config(settings))});
   open_truth(settings.scenario.camera.source == "sim");
   wire_ = std::make_unique<sim::WireFile>(directory + "/wire.hex", kWireDecimals);
   if (!settings.errors) {
@@ -123,6 +129,11 @@ void RunRecord::on_pose(const FrameView& frame, const PoseEstimate& pose, const 
 
 void RunRecord::on_bytes_to_robot(std::span<const std::uint8_t> bytes, TimeNs t_ns) {
   if (wire_) wire_->write(t_ns, bytes);
+  if (recorder_) recorder_->record_wire(bytes, /*to_robot=*/true, t_ns);
+}
+
+void RunRecord::on_bytes_from_robot(std::span<const std::uint8_t> bytes, TimeNs t_ns) {
+  if (recorder_) recorder_->record_wire(bytes, /*to_robot=*/false, t_ns);
 }
 
 void RunRecord::flush() {

@@ -1,5 +1,5 @@
-// What is recorded of a lock-step run: samples for the metrics and, in a folder, CSV files, some frames and
-// the template.
+// What is recorded of a lock-step run: samples for the metrics and, in a folder, the recording, the truth,
+// some frames and the template.
 #pragma once
 
 #include <memory>
@@ -22,13 +22,14 @@ FollowReference follow_reference(const sim::LockstepSettings& settings);
 
 class RunRecord : public sim::LockstepObserver {
  public:
-  /// Writes ticks.csv, poses.csv, truth.csv, wire.hex, shirt.heel and about twelve frames; nothing when
-  /// `directory` is empty. Throws heel::Error when the folder cannot be written.
+  /// Writes run.mcap, truth.csv, wire.hex, shirt.heel and about twelve frames, in place of those of an
+  /// earlier run; nothing when `directory` is empty. Throws heel::Error when the folder cannot be written.
   RunRecord(const std::string& directory, const sim::LockstepSettings& settings);
 
   void on_tick(const TickRecord& tick, const sim::LockstepTruth& truth) override;
   void on_pose(const FrameView& frame, const PoseEstimate& pose, const sim::LockstepTruth& truth) override;
   void on_bytes_to_robot(std::span<const std::uint8_t> bytes, TimeNs t_ns) override;
+  void on_bytes_from_robot(std::span<const std::uint8_t> bytes, TimeNs t_ns) override;
 
   const MetricsCollector& metrics() const { return metrics_; }
   /// Hands all records so far to the operating system.

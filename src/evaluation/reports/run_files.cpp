@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <limits>
 
 #include "core/angles.h"
 #include "files/csv_table.h"
 #include "heel/error.h"
+#include "recording/recording_reader.h"
 
 namespace heel::evaluation {
 namespace {
@@ -67,30 +68,45 @@ void add_truth(const std::vector<TargetRow>& targets, PoseSample& pose) {
   pose.true_z_m = a.z_m + f * (b.z_m - a.z_m);
 }
 
+/// Ticks and poses as samples; a pose with the truth at its time.
+class RunRecording final : public RecordingVisitor {
+ public:
+  RunRecording(const std::vector<TargetRow>& targets, MetricsCollector& run) : targets_(targets), run_(run) {}
+
+  void on_tick(const TickRecord& tick) override {
+    run_.add(TickSample{seconds_from_ns(tick.input.now_ns), to_string(tick.stop_reason), tick.command.v_m_s,
+                        tick.command.yaw_rate_rad_s});
+  }
+  void on_pose(const PoseEstimate& pose) override {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    PoseSample sample;
+    sample.t_s = seconds_from_ns(pose.t_capture_ns);
+    sample.found = pose.found();
+    sample.reason = to_string(pose.reason);
+    sample.certainty = pose.certainty;
+    sample.yaw_rad = pose.found() ? pose.frame_yaw_rad : kNone;
+    sample.yaw_sigma_rad = pose.found() ? pose.frame_yaw_sigma_rad : kNone;
+    const bool placed = pose.found() && pose.has_distance;
+    sample.x_m = placed ? pose.position_m[0] : kNone;
+    sample.y_m = placed ? pose.position_m[1] : kNone;
+    sample.z_m = placed ? pose.position_m[2] : kNone;
+    if (placed && std::isfinite(sample.z_m)) add_truth(targets_, sample);
+    run_.add(sample);
+  }
+  bool wants(std::string_view topic) const override { return topic == "/heel/tick" || topic == "/heel/pose"; }
+
+ private:
+  const std::vector<TargetRow>& targets_;
+  MetricsCollector& run_;
+};
+
 }  // namespace
 
 MetricsCollector read_run(const std::string& directory) {
   MetricsCollector run;
   const std::vector<TargetRow> targets = read_truth(CsvTable(directory + "/truth.csv"), run);
-  const CsvTable ticks(directory + "/ticks.csv");
-  for (std::size_t i = 0; i < ticks.rows(); ++i)
-    run.add(TickSample{ticks.number(i, "t_s"), ticks.text(i, "stop_reason"), ticks.number(i, "command_v_m_s"),
-                       ticks.number(i, "command_yaw_rate_rad_s")});
-  const CsvTable poses(directory + "/poses.csv");
-  for (std::size_t i = 0; i < poses.rows(); ++i) {
-    PoseSample pose;
-    pose.t_s = poses.number(i, "t_s");
-    pose.found = poses.number(i, "found") != 0.0;
-    pose.reason = poses.text(i, "reason");
-    pose.certainty = poses.number(i, "certainty");
-    pose.yaw_rad = poses.number(i, "frame_yaw_rad");
-    pose.yaw_sigma_rad = poses.number(i, "frame_yaw_sigma_rad");
-    pose.x_m = poses.number(i, "position_m_0");
-    pose.y_m = poses.number(i, "position_m_1");
-    pose.z_m = poses.number(i, "position_m_2");
-    if (pose.found && std::isfinite(pose.z_m)) add_truth(targets, pose);
-    run.add(pose);
-  }
+  RunRecording recording(targets, run);
+  read_recording(recording_in(directory), recording);
   return run;
 }
 

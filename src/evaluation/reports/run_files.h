@@ -1,4 +1,4 @@
-// A run's folder (truth.csv, ticks.csv, poses.csv) as samples for metrics and figures.
+// A run's folder (truth.csv and the recording) as samples for metrics and figures.
 #pragma once
 
 #include <string>

@@ -24,12 +24,6 @@
 namespace heel::sim {
 namespace {
 
-Config control_config(const LockstepSettings& settings) {
-  Config config = settings.config;
-  if (settings.operator_actions.empty()) config.supervisor.start = "at_once";
-  return config;
-}
-
 class Lockstep {
  public:
   Lockstep(const LockstepSettings& settings, LockstepObserver& observer);
@@ -144,7 +138,9 @@ void Lockstep::advance_line(TimeNs t_ns) {
     t_line_ns_ += P3At::kStep_ns;
     robot_.advance(t_line_ns_);
     if (contact_) contact_->step(seconds_from_ns(t_line_ns_));
-    session_.receive(robot_.take_output(), t_line_ns_);
+    const auto bytes = robot_.take_output();
+    session_.receive(bytes, t_line_ns_);
+    if (!bytes.empty()) observer_.on_bytes_from_robot(bytes, t_line_ns_);
   }
   if (world_) start_walk_when_motors_run(robot_.truth(), seconds_from_ns(t_ns), *world_);
 }
@@ -264,6 +260,12 @@ void Lockstep::send(std::span<const std::uint8_t> bytes, TimeNs t_ns) {
 }
 
 }  // namespace
+
+Config control_config(const LockstepSettings& settings) {
+  Config config = settings.config;
+  if (settings.operator_actions.empty()) config.supervisor.start = "at_once";
+  return config;
+}
 
 LockstepCounts run_lockstep(const LockstepSettings& settings, LockstepObserver& observer) {
   if (settings.errors && settings.scenario.camera.source != "sim")

@@ -45,6 +45,9 @@ struct LockstepTruth {
   Truth world;
 };
 
+/// The configuration that the control stage of a run gets.
+Config control_config(const LockstepSettings& settings);
+
 /// Receives what happens in a run, in the order of time.
 class LockstepObserver {
  public:
@@ -54,6 +57,7 @@ class LockstepObserver {
   virtual void on_pose(const FrameView& /*frame*/, const PoseEstimate& /*pose*/,
                        const LockstepTruth& /*truth*/) {}
   virtual void on_bytes_to_robot(std::span<const std::uint8_t> /*bytes*/, TimeNs /*t_ns*/) {}
+  virtual void on_bytes_from_robot(std::span<const std::uint8_t> /*bytes*/, TimeNs /*t_ns*/) {}
 };
 
 /// Counts of a run.

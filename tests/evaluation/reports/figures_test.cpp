@@ -55,8 +55,7 @@ TEST_F(Figures, OfARunShowItsLinesAndPictures) {
 }
 
 TEST_F(Figures, ARunWithoutAnyFrameIsDrawn) {
-  const std::string poses = test::poses_csv();
-  test::write_text(folder_.file("poses.csv"), poses.substr(0, poses.find('\n') + 1));
+  test::record_run(folder_, /*with_poses=*/false);
   EXPECT_EQ(report().status, 1);
   test::expect_figure(folder_.file("path"), {1200, 810});
   test::expect_figure(folder_.file("errors"), {1200, 1530});

@@ -110,18 +110,18 @@ TEST(Report, EndsWithStatus1AndTheReasonWhereACriterionIsNotMet) {
 TEST(Report, ARunWithoutFramesHasFailed) {
   const TemporaryFolder folder;
   test::write_run(folder);
-  const std::string poses = test::poses_csv();
-  write_text(folder.file("poses.csv"), poses.substr(0, poses.find('\n') + 1));
+  test::record_run(folder, /*with_poses=*/false);
   const Outcome outcome = report(folder);
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.err, HasSubstr("no frame was seen while the person walked"));
 }
 
-TEST(Report, ReadsARunThatEndsInTheMiddleOfALine) {
+TEST(Report, ReadsARunThatEndsInTheMiddleOfARecord) {
   const TemporaryFolder folder;
   test::write_run(folder);
-  write_text(folder.file("ticks.csv"), test::ticks_csv() + "1010.1,101,foll");
-  write_text(folder.file("poses.csv"), test::poses_csv() + "1010.05,100,found,1,0.3,-");
+  const std::string bytes = test::read_text(folder.file(test::kRunRecording));
+  const std::size_t end = bytes.size() - 300;  // within the summary
+  write_text(folder.file(test::kRunRecording), bytes.substr(0, end));
   const Outcome outcome = report(folder);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("in 75 of 80 frames"));
@@ -133,7 +133,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 TEST(Report, RefusesBadRecordingsInOneLineThatNamesThePlace) {
-  const std::string truth = test::truth_csv(), ticks = test::ticks_csv(), poses = test::poses_csv();
+  const std::string truth = test::truth_csv();
   struct Row {
     std::string file;
     std::string content;  ///< "": the file is not there
@@ -141,17 +141,12 @@ TEST(Report, RefusesBadRecordingsInOneLineThatNamesThePlace) {
   };
   const std::vector<Row> rows = {
       {"truth.csv", "", "truth.csv: cannot read (expected a CSV file with a header line)"},
-      {"ticks.csv", "", "ticks.csv: cannot read"},
-      {"poses.csv", "", "poses.csv: cannot read"},
+      {test::kRunRecording, "", "no recording in this folder (expected a file *.mcap)"},
+      {test::kRunRecording, "t_s,tick\n", "run.mcap: not an MCAP file (expected a recording of heeld"},
       {"truth.csv", std::string("\x7f\x45\x4c\x46\0\1\n\2\n", 9), "truth.csv: no column 't_s'"},
       {"truth.csv", replaced(truth, "person_speed_m_s", "speed"), "truth.csv: no column 'person_speed_m_s'"},
       {"truth.csv", replaced(truth, "\n0.1,1000.1,", "\n0.1,"), "truth.csv:3: 13 cells (expected 14"},
       {"truth.csv", replaced(truth, ",1000.2,", ",999.0,"), "truth.csv:4: t_monotonic_s goes back"},
-      {"ticks.csv", replaced(ticks, ",1,following,0.5", ",1,following,fast"),
-       "ticks.csv:3: command_v_m_s is 'fast' (expected a number)"},
-      {"poses.csv", replaced(poses, "1000.25", "1000,25"), "poses.csv:4: 21 cells (expected 20"},
-      {"poses.csv", replaced(poses, "1000.25", "1000.2x"),
-       "poses.csv:4: t_s is '1000.2x' (expected a number)"},
   };
   for (const Row& row : rows) {
     SCOPED_TRACE(row.names);

@@ -18,6 +18,7 @@
 #include "files/template_file.h"
 #include "heel/shirt_template.h"
 #include "support/temporary_folder.h"
+#include "telemetry/recorder.h"
 
 namespace heel::test {
 
@@ -44,37 +45,55 @@ inline std::string truth_csv() {
   return text;
 }
 
-inline std::string ticks_csv() {
-  std::string text = "t_s,tick,stop_reason,command_v_m_s,command_yaw_rate_rad_s\n";
+inline void record_ticks(Recorder& recorder) {
   for (int i = 0; i <= 100; ++i) {
-    const char* reason = i >= 95 ? "shutting down" : i >= 30 && i < 35 ? "target lost" : "following";
-    text += printed("%.1f,%d,%s,%.1f,-0.2\n", kClock_s + 0.1 * i, i, reason, reason[0] == 'f' ? 0.5 : 0.0);
+    TickRecord tick;
+    tick.tick = static_cast<std::uint64_t>(i);
+    tick.input.now_ns = ns_from_seconds(kClock_s + 0.1 * i);
+    tick.stop_reason = i >= 95             ? StopReason::Shutdown
+                       : i >= 30 && i < 35 ? StopReason::TargetLost
+                                           : StopReason::None;
+    tick.command.v_m_s = tick.stop_reason == StopReason::None ? 0.5 : 0.0;
+    tick.command.yaw_rate_rad_s = -0.2;
+    recorder.record(tick);
   }
-  return text;
 }
 
-inline std::string poses_csv() {
-  std::string text =
-      "t_s,frame,reason,found,certainty,yaw_rad,frame_yaw_rad,frame_yaw_sigma_rad,position_m_0,position_m_1,"
-      "position_m_2";
-  for (int i = 0; i < 9; ++i) text += ",H_cur_from_ref_" + std::to_string(i);
+inline void record_poses(Recorder& recorder) {
   for (int k = 0; k < 100; ++k) {
-    const double t_s = kClock_s + 0.1 * k + 0.05;
+    PoseEstimate pose;
+    pose.frame_sequence = static_cast<std::uint64_t>(k);
+    pose.t_capture_ns = pose.t_done_ns = ns_from_seconds(kClock_s + 0.1 * k + 0.05);
     if (k >= 50 && k < 55) {
-      text += printed("\n%.2f,%d,too few inliers,0,0.02,nan,nan,nan,nan,nan,nan,0,0,0,0,0,0,0,0,0", t_s, k);
-      continue;
+      pose.reason = PoseReason::TooFewInliers;
+      pose.certainty = 0.02;
+    } else {
+      pose.reason = PoseReason::Found;
+      pose.certainty = 0.3;
+      pose.yaw_rad = 0.02 * (k + 0.5) + (k % 2 == 0 ? kEvenYawError_rad : kOddYawError_rad);
+      pose.frame_yaw_rad = pose.yaw_rad;
+      pose.frame_yaw_sigma_rad = kYawSigma_rad;
+      pose.has_distance = true;
+      pose.position_m = {0.0, -0.1, 2.0 + kZError_m};
+      pose.H_cur_from_ref = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     }
-    const double yaw_rad = 0.02 * (k + 0.5) + (k % 2 == 0 ? kEvenYawError_rad : kOddYawError_rad);
-    text += printed("\n%.2f,%d,found,1,0.3,%.3f,%.3f,%.1f,0,-0.1,%.2f,1,0,0,0,1,0,0,0,1", t_s, k, yaw_rad,
-                    yaw_rad, kYawSigma_rad, 2.0 + kZError_m);
+    recorder.record(pose);
   }
-  return text + "\n";
+}
+
+inline constexpr const char* kRunRecording = "run.mcap";
+
+/// The run's recording; without poses: vision saw no frame.
+inline void record_run(const TemporaryFolder& folder, bool with_poses) {
+  std::filesystem::remove(folder.file(kRunRecording));
+  Recorder recorder(folder.file(kRunRecording), RecordingClock{});
+  record_ticks(recorder);
+  if (with_poses) record_poses(recorder);
 }
 
 inline void write_run(const TemporaryFolder& folder) {
   write_text(folder.file("truth.csv"), truth_csv());
-  write_text(folder.file("ticks.csv"), ticks_csv());
-  write_text(folder.file("poses.csv"), poses_csv());
+  record_run(folder, /*with_poses=*/true);
 }
 
 /// Kept frames of these numbers, each a little brighter than the one before, and a template whose region is

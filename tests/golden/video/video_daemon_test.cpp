@@ -14,6 +14,7 @@
 #include "files/csv_table.h"
 #include "golden/video/frame_commands.h"
 #include "golden/video/video_scene.h"
+#include "support/exported.h"
 #include "support/process.h"
 #include "support/sanitized.h"
 #include "tools/heel/run_heel.h"
@@ -159,6 +160,7 @@ TEST_F(VideoDrivesHeeld, SeesAndCommandsWhatTheLockStepDoes) {
   for (int run = 1;; ++run) {
     const VideoScene scene;
     ASSERT_NO_FATAL_FAILURE(drive(scene));
+    test::exported(scene.file("run"));
     const FrameClock clock(scene.file("run/poses.csv"), kFirst, 0);
     const double late_s = latest_tick_s(scene.file("run/ticks.csv"));
     if (clock.oldest_view_s() > kHeldUp_s || clock.missing() > 0 || late_s > kLate_s) {

@@ -16,6 +16,7 @@
 
 #include "golden/video/frame_commands.h"
 #include "golden/video/video_scene.h"
+#include "support/exported.h"
 #include "tools/heel/run_heel.h"
 
 namespace heel {
@@ -105,7 +106,7 @@ class VideoOnTheWire : public ::testing::Test {
                         "--template", scene_->file("knit.heel"), "--out", scene_->file("run")});
     if (ran.status != 0) throw std::runtime_error("heel simulate: " + ran.err);
     // Lock step counts frames from 1.
-    const FrameClock clock(scene_->file("run/poses.csv"), 0, 1);
+    const FrameClock clock(test::exported(scene_->file("run")) + "/poses.csv", 0, 1);
     EXPECT_EQ(clock.frames(), static_cast<std::size_t>(kVideoFrames));
     return mean_by_frame(read_wire(scene_->file("run/wire.hex")), clock);
   }

@@ -14,6 +14,7 @@
 #include "files/camera_info.h"
 #include "files/template_file.h"
 #include "heel/shirt_template.h"
+#include "support/exported.h"
 #include "support/process.h"
 #include "support/sanitized.h"
 #include "support/temporary_folder.h"
@@ -130,7 +131,7 @@ class SameAnswers : public ::testing::Test {
         run_program({HEEL_PROGRAM, "simulate", path("scenario.toml"), "--config", path("heel.toml"),
                      "--template", path("shirt.heel"), "--out", path("lockstep")});
     EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
-    return recorded_poses(path("lockstep/poses.csv"));
+    return recorded_poses(test::exported(path("lockstep")) + "/poses.csv");
   }
 
   /// One run of the daemon; empty when the busy machine made it drop or delay a frame.
@@ -140,7 +141,7 @@ class SameAnswers : public ::testing::Test {
     EXPECT_TRUE(robot.says("ready at")) << robot.output();
     Process daemon({HEELD_PROGRAM, "--config", path("heel.toml")}, path("heeld.log"));
     EXPECT_EQ(daemon.wait(), 0) << daemon.output();
-    const std::vector<PoseColumns> rows = recorded_poses(path("run/poses.csv"));
+    const std::vector<PoseColumns> rows = recorded_poses(test::exported(path("run")) + "/poses.csv");
     if (rows.size() != kFrames) return {};
     for (int i = 0; i < kFrames; ++i) {
       const double t_s = std::stod(rows[static_cast<std::size_t>(i)].at("t_s"));

@@ -15,6 +15,7 @@
 
 #include "core/config.h"
 #include "loopback/daemon/heeld_fixture.h"
+#include "support/exported.h"
 #include "support/full_notify_socket.h"
 #include "support/process.h"
 #include "support/sanitized.h"
@@ -281,6 +282,7 @@ TEST_F(HeeldWithAShortCameraFile, ComesToRestAtTheEndAndKeepsTheRecording) {
   EXPECT_TRUE(robot_->says("closed")) << logs();
   EXPECT_TRUE(comes_to_rest());
   EXPECT_THAT(robot_->output(), Not(HasSubstr("watchdog")));
+  test::exported(scene_.path("run"));
   EXPECT_GT(read_text(scene_.path("run/ticks.csv")).size(), 10000u);
   EXPECT_GT(read_text(scene_.path("run/poses.csv")).size(), 10000u);
   EXPECT_THAT(daemon_->output(), HasSubstr("camera: " + frames + " frames, 0 dropped by the driver"));

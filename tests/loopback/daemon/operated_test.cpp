@@ -8,9 +8,15 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "files/csv_table.h"
 #include "loopback/daemon/heeld_fixture.h"
+#include "recording/recording_reader.h"
+#include "replay/control_replay.h"
+#include "support/exported.h"
 #include "support/socket_client.h"
 
 namespace heel {
@@ -138,7 +144,7 @@ TEST_F(OperatedHeeld, AnEmergencyStopActsInTheNextTickByTheRecording) {
   }
   daemon_->signal(SIGTERM);
   ASSERT_EQ(daemon_->wait(), 0) << logs();
-  const CsvTable ticks(scene_.path("run/ticks.csv"));
+  const CsvTable ticks(test::exported(scene_.path("run")) + "/ticks.csv");
   int at_once = 0;
   for (const double t_asked_s : asked_s) {
     const EmergencyStop stop = emergency_stop_after(ticks, t_asked_s);
@@ -151,6 +157,74 @@ TEST_F(OperatedHeeld, AnEmergencyStopActsInTheNextTickByTheRecording) {
     EXPECT_LE(stop.ticks_before, 1) << stop.latency_s;
   }
   EXPECT_GE(at_once, 1) << "in one of three the next tick has it";
+}
+
+/// Everything of a recording that its run can be told from.
+struct RecordedRun final : RecordingVisitor {
+  void on_tick(const TickRecord& tick) override { newest_configuration = tick.configuration; }
+  void on_wire(const WireBytes& wire) override {
+    if (wire.to_robot) to_robot.append(reinterpret_cast<const char*>(wire.bytes.data()), wire.count);
+    from_robot += wire.to_robot ? 0 : wire.count;
+  }
+  void on_operator(const OperatorLine& line) override {
+    operators.push_back(line.request + ": " + line.answer);
+  }
+  void on_note(const RecordingNote& note) override { notes.push_back(note.kind + ": " + note.text); }
+
+  std::uint64_t newest_configuration = 0;
+  std::string to_robot;
+  std::size_t from_robot = 0;
+  std::vector<std::string> operators, notes;
+};
+
+std::string hex_of(const std::string& bytes) {
+  std::string hex;
+  for (const char byte : bytes) {
+    const auto value = static_cast<unsigned char>(byte);
+    hex += "0123456789abcdef"[value >> 4];
+    hex += "0123456789abcdef"[value & 15];
+  }
+  return hex;
+}
+
+/// Its lines are "SECONDS HEX".
+std::string hex_of_wire_file(const std::string& path) {
+  std::istringstream words(read_text(path));
+  std::string all;
+  for (std::string t_s, hex; words >> t_s >> hex;) all += hex;
+  return all;
+}
+
+TEST_F(OperatedHeeld, ARecordedRunReplaysToTheBitAndHoldsTheBytesOfTheWire) {
+  get_ready(operated_config("[telemetry]\ndirectory = \"run\"\n"));
+  SocketClient client(socket());
+  ASSERT_TRUE(drives_after_start(client)) << logs();
+  ASSERT_EQ(ask(client, R"({"do":"set","values":{"gate.v_max_m_s":0.2,"control.gain_yaw_1_s":0.9}})")["ok"],
+            true);
+  ASSERT_EQ(ask(client, R"({"do":"mark","text":"slower now"})")["ok"], true);
+  ASSERT_TRUE(eventually([&] { return speed() < 0.25; })) << logs();
+  command(client, "stop");
+  ASSERT_TRUE(comes_to_rest());
+  daemon_->signal(SIGTERM);
+  ASSERT_EQ(daemon_->wait(), 0) << logs();
+  robot_->signal(SIGTERM);
+  ASSERT_EQ(robot_->wait(), 0) << logs();
+
+  const std::string recording = recording_in(scene_.path("run"));
+  const ReplayResult replay = replay_control(recording, {});
+  EXPECT_TRUE(replay.all_same()) << replay.same << " of " << replay.ticks << replay.ended;
+  EXPECT_GT(replay.ticks, 100u);
+  EXPECT_TRUE(replay.report.complete);
+  RecordedRun run;
+  read_recording(recording, run);
+  EXPECT_EQ(run.newest_configuration, 1u) << "the set";
+  EXPECT_THAT(run.operators,
+              testing::IsSupersetOf({HasSubstr("start: "), HasSubstr("gate.v_max_m_s: 0.7 -> 0.2"),
+                                     HasSubstr("mark: done"), HasSubstr("stop: done")}));
+  EXPECT_THAT(run.notes, testing::ElementsAre("begin: heeld", "mark: slower now", "end: heeld stopped"));
+  // What the simulator read is what heeld recorded as written.
+  EXPECT_EQ(hex_of(run.to_robot), hex_of_wire_file(scene_.path("wire.hex")));
+  EXPECT_GT(run.from_robot, 500u);
 }
 
 TEST_F(OperatedHeeld, TwoEmergencyStopsDuringASaveAreServedAndTheFileIsWhole) {

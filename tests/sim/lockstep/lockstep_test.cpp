@@ -117,14 +117,14 @@ TEST(Lockstep, RepeatsToTheBitAndDiffersBySeed) {
   const std::vector<std::string> by_seed = test::differences(first, test::transcript_of(settings));
   EXPECT_THAT(by_seed, testing::IsSupersetOf({"frames", "poses"}));
   if (!test::kSanitized) {  // in one second the robot does not move yet
-    EXPECT_THAT(by_seed, testing::IsSupersetOf({"ticks", "truth", "bytes to the robot", "ticks.csv",
-                                                "poses.csv", "truth.csv", "wire.hex"}));
+    EXPECT_THAT(by_seed, testing::IsSupersetOf(
+                             {"ticks", "truth", "bytes to the robot", "run.mcap", "truth.csv", "wire.hex"}));
   }
 
   // It is a run in which something happens.
   EXPECT_GT(poses_found, 0);
-  for (const char* name : {"ticks", "poses", "truth", "frames", "bytes to the robot", "ticks.csv",
-                           "poses.csv", "truth.csv", "wire.hex", "shirt.heel"}) {
+  for (const char* name : {"ticks", "poses", "truth", "frames", "bytes to the robot", "run.mcap", "truth.csv",
+                           "wire.hex", "shirt.heel"}) {
     ASSERT_TRUE(first.contains(name)) << name;
     EXPECT_GT(first.at(name).size(), 200u) << name;
   }

@@ -52,6 +52,9 @@ class TranscriptObserver : public sim::LockstepObserver {
     transcript["bytes to the robot"].append(bytes.begin(), bytes.end());
     record_.on_bytes_to_robot(bytes, t_ns);
   }
+  void on_bytes_from_robot(std::span<const std::uint8_t> bytes, TimeNs t_ns) override {
+    record_.on_bytes_from_robot(bytes, t_ns);
+  }
   void flush() { record_.flush(); }
 
   Transcript transcript;
@@ -91,8 +94,6 @@ inline Transcript transcript_of(const sim::LockstepSettings& settings, int* pose
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
     if (!entry.is_regular_file()) continue;
     std::string bytes = read_text(entry.path().string());
-    // The first event is the recording's start by the clock on the wall.
-    if (entry.path().filename() == "events.log") bytes.erase(0, bytes.find('\n'));
     transcript[entry.path().lexically_relative(folder.path()).string()] = std::move(bytes);
   }
   return transcript;

@@ -152,8 +152,8 @@ TEST(PosesWithoutPictures, RepeatToTheBitAndDifferBySeed) {
   EXPECT_THAT(test::differences(first, test::transcript_of(settings)), testing::IsEmpty());
   settings.scenario.seed = 7;
   EXPECT_THAT(test::differences(first, test::transcript_of(settings)),
-              testing::IsSupersetOf({"poses", "ticks", "truth", "bytes to the robot", "poses.csv",
-                                     "ticks.csv", "truth.csv", "wire.hex"}));
+              testing::IsSupersetOf(
+                  {"poses", "ticks", "truth", "bytes to the robot", "run.mcap", "truth.csv", "wire.hex"}));
 }
 
 TEST(PosesWithoutPictures, NeedTheSimulatedWorld) {

@@ -52,9 +52,7 @@ def check(bench, robot):
     """Checks the run by the simulator's truth with `heel report`; the figures stay in the run's folder."""
     folder = os.path.join(bench.machine.folder, "closed_loop")
     os.makedirs(folder, exist_ok=True)
-    for name in ("ticks.csv", "poses.csv"):
-        with open(os.path.join(folder, name), "w") as file:
-            file.write(bench.service.recorded(name))
+    bench.service.copy_recording(os.path.join(folder, "run.mcap"))
     with open(os.path.join(folder, "truth.csv"), "w") as file:
         file.write(robot.truth())
     heel = os.path.join(os.path.dirname(robot.heel_sim), "heel")

@@ -1,6 +1,7 @@
 """heeld in the guest: its configuration, its systemd unit, its recording."""
 import os
 import re
+import shutil
 
 from . import recording, wait
 
@@ -93,11 +94,17 @@ class Service:
 
     def recorded_until(self):
         """CLOCK_MONOTONIC of the guest's newest recorded tick, seconds."""
-        return float(self._guest.run("tail -n 1 /var/lib/heel/ticks.csv").split(",", 1)[0] or 0)
+        ticks = self.recorded("ticks.csv").splitlines()[1:]
+        return float(ticks[-1].split(",", 1)[0]) if ticks else 0.0
+
+    def copy_recording(self, path):
+        """The newest recording as it is now, into a file here."""
+        self._guest.run('cp "$(ls -t /var/lib/heel/*.mcap | head -n 1)" /mnt/share/run.mcap')
+        shutil.copyfile(os.path.join(self._machine.share, "run.mcap"), path)
 
     def recorded(self, name):
-        """The complete lines of a file of the recording."""
-        self._guest.run(f"cp /var/lib/heel/{name} /mnt/share/{name}")
+        """The complete lines of a file that `heel export` makes of the newest recording."""
+        self._guest.run(f"heel export /var/lib/heel --csv -o /run/exported && cp /run/exported/{name} /mnt/share/{name}")
         with open(os.path.join(self._machine.share, name)) as file:
             text = file.read()
         return text[:text.rfind("\n") + 1]

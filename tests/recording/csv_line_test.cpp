@@ -1,4 +1,4 @@
-#include "telemetry/csv_line.h"
+#include "recording/csv_line.h"
 
 #include <gtest/gtest.h>
 

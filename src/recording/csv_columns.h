@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "heel/flow.h"
-#include "telemetry/csv_line.h"
+#include "recording/csv_line.h"
 
 namespace heel {
 

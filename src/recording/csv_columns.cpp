@@ -1,4 +1,4 @@
-#include "telemetry/csv_columns.h"
+#include "recording/csv_columns.h"
 
 #include <fmt/format.h>
 

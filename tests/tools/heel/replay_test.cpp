@@ -1,0 +1,149 @@
+// heel replay and heel export: a recording of the lock step through the same code is the same to the bit;
+// what differs, and what cannot be read, is named.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "recording/recording_reader.h"
+#include "support/test_data.h"
+#include "telemetry/recorder.h"
+#include "tools/heel/refusals.h"
+#include "tools/heel/run_heel.h"
+
+namespace heel {
+namespace {
+
+using test::Outcome;
+using test::run_heel;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+/// Six seconds without pictures, in which the robot follows.
+class Replay : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    static const test::TemporaryFolder folder;
+    const std::string scenario =
+        test::write_text(folder.file("walk.toml"),
+                         "name = \"walk\"\nduration_s = 6.0\n[person]\nwalk_after_s = 0.0\n"
+                         "[[person.path]]\nstep = \"straight\"\nlength_m = 5\n[robot]\nx_m = -1.8\n");
+    const Outcome run =
+        run_heel({"simulate", scenario, "--error-model",
+                  test::source_path("tools/heel-sim/pose_noise/pictured.toml"), "--out", folder.file("run")});
+    ASSERT_EQ(run.status, 0) << run.err;
+    recording_ = folder.file("run/run.mcap");
+  }
+  /// The recording with changes: `change` says whether a tick is kept.
+  template <typename Change>
+  std::string changed(Change change) const {
+    struct Copy final : RecordingVisitor {
+      explicit Copy(const std::string& path, Change how) : recorder(path, RecordingClock{}), change(how) {}
+      void on_tick(const TickRecord& tick) override {
+        TickRecord copy = tick;
+        if (change(copy)) recorder.record(copy);
+      }
+      void on_configuration(const ConfigurationText& text) override { recorder.record(text); }
+      Recorder recorder;
+      Change change;
+    };
+    const std::string path = folder_.file("changed.mcap");
+    std::filesystem::remove(path);
+    Copy copy(path, change);
+    read_recording(recording_, copy);
+    return path;
+  }
+
+  static inline std::string recording_;
+  const test::TemporaryFolder folder_;
+};
+
+TEST_F(Replay, NothingHasChanged) {
+  const Outcome replay = run_heel({"replay", recording_});
+  EXPECT_EQ(replay.status, 0) << replay.err;
+  EXPECT_EQ(replay.out, "301 of 301 ticks the same (6.0 s)\n");
+  EXPECT_EQ(replay.err, "");
+}
+
+TEST_F(Replay, WhatDiffersIsNamed) {
+  const std::string path = changed([](TickRecord& tick) {
+    if (tick.tick >= 200) tick.target.x_m += 0.25;
+    if (tick.tick == 250) tick.command.v_m_s = 0.125;
+    return true;
+  });
+  const Outcome replay = run_heel({"replay", path, "--diff"});
+  EXPECT_EQ(replay.status, 1) << replay.err;
+  EXPECT_THAT(replay.out,
+              AllOf(StartsWith("200 of 301 ticks the same (6.0 s)\nfirst difference: tick 200, 4.000 s "
+                               "after the first\n  target.x_m "),
+                    HasSubstr("\ncommand.v_m_s "), HasSubstr("\ntarget.x_m ")));
+  EXPECT_THAT(replay.out, testing::ContainsRegex("target.x_m +101 +200  0.25"));
+  EXPECT_THAT(replay.out, testing::ContainsRegex("command.v_m_s +1 +250  0"));
+}
+
+TEST_F(Replay, AnotherValueIsAnsweredUpToTheFirstCommandThatDiffers) {
+  const Outcome slower =
+      run_heel({"replay", recording_, "--set", "gate.v_max_m_s=0.25", "--plot", folder_.file("plot")});
+  EXPECT_EQ(slower.status, 1) << slower.err;
+  EXPECT_THAT(slower.out, AllOf(StartsWith("the commands of "), HasSubstr("command.v_m_s"),
+                                HasSubstr("replayed 0.25\n"), HasSubstr("the recording cannot answer")));
+  EXPECT_TRUE(std::filesystem::exists(folder_.file("plot/replay.csv")));
+  const Outcome same = run_heel({"replay", recording_, "--set", "supervisor.battery_low_v=10.5"});
+  EXPECT_EQ(same.status, 0) << same.out << same.err;
+  EXPECT_THAT(same.out, StartsWith("all 301 commands are the same (6.0 s)"));
+}
+
+TEST_F(Replay, LostTicksEndIt) {
+  const Outcome gap = run_heel({"replay", changed([](TickRecord& tick) { return tick.tick != 100; })});
+  EXPECT_EQ(gap.status, 1);
+  EXPECT_THAT(gap.out,
+              AllOf(StartsWith("100 of 100 ticks the same"),
+                    HasSubstr("after tick 99 the recording goes on with tick 101: records were lost")));
+}
+
+TEST_F(Replay, ACutRecordingReplaysToItsLastWholeChunk) {
+  const std::string bytes = test::read_text(recording_);
+  const std::string cut = test::write_text(folder_.file("cut.mcap"), bytes.substr(0, bytes.size() / 2));
+  const Outcome replay = run_heel({"replay", cut});
+  EXPECT_EQ(replay.status, 0) << replay.out;
+  EXPECT_THAT(replay.out, testing::ContainsRegex("^[12][0-9]+ of [12][0-9]+ ticks the same"));
+  EXPECT_THAT(replay.err, HasSubstr("cut.mcap: byte "));
+  EXPECT_THAT(replay.err, HasSubstr("messages before it were read"));
+}
+
+TEST_F(Replay, RefusesWhatItCannotUse) {
+  const std::string text = test::write_text(folder_.file("text.mcap"), "t_s,tick\n");
+  const std::string late = changed([](TickRecord& tick) { return tick.tick >= 50; });
+  const std::string empty = folder_.file("empty.mcap");
+  { const Recorder recorder(empty, RecordingClock{}); }
+  const std::string begins = "heel replay: ";
+  test::expect_refused({
+      {{"replay", folder_.file("none.mcap")}, begins, "none.mcap: cannot read: No such file or directory"},
+      {{"replay", text}, begins, "text.mcap: not an MCAP file (expected a recording of heeld or"},
+      {{"replay", late}, begins, "changed.mcap: its first tick is number 50 (expected 0"},
+      {{"replay", empty}, begins, "empty.mcap: no control tick in this recording"},
+      {{"replay", recording_, "--set", "gate.v_max"}, begins, "--set gate.v_max: no KEY=VALUE"},
+      {{"replay", recording_, "--set", "gate.speed=1"}, begins, "--set gate.speed: no such key"},
+      {{"replay", recording_, "--set", "gate.v_max_m_s=fast"}, begins, "configuration 0:"},
+      {{"export", recording_}, "heel export: ", "nothing to export (expected --csv)"},
+      {{"export", text, "--csv", "-o", folder_.file("csv")}, "heel export: ", "text.mcap: not an MCAP file"},
+  });
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("csv")));
+}
+
+TEST_F(Replay, ExportWritesTheColumnsOfTheManual) {
+  const Outcome done = run_heel({"export", recording_, "--csv", "-o", folder_.file("csv")});
+  EXPECT_EQ(done.status, 0) << done.err;
+  const std::string ticks = test::read_text(folder_.file("csv/ticks.csv"));
+  EXPECT_THAT(ticks, StartsWith("t_s,tick,lateness_us,"));
+  EXPECT_EQ(std::count(ticks.begin(), ticks.end(), '\n'), 302);
+  EXPECT_THAT(ticks, HasSubstr("\n6.000000000,300,"));
+  const std::string poses = test::read_text(folder_.file("csv/poses.csv"));
+  EXPECT_GT(std::count(poses.begin(), poses.end(), '\n'), 100);
+}
+
+}  // namespace
+}  // namespace heel

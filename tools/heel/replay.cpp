@@ -1,0 +1,152 @@
+// heel replay: the inputs of a recording through today's code.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "evaluation/reports/plots.h"
+#include "files/csv_file.h"
+#include "files/folder.h"
+#include "heel/error.h"
+#include "replay/control_replay.h"
+
+namespace heel::cli {
+namespace {
+
+struct ReplayCommandOptions {
+  std::string recording;
+  std::vector<std::string> settings;
+  bool diff = false;
+  std::string plot;
+};
+
+/// "12 345 678"
+std::string grouped(std::uint64_t number) {
+  std::string text = fmt::format("{}", number);
+  for (int place = static_cast<int>(text.size()) - 3; place > 0; place -= 3)
+    text.insert(static_cast<std::size_t>(place), " ");
+  return text;
+}
+
+ReplaySettings settings_of(const std::vector<std::string>& arguments) {
+  ReplaySettings settings;
+  for (const std::string& argument : arguments) {
+    const std::size_t equals = argument.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size())
+      throw Error(fmt::format("--set {}: no KEY=VALUE (expected control.gain_yaw_1_s=1.2)", argument));
+    settings.emplace_back(argument.substr(0, equals), argument.substr(equals + 1));
+  }
+  return settings;
+}
+
+/// replay.csv: the recorded commands beside the replayed ones.
+class ReplayCsv {
+ public:
+  explicit ReplayCsv(const std::string& folder)
+      : file_(folder + "/replay.csv",
+              "t_s,recorded_v_m_s,replayed_v_m_s,recorded_yaw_rate_rad_s,replayed_yaw_rate_rad_s") {}
+  void add(const TickRecord& recorded, const TickRecord& replayed) {
+    if (!begun_) t_begin_ns_ = recorded.input.now_ns;
+    begun_ = true;
+    file_.number(seconds_from_ns(recorded.input.now_ns - t_begin_ns_), 4);
+    file_.number(recorded.command.v_m_s, 6).number(replayed.command.v_m_s, 6);
+    file_.number(recorded.command.yaw_rate_rad_s, 6).number(replayed.command.yaw_rate_rad_s, 6);
+    file_.end_row();
+  }
+  void flush() { file_.flush(); }
+
+ private:
+  CsvFile file_;
+  bool begun_ = false;
+  TimeNs t_begin_ns_ = 0;
+};
+
+void print_tick(const char* what, const TickDifference& tick, TimeNs t_begin_ns) {
+  std::cout << fmt::format("{}: tick {}, {:.3f} s after the first\n", what, grouped(tick.recorded.tick),
+                           seconds_from_ns(tick.recorded.input.now_ns - t_begin_ns));
+  for (const FieldDifference& field : tick.fields)
+    std::cout << fmt::format("  {:<32} recorded {}, replayed {}\n", field.name, field.a, field.b);
+}
+
+void print_quantities(const ReplayResult& result) {
+  std::cout << fmt::format("{:<34}{:>10}{:>12}  {}\n", "quantity", "ticks", "first tick",
+                           "largest difference");
+  for (const auto& [name, quantity] : result.quantities)
+    std::cout << fmt::format("{:<34}{:>10}{:>12}  {}\n", name, grouped(quantity.ticks),
+                             grouped(quantity.first_tick),
+                             quantity.largest > 0.0 ? fmt::format("{:.6g}", quantity.largest) : "-");
+}
+
+void print_answer(const ReplayResult& result, bool asked_what_if) {
+  if (!asked_what_if) {
+    std::cout << fmt::format("{} of {} ticks the same ({:.1f} s)\n", grouped(result.same),
+                             grouped(result.ticks), result.duration_s);
+  } else if (result.first_command) {
+    std::cout << fmt::format("the commands of {} ticks are the same ({:.1f} s); then they differ\n",
+                             grouped(result.ticks - 1), result.duration_s);
+  } else {
+    std::cout << fmt::format("all {} commands are the same ({:.1f} s); {} ticks decided the same\n",
+                             grouped(result.ticks), result.duration_s, grouped(result.same));
+  }
+}
+
+void run_replay(const ReplayCommandOptions& options) {
+  const std::string file = recording_in(options.recording);
+  ReplayOptions replay{settings_of(options.settings), !options.settings.empty(), {}};
+  std::optional<ReplayCsv> csv;
+  if (!options.plot.empty()) {
+    make_folder(options.plot);
+    csv.emplace(options.plot);
+  }
+  TimeNs t_begin_ns = 0;
+  replay.on_tick = [&](const TickRecord& recorded, const TickRecord& replayed) {
+    if (recorded.tick == 0) t_begin_ns = recorded.input.now_ns;
+    if (csv) csv->add(recorded, replayed);
+  };
+  const ReplayResult result = replay_control(file, replay);
+  const bool what_if = replay.until_command_differs;
+  print_answer(result, what_if);
+  const auto& shown = what_if ? result.first_command : result.first;
+  if (shown) print_tick(what_if ? "first command that differs" : "first difference", *shown, t_begin_ns);
+  if (options.diff && !result.quantities.empty()) print_quantities(result);
+  if (!result.ended.empty()) std::cout << result.ended << '\n';
+  for (const std::string& problem : result.report.problems) std::cerr << "heel replay: " << problem << '\n';
+  for (const std::string& name : result.report.other_version)
+    std::cerr << "heel replay: " << name
+              << ": in the recording or in this version of heel alone; it counts with its default\n";
+  if (csv) {
+    csv->flush();
+    if (const std::string why_not = evaluation::draw_figures({options.plot}); !why_not.empty())
+      std::cerr << "heel replay: " << why_not << '\n';
+  }
+  const bool same = what_if ? !result.first_command : result.all_same();
+  if (!same) throw CLI::RuntimeError(kExitNo);
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app) {
+  auto options = std::make_shared<ReplayCommandOptions>();
+  CLI::App* command = app.add_subcommand(
+      "replay",
+      "Runs the control side of a recording through this version of heel: the same decisions to the bit,\n"
+      "or where they differ. Exit status 0 the same, 1 they differ, 2 the recording cannot be used");
+  command
+      ->add_option("recording", options->recording,
+                   "a recording (*.mcap), or a folder of which the newest one is taken")
+      ->required();
+  command->add_flag("--diff", options->diff, "print every quantity that differs, over all ticks");
+  command->add_option("--plot", options->plot,
+                      "folder for replay.csv and the picture replay.png, replay.svg of the commands");
+  command->add_option("--set", options->settings,
+                      "KEY=VALUE: what heel would have done with this value, up to the first command that\n"
+                      "differs; several times for several keys");
+  command->callback([options] { run_replay(*options); });
+}
+
+}  // namespace heel::cli
