@@ -185,6 +185,10 @@ const ConfigKey kKeys[] = {
     number(HEEL_KEY(robot, yaw_acceleration_deg_s2), "deg/s²", {1, 5000}, No, "Yaw acceleration and deceleration set in the robot's controller (SETRA)."),
 
     path(HEEL_KEY(telemetry, directory), "Folder for recordings; with an empty name nothing is recorded."),
+    choice(HEEL_KEY(telemetry, pictures), "none|on_fault|jpeg|lossless", No, "Which of the frames that vision has processed are recorded, in grey: none; on_fault, the last 30 s before a fault or a `heel mark`, as JPEG; jpeg, all as JPEG; lossless, all as PNG, so that `heel replay` repeats vision to the bit."),
+    number(HEEL_KEY(telemetry, keep_mb), "MB", {10, 1e6}, No, "Recordings in the folder beyond so many megabytes are removed, the oldest first. A run that needs more by itself is recorded up to there."),
+    number(HEEL_KEY(telemetry, keep_days), "d", {0.01, 3650}, No, "Recordings older than so many days are removed."),
+    path(HEEL_KEY(telemetry, black_box), "File in memory (a tmpfs) with the last 30 s of ticks, poses, events and bytes on the wire, which outlives a crash of heeld; the next start makes a recording of it. With an empty name there is none."),
 
     // "operator" is a word of C++: its member has another name.
     path("operator", "socket", [](Config& c) { return &c.operators.socket; }, "The local socket that `heel status`, `heel start` and the like connect to; the user and the group that heeld runs under may. With an empty name there is none, and with supervisor.start = \"operator\" the robot then never moves."),

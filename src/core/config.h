@@ -124,7 +124,11 @@ struct RobotConfig {
 };
 
 struct TelemetryConfig {
-  std::string directory;  ///< empty: nothing is recorded
+  std::string directory;                          ///< empty: nothing is recorded
+  std::string pictures = "none";                  ///< which are recorded: none, on_fault, jpeg, lossless
+  double keep_mb = 4000.0;                        ///< of recordings in the folder; the oldest are removed
+  double keep_days = 30.0;                        ///< older ones are removed
+  std::string black_box = "/run/heel/black-box";  ///< what outlives a crash; empty: none
 };
 
 struct OperatorConfig {

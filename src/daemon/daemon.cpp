@@ -22,6 +22,8 @@
 #include "daemon/signals.h"
 #include "daemon/status_reporter.h"
 #include "daemon/vision_loop.h"
+#include "files/atomic_file.h"
+#include "files/template_file.h"
 #include "heel/error.h"
 #include "logging/logging.h"
 #include "operator/local_socket.h"
@@ -45,6 +47,13 @@ std::optional<LocalSocket> make_socket(const std::string& path) {
   return std::optional<LocalSocket>(std::in_place, path);
 }
 
+std::unique_ptr<PictureQueue> make_picture_queue(const TelemetryConfig& config, const CameraModel& camera) {
+  constexpr std::size_t kFrames = 16;
+  if (config.directory.empty() || config.pictures == "none") return nullptr;
+  return std::make_unique<PictureQueue>(kFrames, static_cast<std::uint32_t>(camera.width_px),
+                                        static_cast<std::uint32_t>(camera.height_px));
+}
+
 class Daemon {
  public:
   Daemon(LoadedConfig loaded, Signals& signals);
@@ -57,6 +66,7 @@ class Daemon {
   void start_reload();
   void end_reload();
   void apply(const Config& config);
+  void attach_vision_files();
   bool finished_and_stopped(TimeNs now_ns);
   void stop();
   void log_counters() const;
@@ -70,6 +80,7 @@ class Daemon {
 
   TelemetryQueues queues_;
   FrameTripleBuffer frames_;
+  std::unique_ptr<PictureQueue> pictures_;  // to the recording; null: none
   Mailbox<PoseEstimate> poses_;
   std::unique_ptr<FrameSource> source_;
   TemplateSelector templates_;
@@ -119,18 +130,20 @@ Daemon::Daemon(LoadedConfig loaded, Signals& signals)
       socket_(make_socket(loaded_.config.operators.socket)),
       frames_(static_cast<std::uint32_t>(inputs_.camera.width_px),
               static_cast<std::uint32_t>(inputs_.camera.height_px)),
+      pictures_(make_picture_queue(loaded_.config.telemetry, inputs_.camera)),
       source_(make_frame_source(loaded_.config.camera)),
       templates_(inputs_.shirts, inputs_.camera, loaded_.config.vision),
       capture_(*source_, frames_, queues_.captures, queues_.capture_events,
                {.restart_at_end = loaded_.config.camera.at_end == "loop"}),
-      vision_(frames_, templates_, poses_, queues_.poses),
+      vision_(frames_, templates_, poses_, queues_.poses, pictures_.get()),
       control_(loaded_.config, poses_, queues_),
-      telemetry_(queues_, loaded_.config.telemetry),
+      telemetry_(queues_, loaded_.config.telemetry, pictures_.get()),
       settings_(loaded_, {[this](const Config& config) { check_against_camera(config, inputs_.camera); },
                           [this](const Config& config) { apply(config); }}),
       settings_loop_(settings_),
       control_port_(control_, capture_, telemetry_) {
   telemetry_.configuration({monotonic_now_ns(), configurations_, config_toml(loaded_.config)});
+  if (pictures_) attach_vision_files();
   if (!socket_) return;
   operators_ =
       std::make_unique<OperatorServer>(std::move(*socket_), control_port_, settings_, settings_loop_);
@@ -198,6 +211,16 @@ void Daemon::end_reload() {
   if (ended == reloads_ended_) return;
   reloads_ended_ = ended;
   if (reloads_ended_ == reloads_started_) status_.reload_ended();
+}
+
+/// What a replay of vision needs beside the pictures.
+void Daemon::attach_vision_files() {
+  constexpr std::size_t kMaxBytes = 1 << 26;
+  const Config& config = loaded_.config;
+  telemetry_.attach("camera.yaml", "text/yaml", read_whole_file(config.camera.info, kMaxBytes));
+  for (std::size_t i = 0; i < inputs_.shirts.size(); ++i)
+    telemetry_.attach(fmt::format("shirt-{}.heel", i), "application/octet-stream",
+                      read_whole_file(template_file(config.target, i), kMaxBytes));
 }
 
 /// In the settings thread.

@@ -9,8 +9,13 @@ constexpr TimeNs kLongestWait_ns = 100 * kNsPerMs;  // stop() takes effect withi
 }
 
 VisionLoop::VisionLoop(FrameTripleBuffer& frames, TemplateSelector& templates,
-                       Mailbox<PoseEstimate>& to_control, SpscQueue<PoseEstimate>& to_telemetry)
-    : frames_(frames), templates_(templates), to_control_(to_control), to_telemetry_(to_telemetry) {}
+                       Mailbox<PoseEstimate>& to_control, SpscQueue<PoseEstimate>& to_telemetry,
+                       PictureQueue* pictures)
+    : frames_(frames),
+      templates_(templates),
+      to_control_(to_control),
+      to_telemetry_(to_telemetry),
+      pictures_(pictures) {}
 
 void VisionLoop::run() {
   while (!stop_.load(std::memory_order_relaxed)) {
@@ -21,6 +26,7 @@ void VisionLoop::run() {
     pose.t_done_ns = monotonic_now_ns();
     to_control_.post(pose);
     to_telemetry_.push(pose);
+    if (pictures_ != nullptr) pictures_->push(*frame);
   }
 }
 

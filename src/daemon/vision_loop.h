@@ -7,6 +7,7 @@
 #include "heel/flow.h"
 #include "realtime/frame_triple_buffer.h"
 #include "realtime/mailbox.h"
+#include "realtime/picture_queue.h"
 #include "realtime/spsc_queue.h"
 #include "vision/pose/template_selector.h"
 
@@ -14,9 +15,10 @@ namespace heel {
 
 class VisionLoop {
  public:
-  /// Everything is borrowed and must outlive run().
+  /// Everything is borrowed and must outlive run(). `pictures`, where given, gets a copy of every frame after
+  /// its pose has gone out.
   VisionLoop(FrameTripleBuffer& frames, TemplateSelector& templates, Mailbox<PoseEstimate>& to_control,
-             SpscQueue<PoseEstimate>& to_telemetry);
+             SpscQueue<PoseEstimate>& to_telemetry, PictureQueue* pictures = nullptr);
 
   /// Runs until stop(). Does not allocate, lock or format.
   void run();
@@ -28,6 +30,7 @@ class VisionLoop {
   TemplateSelector& templates_;
   Mailbox<PoseEstimate>& to_control_;
   SpscQueue<PoseEstimate>& to_telemetry_;
+  PictureQueue* const pictures_;
   std::atomic<bool> stop_{false};
 };
 

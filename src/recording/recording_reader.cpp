@@ -44,6 +44,8 @@ class Dispatcher {
         return visitor_.on_operator(decoded(row, message, operator_from_json));
       case Topic::Recording:
         return visitor_.on_note(decoded(row, message, note_from_json));
+      case Topic::Picture:
+        return visitor_.on_picture(decoded(row, message, picture_from_json));
     }
   }
 
@@ -113,6 +115,7 @@ RecordingReport read_recording(const std::string& path, RecordingVisitor& visito
     ++report.messages;
   }
   report.complete = reader.complete();
+  for (const auto& [name, attachment] : reader.attachments()) report.attachments[name] = attachment.data;
   report.problems = reader.problems();
   return report;
 }

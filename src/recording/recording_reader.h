@@ -5,11 +5,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "heel/flow.h"
+#include "recording/picture.h"
 #include "recording/records.h"
 
 namespace heel {
@@ -26,15 +28,17 @@ class RecordingVisitor {
   virtual void on_configuration(const ConfigurationText& /*configuration*/) {}
   virtual void on_operator(const OperatorLine& /*line*/) {}
   virtual void on_note(const RecordingNote& /*note*/) {}
+  virtual void on_picture(const RecordedPicture& /*picture*/) {}
   /// Topics that are not wanted are skipped, which is quicker. All by default.
   virtual bool wants(std::string_view /*topic*/) const { return true; }
 };
 
 struct RecordingReport {
   std::string file;
-  std::uint64_t messages = 0;         ///< that the visitor got
-  bool complete = false;              ///< the recording was closed, not cut off
-  std::vector<std::string> problems;  ///< damage, one line each, with the place
+  std::uint64_t messages = 0;                      ///< that the visitor got
+  bool complete = false;                           ///< the recording was closed, not cut off
+  std::map<std::string, std::string> attachments;  ///< name and content of files
+  std::vector<std::string> problems;               ///< damage, one line each, with the place
   /// Fields that this version has and the recording does not, or the other way, as "/heel/tick.target.x_m".
   std::set<std::string> other_version;
 };

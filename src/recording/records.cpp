@@ -6,6 +6,7 @@
 
 #include "heel/error.h"
 #include "recording/flow_json.h"
+#include "recording/picture.h"
 #include "recording/topics.h"
 
 namespace heel {
@@ -129,6 +130,7 @@ const std::array<TopicRow, kTopics>& topic_table() {
          return object_schema("heel.Recording",
                               {{"t_ns", kWhole}, {"kind", kText}, {"text", kText}, {"lost", kWhole}});
        }},
+      {Topic::Picture, "/camera", "foxglove.CompressedImage", picture_json_schema},
   }};
   return table;
 }

@@ -19,8 +19,9 @@ enum class Topic : std::uint8_t {
   Configuration,  ///< ConfigurationText
   Operator,       ///< OperatorLine
   Recording,      ///< RecordingNote
+  Picture,        ///< RecordedPicture
 };
-inline constexpr std::size_t kTopics = 9;
+inline constexpr std::size_t kTopics = 10;
 
 struct TopicRow {
   Topic topic;

@@ -24,6 +24,7 @@ RecordFile::~RecordFile() {
 }
 
 bool RecordFile::append(std::string_view piece) {
+  if (waiting_.size() + piece.size() > kMaxWaitingBytes) flush();
   if (waiting_.size() + piece.size() > kMaxWaitingBytes) {
     ++pieces_lost_;
     return false;

@@ -86,6 +86,16 @@ void Recorder::record(const RecordingNote& note) {
   write(Topic::Recording, note.t_ns, note_json(note));
 }
 
+void Recorder::record(const RecordedPicture& picture) {
+  json_.clear();
+  append_picture_json(json_, picture, picture.header.t_capture_ns + clock_.offset_ns);
+  write(Topic::Picture, picture.header.t_capture_ns, json_);
+}
+
+void Recorder::attach(const std::string& name, const std::string& media_type, std::string_view content) {
+  writer_.add_attachment(name, media_type, content, clock_.offset_ns);
+}
+
 void Recorder::record_text(TimeNs t_ns, std::string_view text) {
   write(Topic::Log, t_ns, log_json({t_ns, std::string(text)}, t_ns + clock_.offset_ns));
 }
@@ -100,14 +110,14 @@ void Recorder::sync() {
   file_.sync();
 }
 
-std::string new_recording_path(const std::string& folder) {
+std::string new_recording_path(const std::string& folder, const std::string& suffix) {
   try {
     fs::create_directories(folder);
     const std::string stem =
         fmt::format("{}/heel-{:%Y%m%dT%H%M%S}Z", folder, fmt::gmtime(std::time(nullptr)));
-    std::string path = stem + kRecordingExtension;
+    std::string path = stem + suffix + kRecordingExtension;
     for (int number = 1; fs::exists(path); ++number)
-      path = fmt::format("{}-{}{}", stem, number, kRecordingExtension);
+      path = fmt::format("{}-{}{}{}", stem, number, suffix, kRecordingExtension);
     return path;
   } catch (const fs::filesystem_error& error) {
     throw Error("telemetry.directory " + folder + ": " + error.code().message() +

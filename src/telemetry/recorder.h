@@ -14,6 +14,7 @@
 
 #include "heel/flow.h"
 #include "mcap/mcap_writer.h"
+#include "recording/picture.h"
 #include "recording/records.h"
 #include "recording/topics.h"
 #include "telemetry/record_file.h"
@@ -46,6 +47,9 @@ class Recorder {
   void record(const RecordingNote& note);
   /// Bytes of any number.
   void record_wire(std::span<const std::uint8_t> bytes, bool to_robot, TimeNs t_ns);
+  void record(const RecordedPicture& picture);
+  /// A file that belongs to the recording.
+  void attach(const std::string& name, const std::string& media_type, std::string_view content);
   /// A line of the log.
   void record_text(TimeNs t_ns, std::string_view text);
 
@@ -73,6 +77,6 @@ class Recorder {
 
 /// The name of a new recording in the folder, by the date: "heel-20261130T052236Z.mcap", with a number when
 /// there is one of that second. Makes the folder. Throws heel::Error naming telemetry.directory.
-std::string new_recording_path(const std::string& folder);
+std::string new_recording_path(const std::string& folder, const std::string& suffix = "");
 
 }  // namespace heel

@@ -6,10 +6,13 @@
 #include <utility>
 
 #include "core/state_sentence.h"
+#include "heel/error.h"
 #include "logging/journal_sink.h"
 #include "realtime/clock.h"
 #include "realtime/futex.h"
+#include "recording/recording_reader.h"
 #include "telemetry/event_text.h"
+#include "telemetry/recording_folder.h"
 
 namespace heel {
 
@@ -19,6 +22,7 @@ constexpr TimeNs kDrainPeriod_ns = 50 * kNsPerMs;
 constexpr TimeNs kFlushPeriod_ns = 500 * kNsPerMs;
 constexpr TimeNs kRepeatedEventPeriod_ns = kNsPerS;
 constexpr std::size_t kMaxWaitingTexts = 256;
+constexpr TimeNs kLimitsPeriod_ns = 10 * kNsPerS;
 
 static_assert(static_cast<std::size_t>(EventKind::Warning) < 16, "Telemetry::t_logged_ns_ is too short");
 
@@ -37,11 +41,53 @@ std::string refusal_of(const TickRecord& tick) {
 
 }  // namespace
 
-Telemetry::Telemetry(TelemetryQueues& queues, const TelemetryConfig& config)
-    : queues_(queues), recording_(!config.directory.empty()) {
+Telemetry::Telemetry(TelemetryQueues& queues, const TelemetryConfig& config, PictureQueue* pictures)
+    : queues_(queues),
+      recording_(!config.directory.empty()),
+      config_(config),
+      pictures_(pictures, config.pictures) {
+  open_black_box();
   if (!recording_) return;
   recorder_ = std::make_unique<Recorder>(new_recording_path(config.directory), RecordingClock::wall());
   recorder_->record(RecordingNote{monotonic_now_ns(), "begin", "heeld", 0});
+  keep_within_limits(monotonic_now_ns());
+}
+
+/// First what the last run has left; then one for this run. heeld goes without where there is no place for
+/// it.
+void Telemetry::open_black_box() {
+  if (config_.black_box.empty()) return;
+  try {
+    const std::string left = recording_ ? new_recording_path(config_.directory, "-black-box")
+                                        : config_.black_box + kRecordingExtension;
+    if (recover_black_box(config_.black_box, left))
+      spdlog::warn("the last run of heeld did not end by itself: its last 30 s are in {}", left);
+  } catch (const Error& error) {
+    spdlog::warn("{}", error.what());
+  }
+  try {
+    black_box_ = std::make_unique<BlackBox>(config_.black_box, RecordingClock::wall());
+  } catch (const Error& error) {
+    spdlog::info("no black box: {}", error.what());
+  }
+}
+
+/// With a recording everything is in there already.
+void Telemetry::save_black_box() {
+  if (!fault_) return;
+  fault_ = false;
+  if (!black_box_ || recorder_) return;
+  const std::string path = config_.black_box + "-fault" + kRecordingExtension;
+  try {
+    black_box_->save(path);
+    spdlog::info("the last 30 s before the fault are in {}", path);
+  } catch (const Error& error) {
+    spdlog::warn("black box: {}", error.what());
+  }
+}
+
+void Telemetry::attach(const std::string& name, const std::string& media_type, std::string_view content) {
+  if (recorder_) recorder_->attach(name, media_type, content);
 }
 
 void Telemetry::run() {
@@ -56,13 +102,33 @@ void Telemetry::run() {
     drain(now_ns);
   }
   drain(monotonic_now_ns());
-  end_recording();
+  end_recording("heeld stopped");
+  if (black_box_) black_box_->end();
 }
 
-void Telemetry::end_recording() {
+void Telemetry::end_recording(const std::string& why) {
   if (!recorder_) return;
-  recorder_->record(RecordingNote{monotonic_now_ns(), "end", "heeld stopped", newest_.records_lost});
+  recorder_->record(RecordingNote{monotonic_now_ns(), "end", why, newest_.records_lost});
   recorder_.reset();
+}
+
+/// Those of the queue; and those before a fault.
+void Telemetry::take_pictures() {
+  if (!recorder_) return;
+  pictures_.drain(*recorder_);
+  if (pictures_wanted_) pictures_.write_kept(*recorder_);
+  pictures_wanted_ = false;
+}
+
+void Telemetry::keep_within_limits(TimeNs now_ns) {
+  if (!recorder_ || now_ns - t_limits_checked_ns_ < kLimitsPeriod_ns) return;
+  t_limits_checked_ns_ = now_ns;
+  const KeepLimits limits{static_cast<std::uint64_t>(config_.keep_mb * 1e6),
+                          ns_from_seconds(config_.keep_days * 86400.0)};
+  const std::uint64_t left = remove_old_recordings(config_.directory, recorder_->path(), limits);
+  if (left <= limits.bytes) return;
+  spdlog::warn("recording {} ends here: it needs more than telemetry.keep_mb", recorder_->path());
+  end_recording("more than telemetry.keep_mb");
 }
 
 void Telemetry::stop() {
@@ -103,10 +169,12 @@ void Telemetry::take_texts() {
     texts.marks.swap(texts_.marks);
     texts_lost_ = texts_.dropped;
   }
+  if (black_box_ && !texts.configurations.empty()) black_box_->add(texts.configurations.back());
   if (!recorder_) return;
   for (const ConfigurationText& configuration : texts.configurations) recorder_->record(configuration);
   for (const OperatorLine& line : texts.operator_lines) recorder_->record(line);
   for (const RecordingNote& mark : texts.marks) recorder_->record(mark);
+  pictures_wanted_ = pictures_wanted_ || !texts.marks.empty();
 }
 
 void Telemetry::drain(TimeNs now_ns) {
@@ -116,6 +184,7 @@ void Telemetry::drain(TimeNs now_ns) {
     ++newest_.poses;
     newest_.pose = pose;
     if (recorder_) recorder_->record(pose);
+    if (black_box_) black_box_->add(pose);
   }
   for (CaptureCounters capture; queues_.captures.pop(capture);) {
     newest_.capture = capture;
@@ -124,9 +193,14 @@ void Telemetry::drain(TimeNs now_ns) {
   for (SpscQueue<Event>* events : {&queues_.capture_events, &queues_.control_events}) {
     for (Event event; events->pop(event);) take(event);
   }
-  for (WireBytes bytes; queues_.wire.pop(bytes);)
+  for (WireBytes bytes; queues_.wire.pop(bytes);) {
     if (recorder_) recorder_->record(bytes);
+    if (black_box_) black_box_->add(bytes);
+  }
+  take_pictures();
+  save_black_box();
   log_losses(now_ns);
+  keep_within_limits(now_ns);
   if (recorder_ && now_ns - t_flushed_ns_ >= kFlushPeriod_ns) {
     recorder_->sync();
     t_flushed_ns_ = now_ns;
@@ -151,6 +225,7 @@ void Telemetry::take(const TickRecord& tick) {
   ++newest_.ticks;
   newest_.tick = tick;
   if (recorder_) recorder_->record(tick);
+  if (black_box_) black_box_->add(tick);
 }
 
 /// Changes of state or reason, and of what the gate holds the robot by: of these at most one a second,
@@ -158,6 +233,8 @@ void Telemetry::take(const TickRecord& tick) {
 void Telemetry::take_state(const TickRecord& tick, bool first) {
   const TimeNs now_ns = tick.input.now_ns;
   const bool moved = !first && tick.state != newest_.tick.state;
+  if (moved && (tick.state == SupervisorState::Stopped || tick.state == SupervisorState::Emergency))
+    pictures_wanted_ = fault_ = true;
   const bool stopped = first || moved || tick.stop_reason != newest_.tick.stop_reason;
   const bool held = tick.hold != logged_hold_ && now_ns - t_hold_logged_ns_ >= kRepeatedEventPeriod_ns;
   if (!stopped && !held) return;
@@ -209,6 +286,7 @@ void Telemetry::take_measurement(const TickRecord& tick) {
 void Telemetry::take(const Event& event) {
   ++newest_.events;
   if (recorder_) recorder_->record(event);
+  if (black_box_) black_box_->add(event);
   TimeNs& t_logged_ns = t_logged_ns_[static_cast<std::size_t>(event.kind)];
   const bool too_soon = t_logged_ns != 0 && event.t_ns - t_logged_ns < kRepeatedEventPeriod_ns;
   if (event_repeats(event.kind) && too_soon) return;
@@ -221,7 +299,7 @@ void Telemetry::take(const Event& event) {
 void Telemetry::log_losses(TimeNs now_ns) {
   newest_.records_lost = queues_.ticks.dropped() + queues_.poses.dropped() + queues_.captures.dropped() +
                          queues_.capture_events.dropped() + queues_.control_events.dropped() +
-                         queues_.wire.dropped() + texts_lost_;
+                         queues_.wire.dropped() + texts_lost_ + pictures_.lost();
   if (recorder_) newest_.records_lost += recorder_->messages_lost();
   if (newest_.records_lost == losses_logged_ || now_ns - t_losses_logged_ns_ < kRepeatedEventPeriod_ns)
     return;

@@ -15,10 +15,13 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/config.h"
 #include "heel/flow.h"
+#include "telemetry/black_box.h"
+#include "telemetry/picture_recorder.h"
 #include "telemetry/recorder.h"
 #include "telemetry/telemetry_queues.h"
 
@@ -38,7 +41,11 @@ struct TelemetrySnapshot {
 class Telemetry {
  public:
   /// Writes a recording when config.directory is not empty. Throws heel::Error when it cannot be created.
-  Telemetry(TelemetryQueues& queues, const TelemetryConfig& config);
+  /// `pictures`, where given, are the frames that vision has processed; it is borrowed.
+  Telemetry(TelemetryQueues& queues, const TelemetryConfig& config, PictureQueue* pictures = nullptr);
+
+  /// Before run(): a file that belongs to the recording, as the template that the pictures were searched for.
+  void attach(const std::string& name, const std::string& media_type, std::string_view content);
 
   /// Drains the queues every 50 ms until stop(), and then once more.
   void run();
@@ -65,14 +72,23 @@ class Telemetry {
   void take(const Event& event);
   void take_texts();
   void log_losses(TimeNs now_ns);
-  void end_recording();
+  void open_black_box();
+  void save_black_box();
+  void take_pictures();
+  void keep_within_limits(TimeNs now_ns);
+  void end_recording(const std::string& why);
 
   template <typename Text>
   void add_text(std::vector<Text>& waiting, Text text);
 
   TelemetryQueues& queues_;
   const bool recording_;
-  std::unique_ptr<Recorder> recorder_;  // null: nothing is recorded
+  const TelemetryConfig config_;
+  std::unique_ptr<Recorder> recorder_;   // null: nothing is recorded
+  std::unique_ptr<BlackBox> black_box_;  // null: none
+  PictureRecorder pictures_;
+  bool pictures_wanted_ = false;  // a fault or a mark has come since the last drain
+  bool fault_ = false;            // a fault has come since the last drain
 
   struct Texts {
     std::vector<ConfigurationText> configurations;
@@ -98,6 +114,7 @@ class Telemetry {
   std::uint64_t losses_logged_ = 0;
   TimeNs t_losses_logged_ns_ = 0;
   TimeNs t_flushed_ns_ = 0;
+  TimeNs t_limits_checked_ns_ = 0;
   std::atomic<std::uint32_t> stop_{0};  // also the futex of the pause between two drains
 };
 

@@ -29,6 +29,8 @@ Event event_of(EventKind kind, TimeNs t_ns, const char* text = "") {
   return event;
 }
 
+const TelemetryConfig kNothingRecorded{.directory = "", .black_box = ""};
+
 class TelemetryTest : public testing::Test {
  protected:
   TelemetryQueues queues_;
@@ -36,7 +38,7 @@ class TelemetryTest : public testing::Test {
 };
 
 TEST_F(TelemetryTest, ChangesOfStopReasonAndLinkAreLoggedOnce) {
-  Telemetry telemetry(queues_, {});
+  Telemetry telemetry(queues_, kNothingRecorded);
   TickRecord tick;
   for (const StopReason reason : {StopReason::NoTargetYet, StopReason::NoTargetYet, StopReason::None,
                                   StopReason::None, StopReason::TargetLost, StopReason::None}) {
@@ -58,7 +60,7 @@ TEST_F(TelemetryTest, ChangesOfStopReasonAndLinkAreLoggedOnce) {
 }
 
 TEST_F(TelemetryTest, AChangeOfStateIsLoggedWithItsCause) {
-  Telemetry telemetry(queues_, {});
+  Telemetry telemetry(queues_, kNothingRecorded);
   TickRecord tick;
   tick.needs_start = true;
   queues_.ticks.push(tick);
@@ -82,7 +84,7 @@ TEST_F(TelemetryTest, AChangeOfStateIsLoggedWithItsCause) {
 }
 
 TEST_F(TelemetryTest, WhatTheGateHoldsByIsLoggedAtMostOnceASecond) {
-  Telemetry telemetry(queues_, {});
+  Telemetry telemetry(queues_, kNothingRecorded);
   TickRecord tick;
   tick.state = SupervisorState::Following;
   tick.stop_reason = StopReason::None;
@@ -102,7 +104,7 @@ TEST_F(TelemetryTest, WhatTheGateHoldsByIsLoggedAtMostOnceASecond) {
 }
 
 TEST_F(TelemetryTest, WeakBrakesAreLoggedAgainOnlyWhenTheyAreWeaker) {
-  Telemetry telemetry(queues_, {});
+  Telemetry telemetry(queues_, kNothingRecorded);
   TickRecord tick;
   tick.input.robot.limits.deceleration_m_s2 = 1.5;
   for (const double planned_m_s2 : {1.5, 0.5, 0.5, 0.48, 0.3, 0.3}) {
@@ -117,7 +119,7 @@ TEST_F(TelemetryTest, WeakBrakesAreLoggedAgainOnlyWhenTheyAreWeaker) {
 }
 
 TEST_F(TelemetryTest, ARefusalIsLoggedWithItsGateWhenItChanges) {
-  Telemetry telemetry(queues_, {});
+  Telemetry telemetry(queues_, kNothingRecorded);
   TickRecord tick;
   const auto push = [&](TimeNs now_ns, MeasurementStatus measurement, PoseReason reason) {
     tick.input.now_ns = now_ns;
@@ -138,7 +140,7 @@ TEST_F(TelemetryTest, ARefusalIsLoggedWithItsGateWhenItChanges) {
 }
 
 TEST_F(TelemetryTest, AnotherTemplateIsLogged) {
-  Telemetry telemetry(queues_, {});
+  Telemetry telemetry(queues_, kNothingRecorded);
   TickRecord tick;
   for (const std::uint32_t index : {0u, 1u, 1u, 0u}) {
     tick.measurement = MeasurementStatus::Accepted;
@@ -151,7 +153,7 @@ TEST_F(TelemetryTest, AnotherTemplateIsLogged) {
 }
 
 TEST_F(TelemetryTest, EventsOfEveryThreadAreLoggedRepeatedOnesAtMostOnceASecond) {
-  Telemetry telemetry(queues_, {});
+  Telemetry telemetry(queues_, kNothingRecorded);
   queues_.capture_events.push(event_of(EventKind::CameraLost, 1, "sim:yard: gone"));
   queues_.control_events.push(event_of(EventKind::Note, 2, "a note from control"));
   queues_.control_events.push(event_of(EventKind::Warning, 3, "from control"));
@@ -167,7 +169,7 @@ TEST_F(TelemetryTest, EventsOfEveryThreadAreLoggedRepeatedOnesAtMostOnceASecond)
 }
 
 TEST_F(TelemetryTest, LostRecordsAreCountedAndLogged) {
-  Telemetry telemetry(queues_, {});
+  Telemetry telemetry(queues_, kNothingRecorded);
   const std::size_t capacity = queues_.ticks.capacity();
   for (std::size_t i = 0; i < capacity + 9; ++i) queues_.ticks.push(TickRecord{});
   telemetry.drain(10 * kNsPerS);
@@ -180,7 +182,7 @@ TEST_F(TelemetryTest, LostRecordsAreCountedAndLogged) {
 // As in the daemon, other threads push and the telemetry thread records; after stop() no record is missing.
 TEST_F(TelemetryTest, EveryPushedRecordIsInTheRecordingAfterStop) {
   const test::TemporaryFolder folder;
-  Telemetry telemetry(queues_, {.directory = folder.path()});
+  Telemetry telemetry(queues_, {.directory = folder.path(), .black_box = ""});
   constexpr int kRecords = 500;
   std::jthread reader([&] { telemetry.run(); });
   std::jthread control([&] {

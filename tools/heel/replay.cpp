@@ -14,6 +14,7 @@
 #include "files/folder.h"
 #include "heel/error.h"
 #include "replay/control_replay.h"
+#include "replay/vision_replay.h"
 
 namespace heel::cli {
 namespace {
@@ -95,6 +96,21 @@ void print_answer(const ReplayResult& result, bool asked_what_if) {
   }
 }
 
+/// True: every pose is the same, or there is no picture to replay.
+bool replay_vision_side(const std::string& file) {
+  const VisionReplayResult vision = replay_vision(file);
+  if (vision.frames > 0)
+    std::cout << fmt::format("{} of {} frames the same in vision\n", grouped(vision.same),
+                             grouped(vision.frames));
+  if (vision.first) {
+    std::cout << fmt::format("first difference in vision: frame {}\n", vision.first->frame_sequence);
+    for (const FieldDifference& field : vision.fields)
+      std::cout << fmt::format("  {:<32} recorded {}, replayed {}\n", field.name, field.a, field.b);
+  }
+  if (!vision.ended.empty()) std::cout << vision.ended << '\n';
+  return vision.all_same();
+}
+
 void run_replay(const ReplayCommandOptions& options) {
   const std::string file = recording_in(options.recording);
   ReplayOptions replay{settings_of(options.settings), !options.settings.empty(), {}};
@@ -119,12 +135,13 @@ void run_replay(const ReplayCommandOptions& options) {
   for (const std::string& name : result.report.other_version)
     std::cerr << "heel replay: " << name
               << ": in the recording or in this version of heel alone; it counts with its default\n";
+  const bool vision_same = what_if || replay_vision_side(file);
   if (csv) {
     csv->flush();
     if (const std::string why_not = evaluation::draw_figures({options.plot}); !why_not.empty())
       std::cerr << "heel replay: " << why_not << '\n';
   }
-  const bool same = what_if ? !result.first_command : result.all_same();
+  const bool same = what_if ? !result.first_command : result.all_same() && vision_same;
   if (!same) throw CLI::RuntimeError(kExitNo);
 }
 
@@ -134,8 +151,9 @@ void add_replay_command(CLI::App& app) {
   auto options = std::make_shared<ReplayCommandOptions>();
   CLI::App* command = app.add_subcommand(
       "replay",
-      "Runs the control side of a recording through this version of heel: the same decisions to the bit,\n"
-      "or where they differ. Exit status 0 the same, 1 they differ, 2 the recording cannot be used");
+      "Runs a recording through this version of heel, the control side and, where it has lossless pictures,\n"
+      "vision: the same to the bit, or where it differs. Exit status 0 the same, 1 they differ, 2 the "
+      "recording cannot be used");
   command
       ->add_option("recording", options->recording,
                    "a recording (*.mcap), or a folder of which the newest one is taken")

@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "config/config_text.h"
+#include "files/atomic_file.h"
+#include "files/camera_info.h"
 #include "files/folder.h"
 #include "files/image_file.h"
 #include "files/template_file.h"
@@ -88,9 +90,29 @@ RunRecord::RunRecord(const std::string& directory, const sim::LockstepSettings& 
   if (!settings.errors) {
     write_template(settings.shirt, directory + "/shirt.heel");
     make_folder(directory + "/frames");
+    pictures_ = settings.config.telemetry.pictures;
+    if (pictures_ != "none") attach_vision_files(settings);
   }
   frame_interval_ns_ = ns_from_seconds(settings.scenario.duration_s / kSavedFrames);
   t_next_frame_ns_ = frame_interval_ns_ / 2;
+}
+
+/// What a replay of vision needs beside the pictures.
+void RunRecord::attach_vision_files(const sim::LockstepSettings& settings) {
+  constexpr std::size_t kMaxBytes = 1 << 26;
+  const std::string file = directory_ + "/attached";
+  const auto attach = [&](const std::string& name, const std::string& media_type) {
+    recorder_->attach(name, media_type, read_whole_file(file, kMaxBytes));
+    std::filesystem::remove(file);
+  };
+  write_camera_model(settings.scenario.camera.model, file);
+  attach("camera.yaml", "text/yaml");
+  write_template(settings.shirt, file);
+  attach("shirt-0.heel", "application/octet-stream");
+  for (std::size_t i = 0; i < settings.more_shirts.size(); ++i) {
+    write_template(settings.more_shirts[i], file);
+    attach(fmt::format("shirt-{}.heel", i + 1), "application/octet-stream");
+  }
 }
 
 void RunRecord::open_truth(bool has_world) {
@@ -120,6 +142,8 @@ void RunRecord::on_pose(const FrameView& frame, const PoseEstimate& pose, const 
   metrics_.add(pose_sample(pose, truth));
   if (!recorder_) return;
   recorder_->record(pose);
+  if (frame.grey != nullptr && (pictures_ == "jpeg" || pictures_ == "lossless"))
+    recorder_->record(compressed_picture(frame, pictures_ == "lossless"));
   if (frame.grey == nullptr || pose.t_capture_ns < t_next_frame_ns_) return;
   t_next_frame_ns_ += frame_interval_ns_;
   write_grey_image(fmt::format("{}/frames/{:06}.png", directory_, frame.header.sequence), frame.grey,

@@ -36,6 +36,7 @@ class RunRecord : public sim::LockstepObserver {
   void flush();
 
  private:
+  void attach_vision_files(const sim::LockstepSettings& settings);
   void open_truth(bool has_world);
 
   std::string directory_;
@@ -44,6 +45,7 @@ class RunRecord : public sim::LockstepObserver {
   std::unique_ptr<SampledCsv> truth_file_;
   sim::LockstepTruth truth_;  ///< of the row being written
   std::unique_ptr<sim::WireFile> wire_;
+  std::string pictures_ = "none";  ///< telemetry.pictures
   TimeNs frame_interval_ns_ = 0;
   TimeNs t_next_frame_ns_ = 0;
 };

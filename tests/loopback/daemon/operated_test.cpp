@@ -16,6 +16,7 @@
 #include "loopback/daemon/heeld_fixture.h"
 #include "recording/recording_reader.h"
 #include "replay/control_replay.h"
+#include "replay/vision_replay.h"
 #include "support/exported.h"
 #include "support/socket_client.h"
 
@@ -161,7 +162,11 @@ TEST_F(OperatedHeeld, AnEmergencyStopActsInTheNextTickByTheRecording) {
 
 /// Everything of a recording that its run can be told from.
 struct RecordedRun final : RecordingVisitor {
-  void on_tick(const TickRecord& tick) override { newest_configuration = tick.configuration; }
+  void on_tick(const TickRecord& tick) override {
+    newest_configuration = tick.configuration;
+    t_last_tick_ns = tick.input.now_ns;
+    ++ticks;
+  }
   void on_wire(const WireBytes& wire) override {
     if (wire.to_robot) to_robot.append(reinterpret_cast<const char*>(wire.bytes.data()), wire.count);
     from_robot += wire.to_robot ? 0 : wire.count;
@@ -171,7 +176,8 @@ struct RecordedRun final : RecordingVisitor {
   }
   void on_note(const RecordingNote& note) override { notes.push_back(note.kind + ": " + note.text); }
 
-  std::uint64_t newest_configuration = 0;
+  std::uint64_t newest_configuration = 0, ticks = 0;
+  TimeNs t_last_tick_ns = 0;
   std::string to_robot;
   std::size_t from_robot = 0;
   std::vector<std::string> operators, notes;
@@ -196,7 +202,7 @@ std::string hex_of_wire_file(const std::string& path) {
 }
 
 TEST_F(OperatedHeeld, ARecordedRunReplaysToTheBitAndHoldsTheBytesOfTheWire) {
-  get_ready(operated_config("[telemetry]\ndirectory = \"run\"\n"));
+  get_ready(operated_config("[telemetry]\ndirectory = \"run\"\npictures = \"lossless\"\nblack_box = \"\"\n"));
   SocketClient client(socket());
   ASSERT_TRUE(drives_after_start(client)) << logs();
   ASSERT_EQ(ask(client, R"({"do":"set","values":{"gate.v_max_m_s":0.2,"control.gain_yaw_1_s":0.9}})")["ok"],
@@ -225,6 +231,39 @@ TEST_F(OperatedHeeld, ARecordedRunReplaysToTheBitAndHoldsTheBytesOfTheWire) {
   // What the simulator read is what heeld recorded as written.
   EXPECT_EQ(hex_of(run.to_robot), hex_of_wire_file(scene_.path("wire.hex")));
   EXPECT_GT(run.from_robot, 500u);
+  const VisionReplayResult vision = replay_vision(recording);
+  EXPECT_TRUE(vision.all_same()) << vision.same << " of " << vision.frames;
+  // On a busy machine a picture may be dropped: the replay ends there.
+  EXPECT_GT(vision.frames, 3u) << vision.ended;
+}
+
+TEST_F(OperatedHeeld, AKilledHeeldLeavesItsLastTicksAndTheRecording) {
+  const std::string config = operated_config("[telemetry]\ndirectory = \"run\"\nblack_box = \"black-box\"\n");
+  get_ready(config);
+  SocketClient client(socket());
+  ASSERT_TRUE(drives_after_start(client)) << logs();
+  daemon_->signal(SIGKILL);
+  daemon_->wait();
+  const double t_killed_s = monotonic_s();
+  const std::string cut = recording_in(scene_.path("run"));
+  RecordedRun run;
+  const RecordingReport report = read_recording(cut, run);
+  EXPECT_FALSE(report.complete);
+  EXPECT_GT(run.ticks, 20u);
+
+  start_heeld(config);
+  ASSERT_TRUE(daemon_->says("did not end by itself: its last 30 s are in")) << logs();
+  daemon_->signal(SIGTERM);
+  ASSERT_EQ(daemon_->wait(), 0) << logs();
+  std::string left;
+  for (const auto& entry : std::filesystem::directory_iterator(scene_.path("run")))
+    if (entry.path().string().ends_with("-black-box.mcap")) left = entry.path().string();
+  ASSERT_NE(left, "");
+  RecordedRun last;
+  EXPECT_TRUE(read_recording(left, last).complete);
+  EXPECT_GE(last.ticks, run.ticks) << "it is less than 30 s, and has what no chunk had yet";
+  EXPECT_LT(t_killed_s - seconds_from_ns(last.t_last_tick_ns), 1.0);
+  EXPECT_TRUE(replay_control(left, {}).all_same()) << "it began with the run";
 }
 
 TEST_F(OperatedHeeld, TwoEmergencyStopsDuringASaveAreServedAndTheFileIsWhole) {

@@ -64,7 +64,8 @@ class Replay : public ::testing::Test {
 TEST_F(Replay, NothingHasChanged) {
   const Outcome replay = run_heel({"replay", recording_});
   EXPECT_EQ(replay.status, 0) << replay.err;
-  EXPECT_EQ(replay.out, "301 of 301 ticks the same (6.0 s)\n");
+  EXPECT_EQ(replay.out,
+            "301 of 301 ticks the same (6.0 s)\nvision is not replayed: the recording has no pictures\n");
   EXPECT_EQ(replay.err, "");
 }
 
@@ -94,6 +95,60 @@ TEST_F(Replay, AnotherValueIsAnsweredUpToTheFirstCommandThatDiffers) {
   const Outcome same = run_heel({"replay", recording_, "--set", "supervisor.battery_low_v=10.5"});
   EXPECT_EQ(same.status, 0) << same.out << same.err;
   EXPECT_THAT(same.out, StartsWith("all 301 commands are the same (6.0 s)"));
+}
+
+/// A second of pictures through the lock step, recorded as `pictures` says.
+std::string pictured_run(const test::TemporaryFolder& folder, const std::string& pictures) {
+  const std::string scenario = test::write_text(folder.file("walk.toml"),
+                                                "name = \"walk\"\nduration_s = 1.0\n[person]\nwalk_after_s = "
+                                                "0.0\n[[person.path]]\nstep = \"straight\"\n"
+                                                "length_m = 3\n[robot]\nx_m = -1.8\n[camera]\nwidth_px = "
+                                                "320\nheight_px = 240\nfocal_px = [415.0, 415.0]\n"
+                                                "centre_px = [161.0, 118.0]\n");
+  const std::string config =
+      test::write_text(folder.file("heel.toml"), "[telemetry]\npictures = \"" + pictures + "\"\n");
+  const Outcome run = run_heel({"simulate", scenario, "--config", config, "--out", folder.file("pictured")});
+  EXPECT_NE(run.status, 2) << run.err;
+  return folder.file("pictured/run.mcap");
+}
+
+TEST_F(Replay, LosslessPicturesRepeatVisionToTheBit) {
+  const std::string recording = pictured_run(folder_, "lossless");
+  const Outcome replay = run_heel({"replay", recording});
+  EXPECT_EQ(replay.status, 0) << replay.err;
+  EXPECT_THAT(replay.out,
+              testing::ContainsRegex("^51 of 51 ticks the same .*\n(2[0-9]) of (2[0-9]) frames the same in "
+                                     "vision\n$"));
+  // A pose that was changed in the recording is named.
+  struct Copy final : RecordingVisitor {
+    explicit Copy(const std::string& path) : recorder(path, RecordingClock{}) {}
+    void on_tick(const TickRecord& tick) override { recorder.record(tick); }
+    void on_configuration(const ConfigurationText& text) override { recorder.record(text); }
+    void on_picture(const RecordedPicture& picture) override { recorder.record(picture); }
+    void on_pose(const PoseEstimate& pose) override {
+      PoseEstimate copy = pose;
+      if (++poses == 5) copy.certainty = 0.5;
+      recorder.record(copy);
+    }
+    Recorder recorder;
+    int poses = 0;
+  };
+  const std::string changed = folder_.file("changed.mcap");
+  {
+    Copy copy(changed);
+    const RecordingReport report = read_recording(recording, copy);
+    for (const auto& [name, content] : report.attachments) copy.recorder.attach(name, "", content);
+  }
+  const Outcome differs = run_heel({"replay", changed});
+  EXPECT_EQ(differs.status, 1);
+  EXPECT_THAT(differs.out, AllOf(HasSubstr("first difference in vision: frame 5\n  certainty "),
+                                 HasSubstr("recorded 0.5, replayed 0.")));
+}
+
+TEST_F(Replay, JpegPicturesAreNoReplayOfVision) {
+  const Outcome replay = run_heel({"replay", pictured_run(folder_, "jpeg")});
+  EXPECT_EQ(replay.status, 0) << replay.err;
+  EXPECT_THAT(replay.out, HasSubstr("vision is not replayed: the pictures are JPEG"));
 }
 
 TEST_F(Replay, LostTicksEndIt) {

@@ -1,0 +1,39 @@
+#include "telemetry/picture_recorder.h"
+
+#include <utility>
+
+namespace heel {
+
+PictureRecorder::PictureRecorder(PictureQueue* frames, const std::string& which)
+    : frames_(frames), on_fault_(which == "on_fault"), lossless_(which == "lossless") {}
+
+void PictureRecorder::drain(Recorder& recorder) {
+  if (frames_ == nullptr) return;
+  for (FrameView frame = frames_->front(); frame.grey != nullptr; frame = frames_->front()) {
+    RecordedPicture picture = compressed_picture(frame, lossless_);
+    frames_->pop();
+    if (on_fault_) {
+      keep(std::move(picture));
+    } else {
+      recorder.record(picture);
+    }
+  }
+}
+
+void PictureRecorder::keep(RecordedPicture picture) {
+  const TimeNs t_oldest_ns = picture.header.t_capture_ns - kKept_ns;
+  kept_bytes_ += picture.bytes.size();
+  kept_.push_back(std::move(picture));
+  while (kept_bytes_ > kMaxKeptBytes || kept_.front().header.t_capture_ns < t_oldest_ns) {
+    kept_bytes_ -= kept_.front().bytes.size();
+    kept_.pop_front();
+  }
+}
+
+void PictureRecorder::write_kept(Recorder& recorder) {
+  for (const RecordedPicture& picture : kept_) recorder.record(picture);
+  kept_.clear();
+  kept_bytes_ = 0;
+}
+
+}  // namespace heel
