@@ -48,7 +48,7 @@ std::optional<LocalSocket> make_socket(const std::string& path) {
 }
 
 std::unique_ptr<PictureQueue> make_picture_queue(const TelemetryConfig& config, const CameraModel& camera) {
-  constexpr std::size_t kFrames = 16;
+  constexpr std::size_t kFrames = 48;  // more than a second, for a disk that is slow to sync
   if (config.directory.empty() || config.pictures == "none") return nullptr;
   return std::make_unique<PictureQueue>(kFrames, static_cast<std::uint32_t>(camera.width_px),
                                         static_cast<std::uint32_t>(camera.height_px));

@@ -113,7 +113,7 @@ void VisionReplayer::on_picture(const RecordedPicture& picture) {
 VisionReplayResult replay_vision(const std::string& recording) {
   VisionInputs inputs;
   const RecordingReport report = read_recording(recording, inputs);
-  if (report.attachments.empty() || inputs.poses.empty()) {
+  if (!report.attachments.contains("camera.yaml") || inputs.poses.empty()) {
     VisionReplayResult none;
     none.ended = "vision is not replayed: the recording has no pictures";
     return none;

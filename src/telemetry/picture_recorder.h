@@ -20,7 +20,7 @@ class PictureRecorder {
   /// `frames` is borrowed; null: there are none. `which` is a value of telemetry.pictures.
   PictureRecorder(PictureQueue* frames, const std::string& which);
 
-  /// Takes all waiting frames. To be called often: the queue holds half a second.
+  /// Takes all waiting frames. To be called often: the queue holds a second or two.
   void drain(Recorder& recorder);
   /// Writes those that are kept in memory.
   void write_kept(Recorder& recorder);

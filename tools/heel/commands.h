@@ -49,6 +49,7 @@ void add_reset_command(CLI::App& app);
 void add_set_command(CLI::App& app);
 void add_save_command(CLI::App& app);
 void add_watch_command(CLI::App& app);
+void add_bundle_command(CLI::App& app);
 void add_mark_command(CLI::App& app);
 void add_replay_command(CLI::App& app);
 void add_export_command(CLI::App& app);

@@ -189,6 +189,18 @@ TEST_F(Replay, RefusesWhatItCannotUse) {
   EXPECT_FALSE(std::filesystem::exists(folder_.file("csv")));
 }
 
+TEST_F(Replay, ABundleReplaysLikeItsRecording) {
+  const std::string bundle = folder_.file("bundle.mcap");
+  const Outcome packed = run_heel({"bundle", recording_, "-o", bundle});
+  EXPECT_EQ(packed.status, 0) << packed.err;
+  EXPECT_THAT(packed.out, AllOf(HasSubstr("devices.txt"), HasSubstr("versions.txt; without pictures\n")));
+  EXPECT_EQ(run_heel({"replay", bundle}).status, 0);
+  struct Nothing final : RecordingVisitor {
+  } nothing;
+  const RecordingReport report = read_recording(bundle, nothing);
+  EXPECT_THAT(report.attachments.at("versions.txt"), AllOf(HasSubstr("heel "), HasSubstr("Linux ")));
+}
+
 TEST_F(Replay, ExportWritesTheColumnsOfTheManual) {
   const Outcome done = run_heel({"export", recording_, "--csv", "-o", folder_.file("csv")});
   EXPECT_EQ(done.status, 0) << done.err;

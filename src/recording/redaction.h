@@ -1,0 +1,24 @@
+// Private names taken out of texts that leave the robot: host name, user names, serial numbers of devices.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace heel {
+
+class Redaction {
+ public:
+  /// `name` becomes `instead` where it stands as a word. Empty names are ignored.
+  void add_word(const std::string& name, const std::string& instead);
+
+  /// The text without these words; in addition the name behind "/home/" becomes USER, and that of a device
+  /// behind "/by-id/", which holds its serial number, becomes DEVICE.
+  std::string applied(std::string_view text) const;
+
+ private:
+  std::vector<std::pair<std::string, std::string>> words_;
+};
+
+}  // namespace heel

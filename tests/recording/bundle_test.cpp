@@ -1,0 +1,131 @@
+// Bundles: no private thing goes in, what is too large is left out in the order of its use, and the ticks
+// replay.
+#include "recording/bundle.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+#include <string>
+
+#include "recording/recording_reader.h"
+#include "support/temporary_folder.h"
+#include "telemetry/recorder.h"
+
+namespace heel {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+TEST(Redaction, ReplacesWholeWordsHomesAndSerialNumbers) {
+  Redaction redaction;
+  redaction.add_word("pi", "USER");
+  redaction.add_word("robot-7", "HOST");
+  redaction.add_word("", "NOTHING");
+  EXPECT_EQ(redaction.applied("pi at robot-7: pixels of pi.heel, api, pi_2"),
+            "USER at HOST: pixels of USER.heel, api, pi_2");
+  EXPECT_EQ(redaction.applied("shirt = \"/home/anna/red.heel\" \"/home/bob\""),
+            "shirt = \"/home/USER/red.heel\" \"/home/USER\"");
+  EXPECT_EQ(redaction.applied("serial:/dev/serial/by-id/usb-FTDI_A50285BI-if00@38400 and more"),
+            "serial:/dev/serial/by-id/DEVICE@38400 and more");
+}
+
+struct Bundled final : RecordingVisitor {
+  void on_tick(const TickRecord& tick) override {
+    if (ticks++ == 0) first_tick = tick.tick;
+  }
+  void on_pose(const PoseEstimate&) override { ++poses; }
+  void on_wire(const WireBytes&) override { ++wire; }
+  void on_picture(const RecordedPicture&) override { ++pictures; }
+  void on_configuration(const ConfigurationText& text) override { configuration = text.text; }
+  std::uint64_t ticks = 0, first_tick = 0, poses = 0, wire = 0, pictures = 0;
+  std::string configuration;
+};
+
+class Bundle : public testing::Test {
+ protected:
+  /// A minute whose wire and poses do not compress.
+  Bundle() {
+    std::mt19937_64 random(5);
+    const std::vector<std::uint8_t> grey(64 * 48, 100);
+    Recorder recorder(recording_, RecordingClock{});
+    recorder.record(ConfigurationText{0, 0, "[target]\nshirt = \"/home/anna/red.heel\"\n"});
+    recorder.attach("shirt-0.heel", "", "a picture of a shirt");
+    for (std::uint64_t i = 0; i < 3000; ++i) {
+      const TimeNs t_ns = static_cast<TimeNs>(i) * 20 * kNsPerMs;
+      TickRecord tick;
+      tick.tick = i;
+      tick.input.now_ns = t_ns;
+      tick.target.x_m = std::normal_distribution<double>()(random);
+      recorder.record(tick);
+      WireBytes wire{.t_ns = t_ns, .count = 50};
+      for (std::size_t k = 0; k < wire.count; ++k) wire.bytes[k] = static_cast<std::uint8_t>(random());
+      recorder.record(wire);
+      PoseEstimate pose;
+      pose.t_done_ns = t_ns;
+      for (double& value : pose.H_cur_from_ref) value = std::normal_distribution<double>()(random);
+      recorder.record(pose);
+      if (i % 100 == 0) recorder.record(compressed_picture({{i, t_ns, 64, 48}, grey.data(), 64}, true));
+    }
+  }
+  Bundled bundled(const BundleOptions& options) {
+    report_ = write_bundle(recording_, bundle_, options);
+    EXPECT_EQ(report_.bytes, std::filesystem::file_size(bundle_));
+    EXPECT_LE(report_.bytes, options.max_bytes);
+    Bundled content;
+    read_report_ = read_recording(bundle_, content);
+    EXPECT_TRUE(read_report_.complete);
+    EXPECT_THAT(read_report_.problems, IsEmpty());
+    return content;
+  }
+
+  const test::TemporaryFolder folder_;
+  const std::string recording_ = folder_.file("run.mcap"), bundle_ = folder_.file("bundle.mcap");
+  BundleReport report_;
+  RecordingReport read_report_;
+};
+
+TEST_F(Bundle, LeavesOutPicturesAndPrivateNames) {
+  BundleOptions options;
+  options.texts = {{"journal.txt", "anna: /home/anna is full"}};
+  options.redaction.add_word("anna", "USER");
+  const Bundled content = bundled(options);
+  EXPECT_EQ(content.ticks, 3000u);
+  EXPECT_EQ(content.poses, 3000u);
+  EXPECT_EQ(content.wire, 3000u);
+  EXPECT_EQ(content.pictures, 0u);
+  EXPECT_EQ(content.configuration, "[target]\nshirt = \"/home/USER/red.heel\"\n");
+  EXPECT_EQ(read_report_.attachments.size(), 1u) << "no template";
+  EXPECT_EQ(read_report_.attachments.at("journal.txt"), "USER: /home/USER is full");
+  EXPECT_THAT(report_.left_out, IsEmpty());
+  options.with_pictures = true;
+  EXPECT_EQ(bundled(options).pictures, 30u);
+  EXPECT_EQ(read_report_.attachments.at("shirt-0.heel"), "a picture of a shirt");
+}
+
+TEST_F(Bundle, WhatIsTooLargeIsLeftOutInOrder) {
+  BundleOptions options;
+  const std::uint64_t all = (bundled(options), report_.bytes);
+  options.max_bytes = all - 1;
+  Bundled content = bundled(options);
+  EXPECT_EQ(content.wire, 0u);
+  EXPECT_EQ(content.poses, 3000u);
+  ASSERT_EQ(report_.left_out.size(), 1u);
+  EXPECT_THAT(report_.left_out[0], HasSubstr("the bytes on the wire"));
+  options.max_bytes = report_.bytes - 1;
+  content = bundled(options);
+  EXPECT_EQ(content.poses, 0u);
+  EXPECT_EQ(content.ticks, 3000u);
+  EXPECT_EQ(content.first_tick, 0u);
+  options.max_bytes = report_.bytes * 2 / 3;
+  content = bundled(options);
+  EXPECT_NEAR(static_cast<double>(content.ticks), 1500.0, 2.0);
+  EXPECT_NE(content.configuration, "") << "it is always there";
+  EXPECT_THAT(report_.left_out[0], HasSubstr("all but the last 30 s"));
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,55 @@
+// heel bundle: one file for a bug report.
+#include "recording/bundle.h"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <string>
+
+#include "bundle_facts.h"
+#include "commands.h"
+#include "recording/recording_reader.h"
+
+namespace heel::cli {
+namespace {
+
+struct BundleCommandOptions {
+  std::string recording = "/var/lib/heel";
+  std::string out = "heel-bundle.mcap";
+  bool with_pictures = false;
+  double max_mb = 20.0;
+};
+
+void run_bundle(const BundleCommandOptions& options) {
+  BundleOptions bundle{options.with_pictures, static_cast<std::uint64_t>(options.max_mb * 1e6),
+                       machine_facts(), private_names()};
+  const std::string recording = recording_in(options.recording);
+  const BundleReport report = write_bundle(recording, options.out, bundle);
+  for (const std::string& line : report.left_out) std::cerr << "heel bundle: " << line << '\n';
+  std::cout << fmt::format("{}: {:.1f} MB of {}, with", options.out, 1e-6 * static_cast<double>(report.bytes),
+                           recording);
+  for (const auto& [name, text] : bundle.texts) std::cout << ' ' << name;
+  std::cout << (options.with_pictures ? "" : "; without pictures") << '\n';
+}
+
+}  // namespace
+
+void add_bundle_command(CLI::App& app) {
+  auto options = std::make_shared<BundleCommandOptions>();
+  CLI::App* command = app.add_subcommand(
+      "bundle",
+      "Packs a recording, the journal, versions and devices into one file for a bug report. Host name, user\n"
+      "names, serial numbers of devices and pictures are left out. `heel replay` opens it");
+  command
+      ->add_option("recording", options->recording,
+                   "a recording (*.mcap), or a folder of which the newest one is taken")
+      ->capture_default_str();
+  command->add_option("-o,--out", options->out, "the file")->capture_default_str();
+  command->add_flag("--with-pictures", options->with_pictures, "pictures and templates as well");
+  command->add_option("--max-mb", options->max_mb, "what the file may have at most, megabytes")
+      ->check(number_from(0.1, 10000.0))
+      ->capture_default_str();
+  command->callback([options] { run_bundle(*options); });
+}
+
+}  // namespace heel::cli
