@@ -160,13 +160,13 @@ void McapWriter::end_chunk() {
   });
   index.bytes = bytes.size();
   std::uint64_t count = 0;
-  for (const auto& [channel, entries] : chunk_index_) {
-    index.index_offsets[channel] = offset_ + bytes.size();
-    count += entries.size();
+  for (const auto& of_channel : chunk_index_) {
+    index.index_offsets[of_channel.first] = offset_ + bytes.size();
+    count += of_channel.second.size();
     append_record(bytes, McapOp::MessageIndex, [&](McapFields& fields) {
-      fields.u16(channel);
+      fields.u16(of_channel.first);
       append_sized(fields, [&](McapFields& list) {
-        for (const IndexEntry& entry : entries) {
+        for (const IndexEntry& entry : of_channel.second) {
           list.time(entry.t_log_ns);
           list.u64(entry.offset);
         }

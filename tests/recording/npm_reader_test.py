@@ -55,6 +55,20 @@ class NpmReader(unittest.TestCase):
         self.assertGreater(counts["/heel/pose"], 100)
         self.assertGreater(counts["/heel/wire"], 300)
 
+    def test_reads_pictures(self):
+        folder = Path(self.folder.name)
+        config = folder / "heel.toml"
+        config.write_text('[telemetry]\npictures = "jpeg"\n', encoding="utf-8")
+        scenario = folder / "short.toml"
+        scenario.write_text(SCENARIO.replace("6.0", "0.5"), encoding="utf-8")
+        command = [HEEL, "simulate", scenario, "--config", config, "--out", folder / "pictured"]
+        subprocess.run(command, check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        read = self.read((folder / "pictured/run.mcap").read_bytes())
+        self.assertEqual(read.returncode, 0, read.stderr)
+        counts = json.loads(read.stdout)
+        self.assertGreater(counts["/camera"], 10)
+        self.assertEqual(counts["/camera"], counts["/heel/pose"])
+
     def test_reads_a_recording_without_its_end(self):
         content = self.recording.read_bytes()
         read = self.read(content[: len(content) // 2], "--cut")
