@@ -8,6 +8,7 @@
 #include "recording/flow_json.h"
 #include "recording/picture.h"
 #include "recording/topics.h"
+#include "recording/viewer_messages.h"
 
 namespace heel {
 namespace {
@@ -131,6 +132,8 @@ const std::array<TopicRow, kTopics>& topic_table() {
                               {{"t_ns", kWhole}, {"kind", kText}, {"text", kText}, {"lost", kWhole}});
        }},
       {Topic::Picture, "/camera", "foxglove.CompressedImage", picture_json_schema},
+      {Topic::Transform, "/tf", "foxglove.FrameTransform", transform_json_schema},
+      {Topic::Person, "/person", "foxglove.PoseInFrame", pose_in_frame_json_schema},
   }};
   return table;
 }

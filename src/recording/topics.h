@@ -20,8 +20,10 @@ enum class Topic : std::uint8_t {
   Operator,       ///< OperatorLine
   Recording,      ///< RecordingNote
   Picture,        ///< RecordedPicture
+  Transform,      ///< for viewers: where the robot is
+  Person,         ///< for viewers: where the person is
 };
-inline constexpr std::size_t kTopics = 10;
+inline constexpr std::size_t kTopics = 12;
 
 struct TopicRow {
   Topic topic;

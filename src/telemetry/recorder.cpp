@@ -6,17 +6,23 @@
 #include <ctime>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "core/wire_pieces.h"
 #include "heel/error.h"
 #include "realtime/clock.h"
 #include "recording/flow_json.h"
 #include "recording/recording_reader.h"
+#include "recording/viewer_messages.h"
 #include "telemetry/event_text.h"
 
 namespace heel {
 
 namespace fs = std::filesystem;
+
+namespace {
+constexpr std::uint64_t kTicksPerView = 5;
+}
 
 RecordingClock RecordingClock::wall() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -52,6 +58,18 @@ void Recorder::write_flow(Topic topic, TimeNs t_ns, const Flow& record) {
 
 void Recorder::record(const TickRecord& tick) {
   write_flow(Topic::Tick, tick.input.now_ns, tick);
+  if (tick.tick % kTicksPerView == 0) record_view(tick);
+}
+
+/// For viewers, ten times a second.
+void Recorder::record_view(const TickRecord& tick) {
+  const TimeNs t_ns = tick.input.now_ns;
+  for (const auto& [topic, append] : {std::pair(Topic::Transform, &append_robot_transform),
+                                      std::pair(Topic::Person, &append_person_pose)}) {
+    json_.clear();
+    append(json_, tick, t_ns + clock_.offset_ns);
+    if (!json_.empty()) write(topic, t_ns, json_);
+  }
 }
 
 void Recorder::record(const PoseEstimate& pose) {

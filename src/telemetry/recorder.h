@@ -64,6 +64,7 @@ class Recorder {
   std::uint64_t messages_lost() const { return writer_.messages_lost(); }
 
  private:
+  void record_view(const TickRecord& tick);
   void write(Topic topic, TimeNs t_ns, std::string_view json);
   template <typename Flow>
   void write_flow(Topic topic, TimeNs t_ns, const Flow& record);

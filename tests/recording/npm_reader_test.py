@@ -54,6 +54,8 @@ class NpmReader(unittest.TestCase):
         self.assertEqual(counts["/heel/configuration"], 1)
         self.assertGreater(counts["/heel/pose"], 100)
         self.assertGreater(counts["/heel/wire"], 300)
+        self.assertGreater(counts["/tf"], 50)
+        self.assertGreater(counts["/person"], 40)
 
     def test_reads_pictures(self):
         folder = Path(self.folder.name)

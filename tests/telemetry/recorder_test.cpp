@@ -8,11 +8,14 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "mcap/mcap_reader.h"
 #include "recording/recording_reader.h"
 #include "support/collected_log.h"
 #include "support/complaint.h"
@@ -157,6 +160,37 @@ TEST(Recorder, KeepsRecordsOfEachKind) {
   EXPECT_EQ(all.operators[0].who, "pid 3");
   ASSERT_EQ(all.notes.size(), 1u);
   EXPECT_EQ(all.notes[0].lost, 12u);
+}
+
+TEST(Recorder, ViewersGetTheRobotAndThePersonEveryFifthTick) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("run.mcap");
+  {
+    Recorder recorder(path, RecordingClock{2 * kNsPerS});
+    TickRecord tick;
+    tick.input.now_ns = 1'500'000'000;
+    tick.input.robot.has_sip = true;
+    tick.input.robot.odometry.x_m = 3.5;
+    tick.target.known = true;
+    tick.target.y_m = -0.25;
+    tick.target.travel_yaw_rad = 3.141592653589793;
+    for (tick.tick = 0; tick.tick < 10; ++tick.tick) recorder.record(tick);
+    tick.input.robot.has_sip = tick.target.known = false;
+    for (; tick.tick < 20; ++tick.tick) recorder.record(tick);
+  }
+  std::map<std::string, std::vector<std::string>> messages;
+  std::ifstream file(path, std::ios::binary);
+  McapReader reader(file, path);
+  for (McapMessage message; reader.next(message);)
+    messages[reader.channel(message.channel).topic].emplace_back(message.data);
+  ASSERT_EQ(messages["/tf"].size(), 2u);
+  EXPECT_THAT(messages["/tf"][0],
+              HasSubstr(R"({"timestamp":{"sec":3,"nsec":500000000},"parent_frame_id":"odom")"));
+  EXPECT_THAT(messages["/tf"][0], HasSubstr(R"("translation":{"x":3.5,)"));
+  ASSERT_EQ(messages["/person"].size(), 2u);
+  EXPECT_THAT(messages["/person"][0],
+              HasSubstr(R"("frame_id":"robot","pose":{"position":{"x":0,"y":-0.25,"z":0})"));
+  EXPECT_THAT(messages["/person"][0], HasSubstr(R"("z":1,"w":6.1)")) << "half a turn";
 }
 
 TEST(Recorder, WhatWasFlushedIsThereWithoutTheEnd) {
