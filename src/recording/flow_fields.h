@@ -72,8 +72,17 @@ constexpr void fields(V& v, IsFlow<DriveLimits> auto& d) {
 }
 
 template <typename V>
+constexpr void fields(V& v, IsFlow<RobotKind> auto& k) {
+  v("robot_class", k.robot_class);
+  v("subclass", k.subclass);
+  v("choice", k.choice);
+  v("model", k.model);
+}
+
+template <typename V>
 constexpr void fields(V& v, IsFlow<RobotState> auto& r) {
   v("phase", r.phase);
+  v("kind", r.kind);
   v("has_sip", r.has_sip);
   v("odometry", r.odometry);
   v("motors_enabled", r.motors_enabled);

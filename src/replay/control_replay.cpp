@@ -10,7 +10,7 @@
 #include "config/config_table.h"
 #include "control/control_stage.h"
 #include "heel/error.h"
-#include "robot/p3at_geometry.h"
+#include "models/robot_models.h"
 
 namespace heel {
 namespace {
@@ -102,7 +102,7 @@ void Replayer::on_tick(const TickRecord& recorded) {
   if (!can_follow(recorded)) return;
   ++next_tick_;
   if (!stage_) {
-    stage_.emplace(configurations_.at(0), p3at_geometry());
+    stage_.emplace(configurations_.at(0), robot_models());
     t_first_ns_ = recorded.input.now_ns;
   }
   while (configuration_ < recorded.configuration) stage_->reconfigure(configurations_.at(++configuration_));

@@ -8,11 +8,13 @@
 #include <fstream>
 
 #include "config/config_load.h"
+#include "core/picture_turn.h"
 #include "files/camera_info.h"
 #include "files/template_file.h"
 #include "heel/error.h"
 #include "recording/recording_reader.h"
 #include "vision/pose/template_selector.h"
+#include "vision/template/turned_template.h"
 
 namespace heel {
 namespace {
@@ -121,8 +123,10 @@ VisionReplayResult replay_vision(const std::string& recording) {
   const Config config = parse_config(inputs.configuration, recording + ": configuration 0").config;
   const UnpackedFiles files(report.attachments);
   const CameraModel camera = read_camera_model(files.path("camera.yaml"));
-  const std::vector<ShirtTemplate> shirts = recorded_templates(config, files);
-  TemplateSelector vision(shirts, camera, config.vision);
+  const PictureTurn turn = picture_turn(config.camera.rotate, config.camera.mirror);  // as the pictures were
+  std::vector<ShirtTemplate> shirts = recorded_templates(config, files);
+  for (ShirtTemplate& shirt : shirts) shirt = template_for_turned(shirt, camera, turn);
+  TemplateSelector vision(shirts, turned_camera(camera, turn), config.vision);
   VisionReplayer replayer(inputs, vision);
   read_recording(recording, replayer);
   if (replayer.result.frames == 0 && replayer.result.ended.empty())
