@@ -9,10 +9,10 @@
 namespace heel {
 namespace {
 
-constexpr double kFree_m = 0.40;   // from the robot's line to an echo beside it: half the robot and a margin
-constexpr double kAhead_m = 1.6;   // echoes farther along the trail do not count yet
-constexpr double kPerson_m = 0.6;  // echoes so near to the person are the person's
-constexpr double kStep_m = 0.05;   // between the offsets that are tried
+constexpr double kBeside_m = 0.15;   // from the robot's side to an echo beside it
+constexpr double kAhead_m = 1.6;     // echoes farther along the trail do not count yet
+constexpr double kPerson_m = 0.6;    // echoes so near to the person are the person's
+constexpr double kStep_m = 0.05;     // between the offsets that are tried
 constexpr double kAside_m_s = 0.15;  // how fast the offset changes
 constexpr double kSearch_m = 0.1;    // between the places of the trail that an echo is compared with
 constexpr TimeNs kSure_ns =
@@ -60,9 +60,10 @@ double Detour::offset_m(const Trail& trail, double robot_s_m, const Pose2& robot
       if (echo.x_m > 0.0 && at.s_m > robot_s_m && at.s_m < to_m - 0.5 * kSearch_m)
         left_m[count++] = at.left_m;
     }
+    const double free_m = obstacles.half_width_m() + kBeside_m;
     const auto free = [&](double offset) {
       return std::all_of(left_m.begin(), left_m.begin() + count,
-                         [&](double left) { return std::abs(left - offset) >= kFree_m; });
+                         [&](double left) { return std::abs(left - offset) >= free_m; });
     };
     if (!free(wanted_m_)) {
       double best_m = 0.0, best_cost = 1e9;

@@ -25,6 +25,7 @@ class SonarObstacles {
       : front_m_(robot.front_m), rear_m_(robot.rear_m), half_width_m_(robot.half_width_m) {}
 
   void add(ObstaclePoint point) { points_[count_++] = point; }
+  double half_width_m() const { return half_width_m_; }  ///< of the robot
   std::span<const ObstaclePoint> points() const { return {points_.data(), count_}; }
 
   /// Metres from the bumper to the first obstacle, for a robot that keeps `v_m_s` (negative: backwards) and

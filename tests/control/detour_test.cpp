@@ -21,12 +21,14 @@ struct BlockedRobot {
   Pose2 robot;
   TimeNs now_ns = kNsPerS;
 
-  BlockedRobot() {
+  const RobotModel& model;
+
+  explicit BlockedRobot(const char* subclass = "p3at-sh") : model(robot_model(subclass)) {
     for (double x_m = 0.0; x_m <= 3.0; x_m += 0.02) trail.add({x_m, 0.0}, 0.0, 0.03, robot);
     detour.reconfigure(kMost_m);
   }
   double offset_after(double seconds, const std::vector<ObstaclePoint>& echoes, bool blocked = true) {
-    SonarObstacles obstacles(robot_models()[0].geometry);
+    SonarObstacles obstacles(model.geometry);
     for (const ObstaclePoint& echo : echoes) obstacles.add(echo);
     double offset_m = 0.0;
     for (double t_s = 0.0; t_s < seconds; t_s += 0.02) {
@@ -41,6 +43,11 @@ TEST(Detour, TakesTheSmallestOffsetThatIsFree) {
   EXPECT_NEAR(BlockedRobot().offset_after(4.0, {{1.0, 0.2}}), -0.2, 0.06);
   EXPECT_NEAR(BlockedRobot().offset_after(4.0, {{1.0, -0.3}}), 0.1, 0.06);
   EXPECT_EQ(BlockedRobot().offset_after(4.0, {{1.0, 0.5}}), 0.0);  // beside the way
+}
+
+TEST(Detour, AWiderRobotKeepsFartherAwayAndANarrowOnePassesNearer) {
+  EXPECT_NEAR(BlockedRobot("powerbot-sh").offset_after(4.0, {{1.0, 0.2}}), -0.3, 0.011);
+  EXPECT_NEAR(BlockedRobot("amigo").offset_after(4.0, {{1.0, 0.2}}), -0.1, 0.06);
 }
 
 TEST(Detour, StaysOnTheTrailWhenNothingWithinItsLimitIsFree) {

@@ -1,8 +1,13 @@
 #include "sim/contact/robot_in_world.h"
 
+#include "heel/error.h"
+#include "models/robot_models.h"
+
 namespace heel::sim {
 
 void apply_robot(const ScenarioRobot& robot, P3AtSettings& settings) {
+  if (!robot.model.empty() && !index_of_model(robot.model))
+    throw Error("robot.model: '" + robot.model + "' (expected " + robot_model_names() + ")");
   if (!robot.model.empty()) use_model(robot.model, settings);
   settings.start = {robot.x_m, robot.y_m, robot.heading_rad};
   settings.chassis.true_track_m = robot.true_track_m;

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
+
+#include "sim/contact/robot_in_world.h"
+#include "support/complaint.h"
 
 namespace heel::sim {
 namespace {
@@ -55,6 +59,39 @@ TEST(Contact, AWallStopsTheRobotAndPressesTheWholeBumper) {
   EXPECT_LT(robot.true_pose().x_m, -0.1 - 0.313 + 0.021);
   EXPECT_GT(robot.true_pose().x_m, -0.1 - 0.313 - 0.005);
   EXPECT_TRUE(robot.truth().stall_left);  // BUMPSTALL: the firmware stops pushing
+}
+
+TEST(Contact, AnotherRobotMeetsTheWallWithItsOwnFront) {
+  ObstacleSettings wall;
+  wall.kind = ObstacleKind::Wall;
+  wall.heading_rad = M_PI / 2;
+  wall.length_m = 4.0;
+  wall.width_m = 0.2;
+  Scenario scenario = scenario_with({wall});
+  const World world(scenario);
+  for (const auto& [subclass, front_m] :
+       {std::pair{"p3dx-sh", 0.210}, {"powerbot-sh", 0.369}, {"amigo", 0.160}}) {
+    P3AtSettings settings = driving(scenario);
+    use_model(subclass, settings);
+    P3At robot(settings);
+    Contact contact(world, robot);
+    EXPECT_EQ(drive(robot, contact, 8.0), 0x1F) << subclass;
+    EXPECT_LT(robot.true_pose().x_m, -0.1 - front_m + 0.021) << subclass;
+    EXPECT_GT(robot.true_pose().x_m, -0.1 - front_m - 0.005) << subclass;
+  }
+}
+
+TEST(RobotInWorld, AModelThatIsNotKnownIsRefused) {
+  ScenarioRobot robot;
+  robot.model = "p3ax";
+  P3AtSettings settings;
+  EXPECT_NE(test::complaint_of([&] {
+              apply_robot(robot, settings);
+            }).find("robot.model: 'p3ax' (expected p3at-sh, "),
+            std::string::npos);
+  robot.model = "p2at";
+  apply_robot(robot, settings);
+  EXPECT_EQ(settings.subtype, "p2at");
 }
 
 TEST(Contact, APoleToTheLeftPressesTheLeftSegments) {
