@@ -71,10 +71,13 @@ void ArcosSession::enter(Step step, TimeNs now_ns) {
   }
 }
 
-/// A robot that was refused stays so while it is asked again.
+/// A robot that was refused stays so while it is asked again, and a line that another device answered stays
+/// lost: a phase that changes each second is no news.
 void ArcosSession::set_phase(LinkPhase phase) {
-  const bool asks_again = phase == LinkPhase::Syncing && is_refused(state_.kind.choice);
-  state_.phase = asks_again ? LinkPhase::Refused : phase;
+  const bool asks_again = phase == LinkPhase::Syncing;
+  if (asks_again && is_refused(state_.kind.choice)) phase = LinkPhase::Refused;
+  if (asks_again && !reported_text_.text().empty()) phase = LinkPhase::Lost;
+  state_.phase = phase;
 }
 
 void ArcosSession::line_opened(TimeNs now_ns) {
@@ -86,7 +89,7 @@ void ArcosSession::line_opened(TimeNs now_ns) {
   line_exhausted_ = false;
   heard_.clear();
   text_of_sweep_.clear();
-  events_.push(now_ns, Kind::LineOpened);
+  if (reported_text_.text().empty()) events_.push(now_ns, Kind::LineOpened);
   enter(Step::Listening, now_ns);
 }
 

@@ -226,7 +226,10 @@ TEST(ArcosSessionBaud, AServerThatEndsTheConnectionWithATextIsNamedOnce) {
     bench.session.line_lost(bench.now_ns);
     bench.tick();
     bench.session.line_opened(bench.now_ns);
+    EXPECT_EQ(bench.session.state().phase, LinkPhase::Lost) << "not syncing for a moment each second";
   }
+  bench.tick();
+  EXPECT_EQ(bench.count(Kind::LineOpened), 1);
   EXPECT_EQ(bench.count(Kind::OtherDevice), 1);
   EXPECT_EQ(bench.count(Kind::LineLost), 1);
   EXPECT_EQ(bench.session.heard_text(), "heel-sim: in use by another client");
