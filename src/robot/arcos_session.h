@@ -98,13 +98,6 @@ class ArcosSession {
 
   void on_packet(const arcos::Packet& packet);
   void on_sync_echo(std::uint8_t number, const arcos::Packet& packet);
-  void on_identity(const arcos::RobotIdentity& identity, TimeNs t_ns);
-  void use_model(const RobotModel& model);
-  int v_limit_mm_s() const { return std::min(config_.v_limit_mm_s, model_->v_max_mm_s); }
-  int yaw_rate_limit_deg_s() const {
-    return std::min(config_.yaw_rate_limit_deg_s, model_->yaw_rate_max_deg_s);
-  }
-  void open_robot(TimeNs t_ns);
   void on_sip(const arcos::Packet& packet);
   void on_config(const arcos::Packet& packet);
   void on_reset_notice(TimeNs t_ns);
@@ -120,6 +113,15 @@ class ArcosSession {
   void finish_opening(TimeNs now_ns);
   void retry_enable(TimeNs now_ns);
   void disconnect_silent(TimeNs now_ns);
+
+  // arcos_session_model.cpp
+  void on_identity(const arcos::RobotIdentity& identity, TimeNs t_ns);
+  void use_model(const RobotModel& model);
+  void open_robot(TimeNs t_ns);
+  int v_limit_mm_s() const { return std::min(config_.v_limit_mm_s, model_->v_max_mm_s); }
+  int yaw_rate_limit_deg_s() const {
+    return std::min(config_.yaw_rate_limit_deg_s, model_->yaw_rate_max_deg_s);
+  }
 
   // arcos_session_rate.cpp
   bool rate_can_rise() const;

@@ -10,16 +10,13 @@
 #include <sys/file.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -27,7 +24,6 @@
 
 #include "robot/device_holder.h"
 #include "robot/serial_hints.h"
-#include "support/temporary_folder.h"
 
 namespace heel {
 namespace {
@@ -305,12 +301,6 @@ TEST(DeviceHolder, FindsAProgramThatHasItOpenWithoutALock) {
   EXPECT_FALSE(other_holder_of("/nonexistent").has_value());
 }
 
-TEST(DeviceHolder, ARunningServiceIsNamedWithItsCommand) {
-  EXPECT_EQ(in_use_text(DeviceHolder{7, "heeld"}),
-            "in use by heeld (process 7); stop it first (systemctl stop heeld)");
-  EXPECT_EQ(in_use_text(DeviceHolder{7, ""}), "in use by another program (process 7); stop it first");
-}
-
 TEST(SerialHints, APtyIsNoSerialPort) {
   Pty pty;
   EXPECT_TRUE(is_pty(pty.slave_path));
@@ -320,43 +310,6 @@ TEST(SerialHints, APtyIsNoSerialPort) {
   EXPECT_FALSE(open_line(line, "serial:" + pty.slave_path));
   EXPECT_EQ(line.error(),
             "robot serial:" + pty.slave_path + ": is a pty (expected pty:" + pty.slave_path + ")");
-}
-
-TEST(SerialHints, APermissionThatIsMissingNamesTheGroup) {
-  test::TemporaryFolder folder;
-  const std::string path = folder.file("tty");
-  std::ofstream(path) << "";
-  ASSERT_EQ(::chmod(path.c_str(), 0660), 0);
-  const std::string text = open_failure_text(path, EACCES);
-  EXPECT_NE(text.find("Permission denied (only the group "), std::string::npos) << text;
-  EXPECT_NE(text.find("sudo usermod -aG "), std::string::npos) << text;
-  ASSERT_EQ(::chmod(path.c_str(), 0600), 0);
-  EXPECT_NE(open_failure_text(path, EACCES).find("only its owner may"), std::string::npos);
-  EXPECT_EQ(open_failure_text(path, EIO), "cannot open: Input/output error");
-}
-
-TEST(SerialHints, AMissingDeviceNamesTheAdaptersThatAreHere) {
-  test::TemporaryFolder folder;
-  EXPECT_EQ(missing_device_text(folder.file("none")),
-            "cannot open: No such file or directory (no USB serial adapter is plugged in)");
-  for (const char* name : {"usb-d", "usb-b", "usb-c", "usb-a"}) std::ofstream(folder.file(name)) << "";
-  EXPECT_EQ(missing_device_text(folder.file("")),
-            "cannot open: No such file or directory (adapters that are here: " + folder.file("usb-a") + ", " +
-                folder.file("usb-b") + ", " + folder.file("usb-c") + " and 1 more)");
-}
-
-TEST(SerialHints, AnAdapterIsFoundUnderItsNewNameWhenItIsTheOnlyOne) {
-  const UsbAdapter gone{"/dev/ttyUSB0", 0x0403, 0x6001, "A600"};
-  const UsbAdapter same{"/dev/ttyUSB1", 0x0403, 0x6001, "A600"};
-  const UsbAdapter other_serial{"/dev/ttyUSB2", 0x0403, 0x6001, "B700"};
-  const UsbAdapter other_kind{"/dev/ttyUSB3", 0x067b, 0x2303, "A600"};
-  EXPECT_EQ(moved_to(gone, {other_serial, same, other_kind}).value().device, "/dev/ttyUSB1");
-  EXPECT_FALSE(moved_to(gone, {other_serial, other_kind}).has_value());
-  EXPECT_FALSE(moved_to(gone, {}).has_value());
-  // Two of a kind without a serial number: which one is the robot's is not known.
-  const UsbAdapter cheap{"/dev/ttyUSB0", 0x1a86, 0x7523, ""};
-  EXPECT_FALSE(moved_to(cheap, {{"/dev/ttyUSB1", 0x1a86, 0x7523, ""}, {"/dev/ttyUSB2", 0x1a86, 0x7523, ""}}));
-  EXPECT_TRUE(moved_to(cheap, {{"/dev/ttyUSB1", 0x1a86, 0x7523, ""}}));
 }
 
 }  // namespace

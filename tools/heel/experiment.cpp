@@ -17,11 +17,11 @@
 #include "evaluation/experiments/foreign_answers.h"
 #include "evaluation/experiments/planar_matching.h"
 #include "evaluation/experiments/real_images.h"
-#include "evaluation/experiments/robot_family.h"
 #include "evaluation/experiments/still_image_cases.h"
 #include "evaluation/experiments/still_image_file.h"
 #include "evaluation/experiments/stop_distances.h"
 #include "evaluation/reports/foreign_tables.h"
+#include "experiment_family.h"
 #include "files/folder.h"
 #include "files/image_file.h"
 #include "heel/error.h"
@@ -231,22 +231,12 @@ void measure_stopping(const ExperimentOptions& options) {
   std::fflush(stdout);
 }
 
-/// Every robot that heel knows, against the simulated one's truth.
-void measure_family(const ExperimentOptions& options) {
-  const Config config = options.config_file.empty() ? Config{} : load_config(options.config_file).config;
-  const auto drives = evaluation::drive_family(config, options.seed);
-  const std::string file = options.out + "/" + kFamily + ".csv";
-  evaluation::write_family(drives, file);
-  fmt::print("{}{:<10} {} robots: {}\n", evaluation::family_table(drives), kFamily, drives.size(), file);
-  std::fflush(stdout);
-}
-
 void run_experiments(const ExperimentOptions& options) {
   require_given_folders(options);
   make_folder(options.out);
   if (options.wants(kStills)) write_stills(options);
   if (options.wants(kStopping)) measure_stopping(options);
-  if (options.wants(kFamily)) measure_family(options);
+  if (options.wants(kFamily)) measure_family(options.out, options.config_file, options.seed);
   if (options.wants(kReal)) run_real_image_experiment(options);
   if (options.wants(kForeign) || options.wants(kPlanar) || options.wants(kFalse))
     run_foreign_experiments(options);
