@@ -97,6 +97,8 @@ BlackBox::BlackBox(const std::string& path, RecordingClock clock) : path_(path) 
     throw Error(fmt::format("telemetry.black_box {}: {}: {}", path, what, std::strerror(error)));
   };
   fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0640);
+  if (fd_ < 0 && errno == ENOENT)
+    throw Error(fmt::format("telemetry.black_box {}: its folder is missing", path));
   if (fd_ < 0) fail("cannot create");
   if (::flock(fd_, LOCK_EX | LOCK_NB) != 0) fail("another heeld uses it");
   if (::ftruncate(fd_, 0) != 0 || ::posix_fallocate(fd_, 0, sizeof(Contents)) != 0) fail("cannot be made");

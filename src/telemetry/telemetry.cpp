@@ -3,16 +3,11 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <utility>
-
 #include "core/state_sentence.h"
-#include "heel/error.h"
 #include "logging/journal_sink.h"
 #include "realtime/clock.h"
 #include "realtime/futex.h"
-#include "recording/recording_reader.h"
 #include "telemetry/event_text.h"
-#include "telemetry/recording_folder.h"
 
 namespace heel {
 
@@ -21,8 +16,6 @@ namespace {
 constexpr TimeNs kDrainPeriod_ns = 50 * kNsPerMs;
 constexpr TimeNs kFlushPeriod_ns = 500 * kNsPerMs;
 constexpr TimeNs kRepeatedEventPeriod_ns = kNsPerS;
-constexpr std::size_t kMaxWaitingTexts = 256;
-constexpr TimeNs kLimitsPeriod_ns = 10 * kNsPerS;
 
 static_assert(static_cast<std::size_t>(EventKind::Warning) < 16, "Telemetry::t_logged_ns_ is too short");
 
@@ -53,43 +46,6 @@ Telemetry::Telemetry(TelemetryQueues& queues, const TelemetryConfig& config, Pic
   keep_within_limits(monotonic_now_ns());
 }
 
-/// First what the last run has left; then one for this run. heeld goes without where there is no place for
-/// it.
-void Telemetry::open_black_box() {
-  if (config_.black_box.empty()) return;
-  try {
-    const std::string left = recording_ ? new_recording_path(config_.directory, "-black-box")
-                                        : config_.black_box + kRecordingExtension;
-    if (recover_black_box(config_.black_box, left))
-      spdlog::warn("the last run of heeld did not end by itself: its last 30 s are in {}", left);
-  } catch (const Error& error) {
-    spdlog::warn("{}", error.what());
-  }
-  try {
-    black_box_ = std::make_unique<BlackBox>(config_.black_box, RecordingClock::wall());
-  } catch (const Error& error) {
-    spdlog::info("no black box: {}", error.what());
-  }
-}
-
-/// With a recording everything is in there already.
-void Telemetry::save_black_box() {
-  if (!fault_) return;
-  fault_ = false;
-  if (!black_box_ || recorder_) return;
-  const std::string path = config_.black_box + "-fault" + kRecordingExtension;
-  try {
-    black_box_->save(path);
-    spdlog::info("the last 30 s before the fault are in {}", path);
-  } catch (const Error& error) {
-    spdlog::warn("black box: {}", error.what());
-  }
-}
-
-void Telemetry::attach(const std::string& name, const std::string& media_type, std::string_view content) {
-  if (recorder_) recorder_->attach(name, media_type, content);
-}
-
 void Telemetry::run() {
   PeriodicDeadline deadline(kDrainPeriod_ns, monotonic_now_ns());
   while (stop_.load(std::memory_order_acquire) == 0) {
@@ -106,75 +62,9 @@ void Telemetry::run() {
   if (black_box_) black_box_->end();
 }
 
-void Telemetry::end_recording(const std::string& why) {
-  if (!recorder_) return;
-  recorder_->record(RecordingNote{monotonic_now_ns(), "end", why, newest_.records_lost});
-  recorder_.reset();
-}
-
-/// Those of the queue; and those before a fault.
-void Telemetry::take_pictures() {
-  if (!recorder_) return;
-  pictures_.drain(*recorder_);
-  if (pictures_wanted_) pictures_.write_kept(*recorder_);
-  pictures_wanted_ = false;
-}
-
-void Telemetry::keep_within_limits(TimeNs now_ns) {
-  if (!recorder_ || now_ns - t_limits_checked_ns_ < kLimitsPeriod_ns) return;
-  t_limits_checked_ns_ = now_ns;
-  const KeepLimits limits{static_cast<std::uint64_t>(config_.keep_mb * 1e6),
-                          ns_from_seconds(config_.keep_days * 86400.0)};
-  const std::uint64_t left = remove_old_recordings(config_.directory, recorder_->path(), limits);
-  if (left <= limits.bytes) return;
-  spdlog::warn("recording {} ends here: it needs more than telemetry.keep_mb", recorder_->path());
-  end_recording("more than telemetry.keep_mb");
-}
-
 void Telemetry::stop() {
   stop_.store(1, std::memory_order_release);
   futex_wake_all(stop_, FutexScope::Process);
-}
-
-template <typename Text>
-void Telemetry::add_text(std::vector<Text>& waiting, Text text) {
-  const std::lock_guard lock(texts_mutex_);
-  if (waiting.size() < kMaxWaitingTexts) {
-    waiting.push_back(std::move(text));
-  } else {
-    ++texts_.dropped;
-  }
-}
-
-void Telemetry::configuration(ConfigurationText configuration) {
-  add_text(texts_.configurations, std::move(configuration));
-}
-
-void Telemetry::operator_line(OperatorLine line) {
-  add_text(texts_.operator_lines, std::move(line));
-}
-
-bool Telemetry::mark(const std::string& text) {
-  if (!recording_) return false;
-  add_text(texts_.marks, RecordingNote{monotonic_now_ns(), "mark", text, 0});
-  return true;
-}
-
-void Telemetry::take_texts() {
-  Texts texts;
-  {
-    const std::lock_guard lock(texts_mutex_);
-    texts.configurations.swap(texts_.configurations);
-    texts.operator_lines.swap(texts_.operator_lines);
-    texts.marks.swap(texts_.marks);
-    texts_lost_ = texts_.dropped;
-  }
-  if (black_box_ && !texts.configurations.empty()) black_box_->add(texts.configurations.back());
-  if (!recorder_) return;
-  for (const ConfigurationText& configuration : texts.configurations) recorder_->record(configuration);
-  for (const OperatorLine& line : texts.operator_lines) recorder_->record(line);
-  for (const RecordingNote& mark : texts.marks) recorder_->record(mark);
-  pictures_wanted_ = pictures_wanted_ || !texts.marks.empty();
 }
 
 void Telemetry::drain(TimeNs now_ns) {

@@ -143,6 +143,7 @@ TEST_F(BlackBoxTest, WithoutAPlaceForItHeeldGoesOn) {
   TelemetryQueues queues;
   Telemetry telemetry(queues, {.directory = "", .black_box = folder_.file("no/such/folder/box")});
   EXPECT_EQ(log.count("[info] no black box: telemetry.black_box "), 1) << log.text();
+  EXPECT_EQ(log.count("/no/such/folder/box: its folder is missing"), 1) << log.text();
   telemetry.drain(kNsPerS);
 }
 
