@@ -76,6 +76,8 @@ evaluation::BenchInput own_input(const BenchVisionOptions& options) {
     require_size(frame, input.camera, options.camera_file);
     input.frames.push_back({frame.grey.clone(), ns_from_seconds(frame.t_s)});
   }
+  for (const std::string& problem : frames.problems())
+    std::fprintf(stderr, "heel bench vision: %s\n", problem.c_str());
   return input;
 }
 

@@ -39,10 +39,11 @@ cv::Size parse_corners(const std::string& text) {
 }
 
 Pattern parse_pattern(const std::string& name) {
-  if (name == "chessboard") return Pattern::Chessboard;
+  // Which marker is which is not needed, because the whole board is searched for.
+  if (name == "chessboard" || name == "charuco") return Pattern::Chessboard;
   if (name == "circles") return Pattern::Circles;
   if (name == "asymmetric-circles") return Pattern::AsymmetricCircles;
-  throw Error("--pattern: '" + name + "' (expected chessboard, circles or asymmetric-circles)");
+  throw Error("--pattern: '" + name + "' (expected chessboard, charuco, circles or asymmetric-circles)");
 }
 
 void print_progress(const SearchedImage& searched) {
@@ -128,7 +129,11 @@ void add_calibrate_command(CLI::App& app) {
   command->add_option("-o,--output", options->output, "camera file to write")
       ->required()
       ->type_name("CAM.yaml");
-  command->add_option("--pattern", options->pattern, "chessboard (default), circles or asymmetric-circles")
+  command
+      ->add_option("--pattern", options->pattern,
+                   "chessboard (default), charuco (a chessboard with markers; the whole of it must be seen), "
+                   "circles or\n"
+                   "asymmetric-circles")
       ->type_name("KIND");
   command->add_flag("--k3", options->with_k3,
                     "also estimate the third radial coefficient (wide-angle lenses)");

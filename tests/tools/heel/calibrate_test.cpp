@@ -127,11 +127,22 @@ cv::Mat drawn_circles(bool asymmetric) {
   return drawing;
 }
 
-cv::Mat drawn_chessboard() {
+/// `with_markers`: a ChArUco board, with a marker of 6 x 6 cells in each white square.
+cv::Mat drawn_chessboard(bool with_markers = false) {
   cv::Mat drawing(270, 360, CV_8U, cv::Scalar(235));
-  for (int row = 0; row < 7; ++row)
-    for (int column = 0; column < 10; ++column)
-      if ((row + column) % 2 == 0) drawing(cv::Rect(30 + 30 * column, 30 + 30 * row, 30, 30)).setTo(25);
+  cv::RNG random(3);
+  for (int row = 0; row < 7; ++row) {
+    for (int column = 0; column < 10; ++column) {
+      cv::Mat square = drawing(cv::Rect(30 + 30 * column, 30 + 30 * row, 30, 30));
+      if ((row + column) % 2 == 0) square.setTo(25);
+      if ((row + column) % 2 == 0 || !with_markers) continue;
+      for (int cell = 0; cell < 36; ++cell) {
+        const bool border = cell % 6 == 0 || cell % 6 == 5 || cell / 6 == 0 || cell / 6 == 5;
+        if (border || random.uniform(0, 2) == 0)
+          square(cv::Rect(4 + cell % 6 * 22 / 6, 4 + cell / 6 * 22 / 6, 4, 4)).setTo(25);
+      }
+    }
+  }
   return drawing;
 }
 
@@ -206,6 +217,17 @@ TEST_F(Calibrate, TakesGridsOfCircles) {
     EXPECT_NEAR(camera.cx, kTrueK(0, 2), 4.0) << asymmetric;
     std::filesystem::remove(output);
   }
+}
+
+TEST_F(Calibrate, TakesChessboardsWithMarkers) {
+  write_pictures(drawn_chessboard(true), kGoodPoses);
+  const Outcome outcome = run_heel({"calibrate", folder.path().string(), "--pattern", "charuco", "--board",
+                                    "9x6", "--square", "0.03", "-o", output});
+  ASSERT_EQ(outcome.status, 0) << outcome.err << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("over 8 views"));
+  const CameraModel camera = read_camera_model(output);
+  EXPECT_NEAR(camera.fx, kTrueK(0, 0), 3.0);
+  EXPECT_NEAR(camera.cx, kTrueK(0, 2), 4.0) << "the markers are 4 px from the corners";
 }
 
 TEST_F(Calibrate, RefusesViewsThatDoNotShowTheEdges) {
@@ -305,7 +327,7 @@ TEST_F(Calibrate, RefusesImpossibleBoardSizes) {
   const Outcome unknown = run_heel({"calibrate", "unused.png", "--board", "9x6", "--pattern", "hexagons",
                                     "--square", "0.02", "-o", output});
   EXPECT_EQ(unknown.status, 2);
-  EXPECT_THAT(unknown.err, HasSubstr("--pattern: 'hexagons' (expected chessboard"));
+  EXPECT_THAT(unknown.err, HasSubstr("--pattern: 'hexagons' (expected chessboard, charuco"));
 }
 
 }  // namespace
