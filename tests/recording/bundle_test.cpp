@@ -20,6 +20,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
+constexpr std::uint64_t kRun = 800;  // ticks
+
 TEST(Redaction, ReplacesWholeWordsHomesAndSerialNumbers) {
   Redaction redaction;
   redaction.add_word("pi", "USER");
@@ -47,14 +49,14 @@ struct Bundled final : RecordingVisitor {
 
 class Bundle : public testing::Test {
  protected:
-  /// A minute whose wire and poses do not compress.
+  /// 16 s whose wire and poses do not compress.
   Bundle() {
     std::mt19937_64 random(5);
     const std::vector<std::uint8_t> grey(64 * 48, 100);
     Recorder recorder(recording_, RecordingClock{});
     recorder.record(ConfigurationText{0, 0, "[target]\nshirt = \"/home/anna/red.heel\"\n"});
     recorder.attach("shirt-0.heel", "", "a picture of a shirt");
-    for (std::uint64_t i = 0; i < 3000; ++i) {
+    for (std::uint64_t i = 0; i < kRun; ++i) {
       const TimeNs t_ns = static_cast<TimeNs>(i) * 20 * kNsPerMs;
       TickRecord tick;
       tick.tick = i;
@@ -93,16 +95,16 @@ TEST_F(Bundle, LeavesOutPicturesAndPrivateNames) {
   options.texts = {{"journal.txt", "anna: /home/anna is full"}};
   options.redaction.add_word("anna", "USER");
   const Bundled content = bundled(options);
-  EXPECT_EQ(content.ticks, 3000u);
-  EXPECT_EQ(content.poses, 3000u);
-  EXPECT_EQ(content.wire, 3000u);
+  EXPECT_EQ(content.ticks, kRun);
+  EXPECT_EQ(content.poses, kRun);
+  EXPECT_EQ(content.wire, kRun);
   EXPECT_EQ(content.pictures, 0u);
   EXPECT_EQ(content.configuration, "[target]\nshirt = \"/home/USER/red.heel\"\n");
   EXPECT_EQ(read_report_.attachments.size(), 1u) << "no template";
   EXPECT_EQ(read_report_.attachments.at("journal.txt"), "USER: /home/USER is full");
   EXPECT_THAT(report_.left_out, IsEmpty());
   options.with_pictures = true;
-  EXPECT_EQ(bundled(options).pictures, 30u);
+  EXPECT_EQ(bundled(options).pictures, kRun / 100);
   EXPECT_EQ(read_report_.attachments.at("shirt-0.heel"), "a picture of a shirt");
 }
 
@@ -112,19 +114,19 @@ TEST_F(Bundle, WhatIsTooLargeIsLeftOutInOrder) {
   options.max_bytes = all - 1;
   Bundled content = bundled(options);
   EXPECT_EQ(content.wire, 0u);
-  EXPECT_EQ(content.poses, 3000u);
+  EXPECT_EQ(content.poses, kRun);
   ASSERT_EQ(report_.left_out.size(), 1u);
   EXPECT_THAT(report_.left_out[0], HasSubstr("the bytes on the wire"));
   options.max_bytes = report_.bytes - 1;
   content = bundled(options);
   EXPECT_EQ(content.poses, 0u);
-  EXPECT_EQ(content.ticks, 3000u);
+  EXPECT_EQ(content.ticks, kRun);
   EXPECT_EQ(content.first_tick, 0u);
   options.max_bytes = report_.bytes * 2 / 3;
   content = bundled(options);
-  EXPECT_NEAR(static_cast<double>(content.ticks), 1500.0, 2.0);
+  EXPECT_NEAR(static_cast<double>(content.ticks), 0.5 * kRun, 2.0);
   EXPECT_NE(content.configuration, "") << "it is always there";
-  EXPECT_THAT(report_.left_out[0], HasSubstr("all but the last 30 s"));
+  EXPECT_THAT(report_.left_out[0], HasSubstr("all but the last 8 s"));
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ struct RecordedRun final : RecordingVisitor {
   void on_tick(const TickRecord& tick) override {
     newest_configuration = tick.configuration;
     t_last_tick_ns = tick.input.now_ns;
+    newest_tick = tick.tick;
     ++ticks;
   }
   void on_wire(const WireBytes& wire) override {
@@ -41,7 +42,7 @@ struct RecordedRun final : RecordingVisitor {
   }
   void on_note(const RecordingNote& note) override { notes.push_back(note.kind + ": " + note.text); }
 
-  std::uint64_t newest_configuration = 0, ticks = 0;
+  std::uint64_t newest_configuration = 0, ticks = 0, newest_tick = 0;
   TimeNs t_last_tick_ns = 0;
   std::string to_robot;
   std::size_t from_robot = 0;
@@ -126,9 +127,14 @@ TEST_F(RecordedHeeld, AKilledHeeldLeavesItsLastTicksAndTheRecording) {
   ASSERT_NE(left, "");
   RecordedRun last;
   EXPECT_TRUE(read_recording(left, last).complete);
-  EXPECT_GE(last.ticks, run.ticks) << "it is less than 30 s, and has what no chunk had yet";
+  EXPECT_GE(last.newest_tick, run.newest_tick) << "it has what no chunk had yet";
   EXPECT_LT(t_killed_s - seconds_from_ns(last.t_last_tick_ns), 1.0);
-  EXPECT_TRUE(replay_control(left, {}).all_same()) << "it began with the run";
+  const bool whole_run = last.newest_tick + 1 == last.ticks;
+  if (whole_run) {
+    EXPECT_TRUE(replay_control(left, {}).all_same());
+  } else {
+    EXPECT_EQ(last.ticks, 1536u) << "30 s of a run that took longer on a busy machine";
+  }
 }
 
 }  // namespace
