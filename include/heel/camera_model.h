@@ -24,6 +24,7 @@
 
 namespace heel {
 
+/// How directions become points of the picture.
 enum class LensModel : std::uint8_t {
   PlumbBob,  ///< k1, k2, k3, p1, p2
   Rational,  ///< these and k4, k5, k6

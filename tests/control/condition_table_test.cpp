@@ -23,7 +23,7 @@ TEST(ConditionTable, EveryConditionAndEveryReasonHasExactlyOneRow) {
                  to_string(row.reason == StopReason::NoTargetYet ? StopReason::TargetLost : row.reason));
   }
   EXPECT_EQ(seen, kAllConditions);
-  EXPECT_EQ(reasons.size(), static_cast<std::size_t>(StopReason::OperatorAway));
+  EXPECT_EQ(reasons.size(), static_cast<std::size_t>(StopReason::TurnsAway));
 }
 
 TEST(ConditionTable, TheKindsAreThoseOfTheRules) {

@@ -46,11 +46,7 @@ class Filler {
       field = static_cast<Field>(random_() % static_cast<unsigned>(count));
     } else if constexpr (std::integral<Field>) {
       field = static_cast<Field>(random_() % 3 == 0 ? random_() % 10 : random_());
-    } else if constexpr (requires {
-                           field[0] = 'x';
-                           field.size();
-                         } &&
-                         std::same_as<Field, std::array<char, 128>>) {
+    } else if constexpr (requires { requires std::same_as<typename Field::value_type, char>; }) {
       for (std::size_t i = 0; i < random_() % field.size(); ++i)
         field[i] = static_cast<char>(' ' + random_() % 95);
     } else if constexpr (requires { field.begin(); }) {
