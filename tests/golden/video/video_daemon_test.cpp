@@ -117,6 +117,7 @@ void simulate(const VideoScene& scene, double vision_latency_s) {
        "--config", scene.write_config(kGainYaw_1_s), "--template", scene.file("knit.heel"), "--out",
        scene.file("lockstep")});
   ASSERT_EQ(ran.status, 0) << ran.err;
+  test::exported(scene.file("lockstep"));
 }
 
 /// From poses.csv: what vision answered, for each frame counted from `first_count`.
