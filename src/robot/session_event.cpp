@@ -22,7 +22,7 @@ const char* to_string(SessionEventKind kind) {
       return "robot line answers, but not in ARCOS: text such as '{text}'; check that robot.address is the "
              "robot's";
     case SessionEventKind::Synchronised:
-      return "robot synchronised: class {class}, subclass {subclass}; driven as a {model}";
+      return "robot synchronised: class {class}, subclass {subclass}; driven as {model}";
     case SessionEventKind::ModelUnknown:
       return "robot is not driven: it is of class {class}, subclass {subclass}, which heeld does not know; "
              "docs/hardware.md lists the robots that it knows";

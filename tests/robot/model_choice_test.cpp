@@ -198,7 +198,7 @@ std::string text_of(Kind event, const RobotKind& kind, std::size_t size = 192) {
 
 TEST(SessionEventText, NamesTheRobot) {
   EXPECT_EQ(text_of(Kind::Synchronised, choose_model(identity("Pioneer", "p2at"), "auto")),
-            "robot synchronised: class Pioneer, subclass p2at; driven as a p2at");
+            "robot synchronised: class Pioneer, subclass p2at; driven as p2at");
   EXPECT_EQ(
       text_of(Kind::ModelConflict, choose_model(identity("Pioneer", "p3at"), "peoplebot-sh")),
       "robot is not driven: it is a p3at, and robot.model is peoplebot-sh; set robot.model = \"auto\", or "

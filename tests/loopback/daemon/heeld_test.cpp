@@ -159,7 +159,7 @@ TEST_F(Heeld, AnOlderRobotIsDrivenInItsUnits) {
   start_robot({"--model", "p2at"});
   start_heeld(scene_.write_config());
   ASSERT_TRUE(starts_to_drive()) << logs();
-  EXPECT_TRUE(daemon_->says("robot synchronised: class Pioneer, subclass p2at; driven as a p2at")) << logs();
+  EXPECT_TRUE(daemon_->says("robot synchronised: class Pioneer, subclass p2at; driven as p2at")) << logs();
 }
 
 TEST_F(Heeld, KilledWhileDrivingTheRobotStopsByItsWatchdogAndStartsSlowlyAgain) {
