@@ -2,6 +2,7 @@
 
 extern "C" {
 #include <libavcodec/avcodec.h>
+#include <libavutil/pixdesc.h>
 #include <libswscale/swscale.h>
 }
 
@@ -22,6 +23,11 @@ namespace {
 constexpr int kMaxDecoderThreads = 4;
 constexpr double kUsualPeriod_s = 0.04;
 
+std::string unconvertible_text(AVPixelFormat format) {
+  const char* name = av_get_pix_fmt_name(format);
+  return fmt::format("pixel format {}, which heel cannot convert", name == nullptr ? "unknown" : name);
+}
+
 struct FreeScaler {
   void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
 };
@@ -37,6 +43,7 @@ struct VideoReader::Decoder {
   bool is_jpeg = false;  // Motion-JPEG, of which FFmpeg gives damaged frames without saying so
   cv::Mat bgr, stored;   // stored: of Motion-JPEG, the frame
   std::string problem;
+  std::string unconvertible;  // why a frame that was decoded could not be given; empty: none
 
   std::uint64_t damaged = 0, given = 0;
   double t_first_s = 0.0, t_s = 0.0;  // t_s: from t_first_s
@@ -48,7 +55,7 @@ struct VideoReader::Decoder {
   bool next_jpeg_frame();
   void feed();
   void stamp(std::int64_t pts);
-  void convert(cv::Mat& grey);
+  bool convert(cv::Mat& grey);
   std::uint64_t missing_frames() const;
 };
 
@@ -68,7 +75,11 @@ bool VideoReader::Decoder::open_codec() {
   codec->thread_count =
       std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxDecoderThreads);
   is_jpeg = codec->codec_id == AV_CODEC_ID_MJPEG;
-  return avcodec_open2(codec.get(), decoder, nullptr) >= 0;
+  if (avcodec_open2(codec.get(), decoder, nullptr) < 0) return false;
+  // Some streams name their format only with the first frame.
+  if (is_jpeg || codec->pix_fmt == AV_PIX_FMT_NONE || sws_isSupportedInput(codec->pix_fmt) != 0) return true;
+  problem = unconvertible_text(codec->pix_fmt);
+  return false;
 }
 
 /// Decodes the next frame that is whole.
@@ -133,24 +144,29 @@ void VideoReader::Decoder::stamp(std::int64_t pts) {
 }
 
 /// By BGR, so that grey values are those that OpenCV gives for this video.
-void VideoReader::Decoder::convert(cv::Mat& grey) {
+bool VideoReader::Decoder::convert(cv::Mat& grey) {
   if (is_jpeg) {
     shown_picture(stored, file.orientation()).copyTo(grey);
-    return;
+    return true;
   }
   const auto format = static_cast<AVPixelFormat>(frame->format);
   scaler.reset(sws_getCachedContext(scaler.release(), frame->width, frame->height, format, frame->width,
                                     frame->height, AV_PIX_FMT_BGR24, SWS_BICUBIC, nullptr, nullptr, nullptr));
+  if (scaler == nullptr) {
+    unconvertible = unconvertible_text(format);
+    return false;
+  }
   bgr.create(frame->height, frame->width, CV_8UC3);
   std::uint8_t* const planes[4] = {bgr.data, nullptr, nullptr, nullptr};
   const int strides[4] = {static_cast<int>(bgr.step), 0, 0, 0};
   sws_scale(scaler.get(), frame->data, frame->linesize, 0, frame->height, planes, strides);
   if (file.orientation() == kAsStored) {
     cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
-    return;
+    return true;
   }
   cv::cvtColor(bgr, stored, cv::COLOR_BGR2GRAY);
   grey = shown_picture(stored, file.orientation());
+  return true;
 }
 
 std::uint64_t VideoReader::Decoder::missing_frames() const {
@@ -190,9 +206,7 @@ const std::string& VideoReader::problem() const {
 }
 
 bool VideoReader::read(cv::Mat& grey) {
-  if (!decoder_->next_frame()) return false;
-  decoder_->convert(grey);
-  return true;
+  return decoder_->next_frame() && decoder_->convert(grey);
 }
 
 bool VideoReader::skip() {
@@ -201,6 +215,7 @@ bool VideoReader::skip() {
 
 std::string VideoReader::missing() const {
   const Decoder& d = *decoder_;
+  if (!d.unconvertible.empty()) return d.unconvertible;
   if (!is_open() || !d.file.ended()) return "";
   if (const std::uint64_t frames = d.missing_frames(); frames > 0)
     return fmt::format("ends after {} of {} frames", d.given,

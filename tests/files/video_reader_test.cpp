@@ -134,6 +134,21 @@ TEST_F(Videos, TurnedByAnotherAngleAreRefused) {
   EXPECT_THAT(reader.problem(), HasSubstr("multiple of 90 degrees"));
 }
 
+TEST_F(Videos, OfAPixelFormatThatCannotBeConvertedAreRefused) {
+  for (const std::string format : {"rgb4", "bgr4", "rgb24"}) {
+    MadeVideo video = walk("raw.nut", 2);
+    video.raw_format = format.c_str();
+    write_video(video);
+    if (format == "rgb24") {
+      EXPECT_EQ(times_of(video.path).size(), 2u) << "not every raw video is refused";
+      continue;
+    }
+    EXPECT_FALSE(reader.open(video.path));
+    EXPECT_EQ(reader.problem(), "pixel format " + format + ", which heel cannot convert");
+    EXPECT_FALSE(reader.is_open());
+  }
+}
+
 TEST_F(Videos, CutShortGiveWhatThereIsAndSayWhatIsMissing) {
   for (const char* name : {"cut.mp4", "cut.mkv", "cut.avi"}) {
     MadeVideo video = walk(name, 40);

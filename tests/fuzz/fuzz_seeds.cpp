@@ -32,10 +32,11 @@ void make_pictures(const fs::path& folder) {
 }
 
 void make_videos(const fs::path& folder) {
-  for (const char* ending : {"mp4", "mkv", "avi"}) {
-    heel::test::MadeVideo video{
-        .path = folder / (std::string("seed.") + ending), .greys = {}, .times_s = {}, .display_abcd = {}};
+  for (const char* name : {"seed.mp4", "seed.mkv", "seed.avi", "rgb24.nut", "rgb4.nut", "pal8.nut"}) {
+    heel::test::MadeVideo video{.path = folder / name, .greys = {}, .times_s = {}, .display_abcd = {}};
     video.ticks_per_s = 20;
+    const std::string format = fs::path(name).stem();
+    if (format != "seed") video.raw_format = format.c_str();
     for (int i = 0; i < 4; ++i) {
       video.greys.push_back(seed_picture(CV_8UC1));
       video.times_s.push_back(0.05 * i);

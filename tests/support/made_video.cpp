@@ -4,6 +4,7 @@ extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
 #include <libavutil/opt.h>
+#include <libavutil/pixdesc.h>
 }
 
 #include <cmath>
@@ -43,12 +44,11 @@ class Writer {
 
   void write(const cv::Mat& grey, double t_s) {
     require(av_frame_make_writable(frame_) >= 0, "no frame");
-    for (int y = 0; y < grey.rows; ++y)
-      std::memcpy(frame_->data[0] + y * frame_->linesize[0], grey.ptr(y),
-                  static_cast<std::size_t>(grey.cols));
-    for (int plane : {1, 2})
-      std::memset(frame_->data[plane], 128,
-                  static_cast<std::size_t>(frame_->linesize[plane] * grey.rows / 2));
+    if (video_.raw_format != nullptr) {
+      std::memset(frame_->buf[0]->data, 0, static_cast<std::size_t>(frame_->buf[0]->size));
+    } else {
+      fill(grey);
+    }
     frame_->pts = std::lround(t_s * video_.ticks_per_s);
     require(avcodec_send_frame(codec_, frame_) >= 0, "the encoder takes no frame");
     write_packets();
@@ -60,13 +60,22 @@ class Writer {
   }
 
  private:
+  void fill(const cv::Mat& grey) {
+    for (int y = 0; y < grey.rows; ++y)
+      std::memcpy(frame_->data[0] + y * frame_->linesize[0], grey.ptr(y),
+                  static_cast<std::size_t>(grey.cols));
+    for (int plane : {1, 2})
+      std::memset(frame_->data[plane], 128,
+                  static_cast<std::size_t>(frame_->linesize[plane] * grey.rows / 2));
+  }
   void open_codec() {
-    const AVCodec* encoder = avcodec_find_encoder(AV_CODEC_ID_MPEG4);
+    const bool raw = video_.raw_format != nullptr;
+    const AVCodec* encoder = avcodec_find_encoder(raw ? AV_CODEC_ID_RAWVIDEO : AV_CODEC_ID_MPEG4);
     require(encoder != nullptr, "no encoder");
     codec_ = avcodec_alloc_context3(encoder);
     codec_->width = video_.greys.front().cols;
     codec_->height = video_.greys.front().rows;
-    codec_->pix_fmt = AV_PIX_FMT_YUV420P;
+    codec_->pix_fmt = raw ? av_get_pix_fmt(video_.raw_format) : AV_PIX_FMT_YUV420P;
     codec_->time_base = {1, video_.ticks_per_s};
     codec_->max_b_frames = video_.b_frames;
     codec_->gop_size = 10;

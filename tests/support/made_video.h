@@ -16,9 +16,11 @@ struct MadeVideo {
   std::vector<double> display_abcd;  ///< the display matrix's a, b, c, d; empty: none
   int ticks_per_s = 1000;            ///< of its clock; of AVI files: the frame rate
   bool index_first = false;          ///< of an MP4 file, so that it can be read when its end is missing
+  const char* raw_format = nullptr;  ///< FFmpeg's pixel format of black frames, not coded; null: MPEG-4
 };
 
-/// MPEG-4 video of nearly these pictures, whose sides must be multiples of 16. Throws std::runtime_error.
+/// Video of nearly these pictures (with raw_format: of black ones of their size), whose sides must be
+/// multiples of 16. Throws std::runtime_error.
 void write_video(const MadeVideo& video);
 
 /// The first `share` of the file.
