@@ -12,11 +12,13 @@
 #include <string>
 #include <vector>
 
+#include "core/angles.h"
 #include "files/atomic_file.h"
 #include "files/camera_yaml.h"
 #include "heel/camera_model.h"
 #include "heel/error.h"
 #include "vision/lens/lens_fold.h"
+#include "vision/lens/lens_models.h"
 
 namespace heel {
 namespace {
@@ -24,9 +26,17 @@ namespace {
 // From a wide-angle lens to a long telephoto lens.
 constexpr double kMinFocalPerWidth = 0.2;
 constexpr double kMaxFocalPerWidth = 10.0;
-// The field of view of a fisheye lens across the picture.
-constexpr double kMinFisheyeView_deg = 5.0;
-constexpr double kMaxFisheyeView_deg = 240.0;
+// Pixels of a sensor are squares, or, where lines or columns are left out, twice as long as wide.
+constexpr double kMinPixelAspect = 0.5;
+constexpr double kMaxPixelAspect = 2.0;
+// The middle part of each side of the picture, in which the principal point is.
+constexpr double kMinCentre = 0.1;
+constexpr double kMaxCentre = 0.9;
+// The field of view through the principal point, along the side where it is larger. No plane is seen beyond
+// 180 degrees, and the vision takes the shirt for a plane.
+constexpr double kMinView_deg = 5.0;
+constexpr double kMaxView_deg = 175.0;
+constexpr double kViewStep_rad = 1e-3;
 constexpr std::size_t kFisheyeCoefficients = 4;
 
 constexpr const char* kModels = "plumb_bob, rational_polynomial or equidistant";
@@ -42,13 +52,19 @@ void require_possible(const CameraModel& camera, const std::string& path, const 
                     value_px < least_px ? "is it in millimetres?" : "was image_width edited?"));
   };
   const auto centre = [&](const char* name, double value_px, int side_px, const char* side) {
-    if (value_px >= 0.0 && value_px <= side_px) return;
+    const double least = kMinCentre * side_px, most = kMaxCentre * side_px;
+    if (value_px >= least && value_px <= most) return;
     throw camera_key_error(path, key, fmt::format("{} {:g}", name, value_px),
-                           fmt::format("inside the picture, 0…{} px{}", side_px,
-                                       value_px > side_px ? fmt::format("; was {} edited?", side) : ""));
+                           fmt::format("near the middle of the picture, {:g}…{:g} px{}", least, most,
+                                       value_px > most ? fmt::format("; was {} edited?", side) : ""));
   };
   focal("fx", camera.fx);
   focal("fy", camera.fy);
+  if (camera.fy < kMinPixelAspect * camera.fx || camera.fy > kMaxPixelAspect * camera.fx) {
+    throw camera_key_error(path, key, fmt::format("fy {:g} beside fx {:g}", camera.fy, camera.fx),
+                           fmt::format("fy {:g}…{:g} px; nearly fx with square pixels",
+                                       kMinPixelAspect * camera.fx, kMaxPixelAspect * camera.fx));
+  }
   centre("cx", camera.cx, camera.width_px, "image_width");
   centre("cy", camera.cy, camera.height_px, "image_height");
 }
@@ -154,18 +170,38 @@ void read_distortion(const CameraYaml& file, CameraModel& camera) {
   camera.k6 = d[7];
 }
 
+/// How far from the optical axis the camera sees at this pixel. CameraModel gives no direction of more than
+/// 89°, so that of a fisheye lens is found here.
+double off_axis_rad(const CameraModel& camera, double x_px, double y_px) {
+  if (camera.lens != LensModel::Fisheye) {
+    const Eigen::Vector2d seen = camera.undistort_px({x_px, y_px});
+    return std::atan(std::hypot((seen.x() - camera.cx) / camera.fx, (seen.y() - camera.cy) / camera.fy));
+  }
+  const double distance = std::hypot((x_px - camera.cx) / camera.fx, (y_px - camera.cy) / camera.fy);
+  double theta_rad = 0.0;
+  while (theta_rad < std::numbers::pi && fisheye_distance(camera, theta_rad) < distance)
+    theta_rad += kViewStep_rad;
+  return theta_rad;
+}
+
+double field_of_view_deg(const CameraModel& camera) {
+  const double right_px = camera.width_px - 0.5, bottom_px = camera.height_px - 0.5;
+  const double across = off_axis_rad(camera, -0.5, camera.cy) + off_axis_rad(camera, right_px, camera.cy);
+  const double along = off_axis_rad(camera, camera.cx, -0.5) + off_axis_rad(camera, camera.cx, bottom_px);
+  return std::max(across, along) * kDegPerRad;
+}
+
 /// The distortion of no lens: two directions are seen at one pixel, or the picture shows more than there is.
 void require_lens(const CameraModel& camera, const CameraYaml& file) {
-  if (camera.lens == LensModel::Fisheye) {
-    const double view_deg = camera.width_px / camera.fx * 180.0 / std::numbers::pi;
-    if (view_deg < kMinFisheyeView_deg || view_deg > kMaxFisheyeView_deg) {
-      throw camera_key_error(file.path(), file.matrix_key(),
-                             fmt::format("a field of view of {:.0f}°", view_deg),
-                             fmt::format("{:g}…{:g}°", kMinFisheyeView_deg, kMaxFisheyeView_deg));
-    }
-  }
   const std::optional<double> fold_px = fold_in_picture_px(camera);
-  if (!fold_px) return;
+  if (!fold_px) {
+    const double view_deg = field_of_view_deg(camera);
+    if (view_deg >= kMinView_deg && view_deg <= kMaxView_deg) return;
+    throw camera_key_error(file.path(), file.matrix_key(),
+                           fmt::format("a field of view of {:.0f}°", view_deg),
+                           fmt::format("{:g}…{:g}°{}", kMinView_deg, kMaxView_deg,
+                                       view_deg > kMaxView_deg ? "; cut the pictures to their middle" : ""));
+  }
   throw camera_key_error(
       file.path(), file.distortion_key(),
       fmt::format("the picture folds {:.0f} px from the principal point, which no lens does", *fold_px),

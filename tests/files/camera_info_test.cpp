@@ -114,7 +114,7 @@ TEST_F(CameraFile, IsReadBackToTheBit) {
   const CameraModel written{.width_px = 768,
                             .height_px = 432,
                             .fx = 700.0 / 3.0,
-                            .fy = 699.9,
+                            .fy = 1399.9 / 3.0,
                             .cx = 383.5,
                             .cy = 215.5,
                             .k1 = 0.1,
@@ -152,10 +152,12 @@ TEST(CameraExamples, AreReadable) {
 
 TEST_F(CameraFile, ReadsTheWidestAndTheLongestLens) {
   std::string wide = kRos, tele = kRos;
-  wide.replace(wide.find("700.5, 0, 320.25"), 16, "128, 0, 0");
-  tele.replace(tele.find("700.5, 0, 320.25"), 16, "6400, 0, 640");
+  wide.replace(wide.find("700.5, 0, 320.25, 0, 701.5"), 26, "128, 0, 64, 0, 256");
+  tele.replace(tele.find("700.5, 0, 320.25, 0, 701.5"), 26, "6400, 0, 576, 0, 3200");
   EXPECT_EQ(read(wide).fx, 128.0);
   EXPECT_EQ(read(tele).fx, 6400.0);
+  tele.replace(tele.find("-0.25, 0.125"), 12, "1000, 0");  // a pincushion that halves the view
+  EXPECT_THAT(refusal_of(tele), HasSubstr("a field of view of 4° (expected 5…175°)"));
 }
 
 struct WrongFile {
@@ -178,10 +180,13 @@ TEST_F(CameraFile, RefusalsNameFileKeyAndWhatIsExpected) {
       {"700.5, 0,", "3.6, 0,", "camera_matrix.data: fx 3.6", "128…6400 px; is it in millimetres?"},
       {"701.5, 240", "3.6, 240", "camera_matrix.data: fy 3.6", "128…6400 px; is it in millimetres?"},
       {"700.5, 0,", "100000, 0,", "camera_matrix.data: fx 100000", "128…6400 px; was image_width edited?"},
-      {"320.25", "9999", "cx 9999", "inside the picture, 0…640 px; was image_width edited?"},
-      {"320.25", "-331", "cx -331", "inside the picture, 0…640 px"},
-      {"240.75", "480.5", "cy 480.5", "inside the picture, 0…480 px; was image_height edited?"},
-      {"240.75", "-0.5", "cy -0.5", "inside the picture, 0…480 px"},
+      {"701.5, 240", "6000, 240", "camera_matrix.data: fy 6000 beside fx 700.5", "fy 350.25…1401 px"},
+      {"701.5, 240", "350, 240", "camera_matrix.data: fy 350 beside fx 700.5", "fy 350.25…1401 px"},
+      {"320.25", "9999", "cx 9999", "the middle of the picture, 64…576 px; was image_width edited?"},
+      {"320.25", "-331", "cx -331", "the middle of the picture, 64…576 px)"},
+      {"320.25", "1", "cx 1", "the middle of the picture, 64…576 px)"},
+      {"240.75", "479", "cy 479", "the middle of the picture, 48…432 px; was image_height edited?"},
+      {"240.75", "-0.5", "cy -0.5", "the middle of the picture, 48…432 px)"},
       {"700.5, 0,", "seven, 0,", "camera_matrix.data[0]: 'seven'", "finite number"},
       {"700.5, 0,", ".nan, 0,", "camera_matrix.data[0]: '.nan'", "finite number"},
       {"0, 0, 1]", "0, 1, 1]", "camera_matrix.data", "row by row"},
@@ -286,6 +291,23 @@ TEST_F(CameraFile, TakesRationalAndFisheyeLenses) {
     EXPECT_EQ(again.k4, lens.k4);
     EXPECT_EQ(again.k6, lens.k6);
   }
+}
+
+TEST_F(CameraFile, OfAFisheyeLensAreTakenUpTo175DegreesOfView) {
+  const auto fisheye = [](const char* focal_px, const char* k) {
+    std::string text = with_distortion("equidistant", k, 4);
+    text.replace(text.find("700.5, 0, 320.25, 0, 701.5"), 26,
+                 std::string(focal_px) + ", 0, 320.25, 0, " + focal_px);
+    return text;
+  };
+  // Without coefficients, 640 px are 640 / f radians.
+  EXPECT_EQ(read(fisheye("210", "0, 0, 0, 0")).lens, LensModel::Fisheye) << "174.6 degrees";
+  EXPECT_THAT(refusal_of(fisheye("208", "0, 0, 0, 0")),
+              AllOf(HasSubstr("a field of view of 176°"), HasSubstr("5…175°; cut the pictures")));
+  EXPECT_THAT(refusal_of(fisheye("160", "0, 0, 0, 0")), HasSubstr("a field of view of 229°"));
+  // The coefficients count: they make the angle at the edge smaller and larger.
+  EXPECT_EQ(read(fisheye("208", "0.02, 0, 0, 0")).k1, 0.02);
+  EXPECT_THAT(refusal_of(fisheye("215", "-0.03, 0, 0, 0")), HasSubstr("a field of view of "));
 }
 
 TEST_F(CameraFile, TakesACameraInfoMessageAsItIsPrinted) {
