@@ -90,10 +90,16 @@ void write_file_atomically(const std::string& path, std::string_view bytes) {
   sync_folder_of(path);
 }
 
-std::string read_whole_file(const std::string& path, std::size_t max_bytes) {
+void require_regular_file(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) throw file_error(path, "cannot read");
   if (!S_ISREG(status.st_mode)) throw Error(path + ": cannot read: expected a regular file");
+}
+
+std::string read_whole_file(const std::string& path, std::size_t max_bytes) {
+  require_regular_file(path);
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) throw file_error(path, "cannot read");
   if (static_cast<std::size_t>(status.st_size) > max_bytes) {
     throw Error(fmt::format("{}: {} bytes (expected at most {})", path, status.st_size, max_bytes));
   }

@@ -10,6 +10,9 @@ namespace heel {
 /// there stay. Throws heel::Error naming the file; then nothing has changed and no temporary file is left.
 void write_file_atomically(const std::string& path, std::string_view bytes);
 
+/// Throws heel::Error naming the file when it is no regular file: to open a pipe would wait for its writer.
+void require_regular_file(const std::string& path);
+
 /// The whole of a regular file. Throws heel::Error naming the file, or when it is larger than `max_bytes`.
 std::string read_whole_file(const std::string& path, std::size_t max_bytes);
 

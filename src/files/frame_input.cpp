@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "files/atomic_file.h"
 #include "files/image_file.h"
 #include "files/video_reader.h"
 #include "heel/error.h"
@@ -22,6 +23,7 @@ struct InputFile {
 };
 
 InputFile checked_file(const std::string& path) {
+  require_regular_file(path);
   if (!std::ifstream(path)) throw Error(path + ": cannot read: " + std::strerror(errno));
   if (is_image_file(path)) return {path};
   VideoReader video;

@@ -174,6 +174,7 @@ bool has_image_ending(const std::string& path) {
 
 bool is_image_file(const std::string& path) {
   if (has_image_ending(path)) return true;
+  if (std::error_code none; !fs::is_regular_file(path, none)) return false;
   std::array<std::uint8_t, 16> head{};
   std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(head.data()), head.size());
   return is_jpeg(head) || is_png(head) || is_for_opencv(head) || !unreadable_kind(head).empty();
@@ -200,6 +201,7 @@ GreyImage decode_grey_image(const std::string& path, int least_white) {
 
 GreyImage read_grey_image(const std::string& path, int least_white) {
   if (fs::is_directory(path)) throw Error(path + ": a folder (expected an image)");
+  require_regular_file(path);
   if (!std::ifstream(path)) throw Error(path + ": cannot read: " + std::strerror(errno));
   GreyImage image = decode_grey_image(path, least_white);
   if (image.grey.empty()) throw Error(path + ": " + image.problem);

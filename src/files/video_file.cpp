@@ -10,6 +10,7 @@ extern "C" {
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <span>
 #include <string_view>
@@ -58,6 +59,7 @@ bool VideoFile::fail(std::string why) {
 }
 
 bool VideoFile::open_file(const std::string& path) {
+  if (std::error_code none; !std::filesystem::is_regular_file(path, none)) return fail("no regular file");
   av_log_set_level(AV_LOG_QUIET);  // an error is one line of ours
   AVFormatContext* opened = nullptr;
   AVDictionary* options = nullptr;

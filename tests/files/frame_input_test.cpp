@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <opencv2/core.hpp>
@@ -12,7 +13,9 @@
 #include <vector>
 
 #include "files/image_file.h"
+#include "files/video_reader.h"
 #include "heel/error.h"
+#include "support/complaint.h"
 #include "support/made_video.h"
 #include "support/temporary_folder.h"
 
@@ -78,6 +81,20 @@ TEST_F(FrameInputTest, AnImageIsRecognisedByItsEndingOrItsContent) {
   EXPECT_FALSE(is_image_file(text));
   EXPECT_THROW(read_grey_image(damaged), Error);
   EXPECT_THROW(FrameInput({text}, 5.0), Error);
+}
+
+TEST_F(FrameInputTest, APipeIsRefusedAndNotWaitedFor) {
+  for (const char* name : {"pipe", "pipe.png", "pipe.mp4"}) {
+    const std::string path = folder_.file(name);
+    ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+    const std::string refusal = path + ": cannot read: expected a regular file";
+    EXPECT_EQ(test::complaint_of([&] { FrameInput({path}, 5.0); }), refusal);
+    EXPECT_EQ(test::complaint_of([&] { read_grey_image(path); }), refusal);
+    EXPECT_EQ(is_image_file(path), path.ends_with(".png")) << "by its name, not by what is read from it";
+    VideoReader video;
+    EXPECT_FALSE(video.open(path));
+    EXPECT_EQ(video.problem(), "no regular file");
+  }
 }
 
 TEST_F(FrameInputTest, WhatIsMissingOfAVideoIsSaidWhenItsFramesHaveBeenUsed) {
