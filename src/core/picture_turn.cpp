@@ -48,11 +48,16 @@ void turn_grey(const PictureTurn& turn, const std::uint8_t* grey, std::uint32_t 
   }
 }
 
+void PictureTurner::reserve(std::uint32_t width_px, std::uint32_t height_px) {
+  const std::size_t pixels = std::size_t{width_px} * height_px;
+  if (turn_.any() && turned_.size() < pixels) turned_.resize(pixels);
+}
+
 FrameView PictureTurner::of(const FrameView& frame) {
   if (!turn_.any()) return frame;
   FrameView turned = frame;
   FrameHeader& header = turned.header;
-  turned_.resize(std::size_t{header.width_px} * header.height_px);
+  reserve(header.width_px, header.height_px);
   turn_grey(turn_, frame.grey, frame.stride_bytes, header.width_px, header.height_px, turned_.data());
   if (turn_.swaps_sides()) std::swap(header.width_px, header.height_px);
   turned.grey = turned_.data();

@@ -35,8 +35,10 @@ class PictureTurner {
  public:
   explicit PictureTurner(const PictureTurn& turn) : turn_(turn) {}
 
+  /// Allocates what frames of up to this many pixels need.
+  void reserve(std::uint32_t width_px, std::uint32_t height_px);
   /// The turned frame, valid until the next call; where there is nothing to turn the frame itself. Allocates
-  /// only when the size of the frames changes.
+  /// only for a frame with more pixels than were reserved and than any frame before it had.
   FrameView of(const FrameView& frame);
   const PictureTurn& turn() const { return turn_; }
 

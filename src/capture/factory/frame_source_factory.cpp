@@ -39,7 +39,8 @@ std::unique_ptr<FrameSource> make_frame_source(const CameraConfig& config) {
   std::unique_ptr<FrameSource> source = make_untouched(config);
   const PictureTurn turn = picture_turn(config.rotate, config.mirror);
   if (!turn.any()) return source;
-  return std::make_unique<TurnedSource>(std::move(source), turn);
+  return std::make_unique<TurnedSource>(std::move(source), turn, static_cast<std::uint32_t>(config.width_px),
+                                        static_cast<std::uint32_t>(config.height_px));
 }
 
 std::unique_ptr<FrameSource> open_frame_source(const CameraConfig& config) {

@@ -6,8 +6,11 @@
 
 namespace heel {
 
-TurnedSource::TurnedSource(std::unique_ptr<FrameSource> source, const PictureTurn& turn)
-    : FrameSource(source->address()), source_(std::move(source)), turner_(turn) {}
+TurnedSource::TurnedSource(std::unique_ptr<FrameSource> source, const PictureTurn& turn,
+                           std::uint32_t width_px, std::uint32_t height_px)
+    : FrameSource(source->address()), source_(std::move(source)), turner_(turn) {
+  turner_.reserve(width_px, height_px);
+}
 
 template <typename Result>
 Result TurnedSource::reported(Result result) {
