@@ -2,22 +2,35 @@
 
 #include <utility>
 
+#include "realtime/clock.h"
+
 namespace heel {
 
-PictureRecorder::PictureRecorder(PictureQueue* frames, const std::string& which)
-    : frames_(frames), on_fault_(which == "on_fault"), lossless_(which == "lossless") {}
+PictureRecorder::PictureRecorder(PictureQueue* frames, const std::string& which, Encoder encoder)
+    : frames_(frames),
+      on_fault_(which == "on_fault"),
+      lossless_(which == "lossless"),
+      encoder_(std::move(encoder)) {}
 
-void PictureRecorder::drain(Recorder& recorder) {
+void PictureRecorder::drain(Recorder& recorder, TimeNs budget_ns) {
   if (frames_ == nullptr) return;
+  const TimeNs t_end_ns = monotonic_now_ns() + budget_ns;
   for (FrameView frame = frames_->front(); frame.grey != nullptr; frame = frames_->front()) {
-    RecordedPicture picture = compressed_picture(frame, lossless_);
+    RecordedPicture picture = encoder_(frame, lossless_);
     frames_->pop();
     if (on_fault_) {
       keep(std::move(picture));
     } else {
       recorder.record(picture);
     }
+    if (monotonic_now_ns() >= t_end_ns) return;
   }
+}
+
+std::uint64_t PictureRecorder::discard() {
+  std::uint64_t frames = 0;
+  for (; frames_ != nullptr && frames_->front().grey != nullptr; ++frames) frames_->pop();
+  return frames;
 }
 
 void PictureRecorder::keep(RecordedPicture picture) {

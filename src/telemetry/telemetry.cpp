@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <utility>
+
 #include "core/state_sentence.h"
 #include "logging/journal_sink.h"
 #include "realtime/clock.h"
@@ -15,6 +17,7 @@ namespace {
 
 constexpr TimeNs kDrainPeriod_ns = 50 * kNsPerMs;
 constexpr TimeNs kFlushPeriod_ns = 500 * kNsPerMs;
+constexpr TimeNs kLastPictures_ns = 500 * kNsPerMs;  // at the end, for those that wait
 constexpr TimeNs kRepeatedEventPeriod_ns = kNsPerS;
 
 static_assert(static_cast<std::size_t>(EventKind::Warning) < 16, "Telemetry::t_logged_ns_ is too short");
@@ -34,11 +37,12 @@ std::string refusal_of(const TickRecord& tick) {
 
 }  // namespace
 
-Telemetry::Telemetry(TelemetryQueues& queues, const TelemetryConfig& config, PictureQueue* pictures)
+Telemetry::Telemetry(TelemetryQueues& queues, const TelemetryConfig& config, PictureQueue* pictures,
+                     PictureRecorder::Encoder encoder)
     : queues_(queues),
       recording_(!config.directory.empty()),
       config_(config),
-      pictures_(pictures, config.pictures) {
+      pictures_(pictures, config.pictures, std::move(encoder)) {
   open_black_box();
   if (!recording_) return;
   recorder_ = std::make_unique<Recorder>(new_recording_path(config.directory), RecordingClock::wall());
@@ -58,6 +62,8 @@ void Telemetry::run() {
     drain(now_ns);
   }
   drain(monotonic_now_ns());
+  take_pictures(kLastPictures_ns);
+  if (recorder_) newest_.records_lost += pictures_.discard();
   end_recording("heeld stopped");
   if (black_box_) black_box_->end();
 }
@@ -87,7 +93,7 @@ void Telemetry::drain(TimeNs now_ns) {
     if (recorder_) recorder_->record(bytes);
     if (black_box_) black_box_->add(bytes);
   }
-  take_pictures();
+  take_pictures(PictureRecorder::kDrain_ns);
   save_black_box();
   log_losses(now_ns);
   keep_within_limits(now_ns);

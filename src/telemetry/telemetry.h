@@ -42,7 +42,8 @@ class Telemetry {
  public:
   /// Writes a recording when config.directory is not empty. Throws heel::Error when it cannot be created.
   /// `pictures`, where given, are the frames that vision has processed; it is borrowed.
-  Telemetry(TelemetryQueues& queues, const TelemetryConfig& config, PictureQueue* pictures = nullptr);
+  Telemetry(TelemetryQueues& queues, const TelemetryConfig& config, PictureQueue* pictures = nullptr,
+            PictureRecorder::Encoder encoder = compressed_picture);
 
   /// Before run(): a file that belongs to the recording, as the template that the pictures were searched for.
   void attach(const std::string& name, const std::string& media_type, std::string_view content);
@@ -74,7 +75,7 @@ class Telemetry {
   void log_losses(TimeNs now_ns);
   void open_black_box();
   void save_black_box();
-  void take_pictures();
+  void take_pictures(TimeNs budget_ns);
   void keep_within_limits(TimeNs now_ns);
   void end_recording(const std::string& why);
 

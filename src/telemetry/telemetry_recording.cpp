@@ -62,9 +62,9 @@ void Telemetry::end_recording(const std::string& why) {
 }
 
 /// Those of the queue; and those before a fault.
-void Telemetry::take_pictures() {
+void Telemetry::take_pictures(TimeNs budget_ns) {
   if (!recorder_) return;
-  pictures_.drain(*recorder_);
+  pictures_.drain(*recorder_, budget_ns);
   if (pictures_wanted_) pictures_.write_kept(*recorder_);
   pictures_wanted_ = false;
 }

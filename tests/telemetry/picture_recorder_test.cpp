@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "recording/recording_reader.h"
@@ -103,6 +104,35 @@ TEST_F(Pictures, OnFaultTheLast30SecondsAreWritten) {
   ASSERT_EQ(numbers_.size(), 32u) << "19 to 49 with the fault, 50 with the mark";
   EXPECT_EQ(numbers_.front(), 19u);
   EXPECT_EQ(numbers_.back(), 50u);
+}
+
+// The camera brings a new frame while each one is compressed, for ever.
+TEST_F(Pictures, ASlowEncoderDelaysNeitherTheRecordsNorTheEnd) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  std::uint64_t frames = 1;
+  const auto encoder = [&](const FrameView& frame, bool lossless) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(15));
+    if (std::chrono::steady_clock::now() < end) {
+      push(frames, static_cast<TimeNs>(frames));
+      ++frames;
+    }
+    return compressed_picture(frame, lossless);
+  };
+  TelemetryQueues queues;
+  Telemetry telemetry(queues, {.directory = folder_.path().string(), .pictures = "jpeg", .black_box = ""},
+                      &queue_, encoder);
+  push(0, 0);
+  const auto begin = std::chrono::steady_clock::now();
+  for (std::uint64_t tick = 0; tick < 3; ++tick) {
+    queues.ticks.push(TickRecord{});
+    telemetry.drain(kNsPerS);
+    EXPECT_EQ(telemetry.snapshot().ticks, tick + 1);
+  }
+  telemetry.stop();
+  telemetry.run();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+  read();
+  EXPECT_GE(numbers_.size(), 3u) << "one in each drain at least";
 }
 
 TEST_F(Pictures, WithoutPicturesNothingIsWritten) {
