@@ -175,8 +175,7 @@ void McapWriter::end_chunk() {
   }
   index.index_bytes = bytes.size() - index.bytes;
   if (emit(bytes)) {
-    if (messages_ == 0) t_begin_ns_ = t_chunk_begin_ns_;
-    t_begin_ns_ = std::min(t_begin_ns_, t_chunk_begin_ns_);
+    t_begin_ns_ = messages_ == 0 ? t_chunk_begin_ns_ : std::min(t_begin_ns_, t_chunk_begin_ns_);
     t_end_ns_ = std::max(t_end_ns_, t_chunk_end_ns_);
     messages_ += count;
     for (const auto& [channel, entries] : chunk_index_) channel_counts_[channel] += entries.size();
@@ -188,7 +187,7 @@ void McapWriter::end_chunk() {
   chunk_index_.clear();
 }
 
-void McapWriter::add_attachment(const std::string& name, const std::string& media_type, std::string_view data,
+bool McapWriter::add_attachment(const std::string& name, const std::string& media_type, std::string_view data,
                                 TimeNs t_log_ns) {
   end_chunk();
   std::string bytes;
@@ -202,7 +201,10 @@ void McapWriter::add_attachment(const std::string& name, const std::string& medi
     fields.u32(mcap_crc(std::string_view(bytes).substr(kMcapRecordHeadBytes)));
   });
   const AttachmentIndex index{offset_, bytes.size(), data.size(), t_log_ns, name, media_type};
-  if (emit(bytes)) attachments_.push_back(index);
+  const bool kept = emit(bytes);
+  if (kept) attachments_.push_back(index);
+  attachments_lost_ += kept ? 0 : 1;
+  return kept;
 }
 
 /// Everything between the end of the data and the footer, for a summary that begins at that offset.
@@ -291,8 +293,7 @@ void McapWriter::finish() {
   end_chunk();
   std::string bytes;
   append_record(bytes, McapOp::DataEnd, [](McapFields& fields) { fields.u32(0); });  // 0: no checksum
-  bytes += summary(offset_ + bytes.size());
-  bytes.append(kMcapMagic.data(), kMcapMagic.size());
+  bytes += summary(offset_ + bytes.size()).append(kMcapMagic.data(), kMcapMagic.size());
   emit(bytes);
 }
 

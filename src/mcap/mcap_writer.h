@@ -41,7 +41,8 @@ class McapWriter {
   std::uint16_t add_channel(const std::string& topic, std::uint16_t schema,
                             const std::string& encoding = "json");
   void write(std::uint16_t channel, TimeNs t_log_ns, std::string_view data);
-  void add_attachment(const std::string& name, const std::string& media_type, std::string_view data,
+  /// False: the sink refused it; it is counted as lost.
+  bool add_attachment(const std::string& name, const std::string& media_type, std::string_view data,
                       TimeNs t_log_ns);
 
   /// Hands what is gathered to the sink. For times at which no message comes.
@@ -53,6 +54,7 @@ class McapWriter {
 
   std::uint64_t messages() const { return messages_; }            ///< handed to the sink
   std::uint64_t messages_lost() const { return messages_lost_; }  ///< in pieces that the sink refused
+  std::uint64_t attachments_lost() const { return attachments_lost_; }
   std::uint64_t bytes() const { return offset_; }
 
  private:
@@ -96,6 +98,7 @@ class McapWriter {
   TimeNs t_begin_ns_ = 0, t_end_ns_ = 0;
   std::uint64_t messages_ = 0;
   std::uint64_t messages_lost_ = 0;
+  std::uint64_t attachments_lost_ = 0;
 };
 
 }  // namespace heel

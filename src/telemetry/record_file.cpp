@@ -25,11 +25,19 @@ RecordFile::~RecordFile() {
 
 bool RecordFile::append(std::string_view piece) {
   if (waiting_.size() + piece.size() > kMaxWaitingBytes) flush();
-  if (waiting_.size() + piece.size() > kMaxWaitingBytes) {
+  const bool fits = waiting_.size() + piece.size() <= kMaxWaitingBytes;
+  // A large one may wait alone: what the disk does not take of it now must follow later, because a part of it
+  // may be written already.
+  const bool at_once = !fits && waiting_.empty() && !failing_;
+  if (!fits && !at_once) {
     ++pieces_lost_;
     return false;
   }
   waiting_.append(piece);
+  if (at_once) {
+    flush();
+    waiting_.shrink_to_fit();
+  }
   return true;
 }
 

@@ -17,8 +17,9 @@ class RecordFile {
   RecordFile(const RecordFile&) = delete;
   RecordFile& operator=(const RecordFile&) = delete;
 
-  /// Adds a piece to the next flush, or flushes before when too much is waiting. False: that did not help;
-  /// the piece was dropped and counted.
+  /// Adds a piece to the next flush, or flushes before when too much is waiting. A piece that is larger than
+  /// what may wait is written at once when the disk works. False: that did not help; the piece was dropped
+  /// and counted.
   bool append(std::string_view piece);
   /// Writes all waiting pieces.
   void flush();

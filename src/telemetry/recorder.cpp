@@ -1,6 +1,7 @@
 #include "telemetry/recorder.h"
 
 #include <fmt/chrono.h>
+#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <ctime>
@@ -111,7 +112,9 @@ void Recorder::record(const RecordedPicture& picture) {
 }
 
 void Recorder::attach(const std::string& name, const std::string& media_type, std::string_view content) {
-  writer_.add_attachment(name, media_type, content, clock_.offset_ns);
+  if (!writer_.add_attachment(name, media_type, content, clock_.offset_ns))
+    spdlog::error("recording {}: the attachment {} ({} bytes) could not be written and is missing", path(),
+                  name, content.size());
 }
 
 void Recorder::record_text(TimeNs t_ns, std::string_view text) {

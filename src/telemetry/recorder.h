@@ -48,7 +48,7 @@ class Recorder {
   /// Bytes of any number.
   void record_wire(std::span<const std::uint8_t> bytes, bool to_robot, TimeNs t_ns);
   void record(const RecordedPicture& picture);
-  /// A file that belongs to the recording.
+  /// A file that belongs to the recording. One that cannot be written is logged and counted.
   void attach(const std::string& name, const std::string& media_type, std::string_view content);
   /// A line of the log.
   void record_text(TimeNs t_ns, std::string_view text);
@@ -61,7 +61,8 @@ class Recorder {
   const std::string& path() const { return file_.path(); }
   std::uint64_t bytes() const { return writer_.bytes(); }
   std::uint64_t messages() const { return writer_.messages(); }
-  std::uint64_t messages_lost() const { return writer_.messages_lost(); }
+  /// Messages and attachments.
+  std::uint64_t records_lost() const { return writer_.messages_lost() + writer_.attachments_lost(); }
 
  private:
   void record_view(const TickRecord& tick);

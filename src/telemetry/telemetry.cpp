@@ -196,7 +196,7 @@ void Telemetry::log_losses(TimeNs now_ns) {
   newest_.records_lost = queues_.ticks.dropped() + queues_.poses.dropped() + queues_.captures.dropped() +
                          queues_.capture_events.dropped() + queues_.control_events.dropped() +
                          queues_.wire.dropped() + texts_lost_ + pictures_.lost();
-  if (recorder_) newest_.records_lost += recorder_->messages_lost();
+  if (recorder_) newest_.records_lost += recorder_->records_lost();
   if (newest_.records_lost == losses_logged_ || now_ns - t_losses_logged_ns_ < kRepeatedEventPeriod_ns)
     return;
   spdlog::warn("telemetry is too slow: {} records lost so far", newest_.records_lost);

@@ -1,12 +1,10 @@
-// Recordings on disk: pieces are whole, earlier recordings are kept, and a full disk does not end the
-// recording.
+// Recordings on disk: every kind of record comes back, earlier recordings are kept, and a full disk does not
+// end the recording.
 #include "telemetry/recorder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -20,69 +18,13 @@
 #include "support/collected_log.h"
 #include "support/complaint.h"
 #include "support/temporary_folder.h"
+#include "telemetry/small_disk.h"
 
 namespace heel {
 namespace {
 
 using test::read_text;
 using testing::HasSubstr;
-
-std::string line_of(char letter) {
-  return std::string(99, letter) + '\n';
-}
-
-// While it lives, a file can have only so many bytes, as on a full disk.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{.rlim_cur = bytes, .rlim_max = before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-  ~SmallDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
-
-TEST(RecordFile, AFullDiskIsLoggedOnceAndPartialPiecesAreCompletedLater) {
-  const test::TemporaryFolder folder;
-  const test::CollectedLog log;
-  RecordFile file(folder.file("record"));
-  {
-    const SmallDisk disk(250);  // two and a half lines
-    for (const char letter : {'a', 'b', 'c', 'd'}) {
-      file.append(line_of(letter));
-      file.flush();
-    }
-    EXPECT_EQ(read_text(file.path()).size(), 250u);
-    EXPECT_EQ(log.count("cannot write: "), 1) << log.text();
-    EXPECT_THAT(log.text(), HasSubstr(file.path()));
-  }
-  file.append(line_of('e'));
-  file.flush();
-  EXPECT_EQ(read_text(file.path()), line_of('a') + line_of('b') + line_of('c') + line_of('d') + line_of('e'));
-  EXPECT_THAT(log.text(), HasSubstr("can be written again; 0 pieces were lost"));
-}
-
-TEST(RecordFile, PiecesThatDoNotFitIntoTheBufferAreLostWholeAndCounted) {
-  const test::TemporaryFolder folder;
-  const test::CollectedLog log;
-  RecordFile file(folder.file("record"));
-  const std::size_t fit = RecordFile::kMaxWaitingBytes / 100;
-  {
-    const SmallDisk disk(0);
-    for (std::size_t i = 0; i < fit + 7; ++i) file.append(line_of('x'));
-    file.flush();
-  }
-  EXPECT_EQ(file.pieces_lost(), 7u);
-  file.flush();
-  EXPECT_EQ(read_text(file.path()).size(), fit * 100);
-  EXPECT_THAT(log.text(), HasSubstr("7 pieces were lost"));
-}
 
 /// Everything of a recording.
 class All final : public RecordingVisitor {
@@ -229,7 +171,7 @@ TEST(Recorder, AFullDiskLosesWholeChunksAndCountsTheirMessages) {
     std::mt19937 random(7);
     std::string text(20'000, ' ');
     {
-      const SmallDisk disk(std::filesystem::file_size(path) + 100);
+      const test::SmallDisk disk(std::filesystem::file_size(path) + 100);
       for (int i = 0; i < 600; ++i) {
         for (char& letter : text) letter = static_cast<char>('!' + random() % 90);
         recorder.record_text(i, text);
@@ -237,7 +179,7 @@ TEST(Recorder, AFullDiskLosesWholeChunksAndCountsTheirMessages) {
       }
       EXPECT_EQ(log.count("cannot write: "), 1) << log.text();
     }
-    lost = recorder.messages_lost();
+    lost = recorder.records_lost();
     EXPECT_GT(lost, 100u);
     recorder.record_text(1000, "after");
     recorder.flush();
@@ -270,18 +212,6 @@ TEST(Recorder, AFolderThatCannotBeMadeIsNamed) {
   const std::string file = test::write_text(folder.file("file"), "not a folder");
   EXPECT_THAT(test::complaint_of([&] { new_recording_path(file + "/run"); }),
               HasSubstr("telemetry.directory " + file + "/run"));
-}
-
-TEST(RecordFile, ADeletedFileIsNamedOnce) {
-  const test::TemporaryFolder folder;
-  const test::CollectedLog log;
-  RecordFile file(folder.file("record"));
-  std::filesystem::remove(file.path());
-  for (int i = 0; i < 3; ++i) {
-    file.append(line_of('x'));
-    file.flush();
-  }
-  EXPECT_EQ(log.count("cannot write: No such file or directory"), 1) << log.text();
 }
 
 }  // namespace
