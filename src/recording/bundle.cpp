@@ -14,11 +14,13 @@
 #include "heel/error.h"
 #include "mcap/mcap_reader.h"
 #include "mcap/mcap_writer.h"
+#include "recording/private_wire.h"
+#include "recording/redacted_message.h"
 
 namespace heel {
 namespace {
 
-constexpr std::string_view kPictures = "/camera";
+constexpr std::string_view kPictures = "/camera", kWire = "/heel/wire";
 
 /// What an attempt leaves out.
 struct Selection {
@@ -26,11 +28,6 @@ struct Selection {
   TimeNs t_begin_ns = 0;               ///< earlier messages, but for the configuration
   std::string left_out;                ///< in words
 };
-
-bool holds_text(const std::string& topic) {
-  return topic == "/log" || topic == "/heel/configuration" || topic == "/heel/operator" ||
-         topic == "/heel/recording" || topic == "/heel/event";
-}
 
 struct TimeRange {
   TimeNs begin_ns = 0, end_ns = 0;
@@ -40,7 +37,9 @@ struct TimeRange {
 class Bundler {
  public:
   Bundler(const std::string& recording, const BundleOptions& options)
-      : recording_(recording), options_(options) {}
+      : recording_(recording), options_(options) {
+    find_names_on_the_wire();
+  }
 
   std::optional<std::string> attempt(const Selection& selection);
   /// Of the messages that the last attempt read.
@@ -48,21 +47,45 @@ class Bundler {
   const std::vector<std::string>& problems() const { return problems_; }
 
  private:
+  std::ifstream opened() const;
+  void find_names_on_the_wire();
+  std::optional<std::string> without_names(const std::string& topic, std::string_view json);
   void copy_messages(McapReader& reader, McapWriter& writer, const Selection& selection);
   void attach_files(const McapReader& reader, McapWriter& writer) const;
 
   const std::string& recording_;
   const BundleOptions& options_;
+  PrivateWire wire_;
+  std::size_t wire_messages_ = 0;  // that this attempt has read
   std::string bytes_;
   bool too_large_ = false;
   TimeRange range_;
   std::vector<std::string> problems_;
 };
 
-std::optional<std::string> Bundler::attempt(const Selection& selection) {
+std::ifstream Bundler::opened() const {
   std::ifstream file(recording_, std::ios::binary);
   if (!file)
     throw Error(fmt::format("{}: cannot read: {} (expected a recording)", recording_, std::strerror(errno)));
+  return file;
+}
+
+void Bundler::find_names_on_the_wire() {
+  std::ifstream file = opened();
+  McapReader reader(file, recording_);
+  for (McapMessage message; reader.next(message);)
+    if (reader.channel(message.channel).topic == kWire) wire_.add(message.data);
+  wire_.finish();
+}
+
+/// To be asked for each message that is read. Nothing: it is left out.
+std::optional<std::string> Bundler::without_names(const std::string& topic, std::string_view json) {
+  if (topic == kWire) return wire_.without_names(wire_messages_++, json);
+  return redacted_message(options_.redaction, topic, json);
+}
+
+std::optional<std::string> Bundler::attempt(const Selection& selection) {
+  std::ifstream file = opened();
   bytes_.clear();
   too_large_ = false;
   McapReader reader(file, recording_);
@@ -84,12 +107,14 @@ std::optional<std::string> Bundler::attempt(const Selection& selection) {
 void Bundler::copy_messages(McapReader& reader, McapWriter& writer, const Selection& selection) {
   std::map<std::uint16_t, std::uint16_t> channels;  // of the recording, of the bundle
   range_ = {};
+  wire_messages_ = 0;
   for (McapMessage message; reader.next(message);) {
     range_.begin_ns = range_.end_ns == 0 ? message.t_log_ns : std::min(range_.begin_ns, message.t_log_ns);
     range_.end_ns = std::max(range_.end_ns, message.t_log_ns);
     const McapChannel& channel = reader.channel(message.channel);
     const bool early = message.t_log_ns < selection.t_begin_ns && channel.topic != "/heel/configuration";
-    if (too_large_ || early || selection.without.contains(channel.topic)) continue;
+    const std::optional<std::string> json = without_names(channel.topic, message.data);
+    if (!json || too_large_ || early || selection.without.contains(channel.topic)) continue;
     auto known = channels.find(message.channel);
     if (known == channels.end()) {
       const McapSchema* const schema = reader.schema(channel.schema);
@@ -100,11 +125,7 @@ void Bundler::copy_messages(McapReader& reader, McapWriter& writer, const Select
           channels.emplace(message.channel, writer.add_channel(channel.topic, schema_id, channel.encoding))
               .first;
     }
-    if (holds_text(channel.topic)) {
-      writer.write(known->second, message.t_log_ns, options_.redaction.applied(message.data));
-    } else {
-      writer.write(known->second, message.t_log_ns, message.data);
-    }
+    writer.write(known->second, message.t_log_ns, *json);
   }
 }
 
@@ -126,9 +147,8 @@ BundleReport write_bundle(const std::string& recording, const std::string& bundl
   const std::string no_pictures = options.with_pictures ? "the pictures" : "";
   const std::string and_ = options.with_pictures ? "the pictures, " : "";
   selections.push_back({{kPictures}, 0, no_pictures});
-  selections.push_back({{kPictures, "/heel/wire"}, 0, and_ + "the bytes on the wire"});
-  selections.push_back(
-      {{kPictures, "/heel/wire", "/heel/pose"}, 0, and_ + "the bytes on the wire, the poses"});
+  selections.push_back({{kPictures, kWire}, 0, and_ + "the bytes on the wire"});
+  selections.push_back({{kPictures, kWire, "/heel/pose"}, 0, and_ + "the bytes on the wire, the poses"});
   Bundler bundler(recording, options);
   std::optional<std::string> bytes;
   Selection chosen;

@@ -31,6 +31,19 @@ std::string with_name_behind_replaced(std::string text, std::string_view prefix,
   return text;
 }
 
+/// The host of "tcp:HOST:PORT"; one in brackets has colons itself.
+std::string with_tcp_hosts_replaced(std::string text) {
+  constexpr std::string_view kPrefix = "tcp:", kHost = "HOST";
+  for (std::size_t at = text.find(kPrefix); at != std::string::npos; at = text.find(kPrefix, at)) {
+    at += kPrefix.size();
+    const bool brackets = at < text.size() && text[at] == '[';
+    const std::size_t end = brackets ? text.find(']', at) + 1 : text.find_first_of(":/\" \n\t'\\,;@()", at);
+    if (end == std::string::npos || end <= at || text[end] != ':') continue;
+    text.replace(at, end - at, kHost);
+  }
+  return text;
+}
+
 }  // namespace
 
 void Redaction::add_word(const std::string& name, const std::string& instead) {
@@ -40,7 +53,30 @@ void Redaction::add_word(const std::string& name, const std::string& instead) {
 std::string Redaction::applied(std::string_view text) const {
   std::string result = with_name_behind_replaced(std::string(text), "/home/", "USER");
   result = with_name_behind_replaced(std::move(result), "/by-id/", "DEVICE");
+  result = with_tcp_hosts_replaced(std::move(result));
   for (const auto& [word, instead] : words_) result = with_word_replaced(std::move(result), word, instead);
+  return result;
+}
+
+std::string Redaction::applied_to_toml(std::string_view toml) const {
+  std::string result;
+  for (std::size_t at = 0; at < toml.size();) {
+    const std::size_t begin = std::min(toml.find_first_of("\"'#", at), toml.size());
+    result += toml.substr(at, begin - at);
+    if (begin == toml.size()) break;
+    const char quote = toml[begin];
+    std::size_t end = begin + 1;
+    const char last = quote == '#' ? '\n' : quote;
+    for (; end < toml.size() && toml[end] != last && toml[end] != '\n'; ++end)
+      if (quote == '"' && toml[end] == '\\') ++end;
+    end = std::min(end, toml.size());
+    const std::string_view inside = toml.substr(begin + 1, end - begin - 1);
+    const bool names = quote == '#' || inside.find_first_of("/:@.") != std::string_view::npos;
+    result += quote;
+    result += names ? applied(inside) : std::string(inside);
+    if (end < toml.size()) result += toml[end];
+    at = end + 1;
+  }
   return result;
 }
 

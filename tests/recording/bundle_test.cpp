@@ -8,8 +8,12 @@
 #include <filesystem>
 #include <random>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "recording/private_wire.h"
 #include "recording/recording_reader.h"
+#include "recording/redacted_message.h"
 #include "support/temporary_folder.h"
 #include "telemetry/recorder.h"
 
@@ -33,6 +37,87 @@ TEST(Redaction, ReplacesWholeWordsHomesAndSerialNumbers) {
             "shirt = \"/home/USER/red.heel\" \"/home/USER\"");
   EXPECT_EQ(redaction.applied("serial:/dev/serial/by-id/usb-FTDI_A50285BI-if00@38400 and more"),
             "serial:/dev/serial/by-id/DEVICE@38400 and more");
+}
+
+TEST(Redaction, OfAConfigurationOnlyPathsAndAddressesChange) {
+  Redaction redaction;
+  for (const char* const name : {"robot", "address", "jpeg", "anna"}) redaction.add_word(name, "X");
+  EXPECT_EQ(redaction.applied_to_toml(
+                "# of anna\n[robot]\naddress = \"tcp:robot.local:8101\"\nx = [1, 2] # anna's\n"
+                "pictures = \"jpeg\"\nshirts = [\"/srv/anna/\\\"robot\\\".heel\", 'anna.heel']\n"),
+            "# of X\n[robot]\naddress = \"tcp:HOST:8101\"\nx = [1, 2] # X's\n"
+            "pictures = \"jpeg\"\nshirts = [\"/srv/X/\\\"X\\\".heel\", 'X.heel']\n");
+  EXPECT_EQ(redaction.applied_to_toml("robot = \"robot/"), "robot = \"X/") << "an end in the middle";
+}
+
+TEST(Redaction, ReplacesHostsOfTcpAddresses) {
+  const Redaction redaction;
+  EXPECT_EQ(redaction.applied(
+                "tcp:10.0.0.7:8101, tcp:[fe80::1]:8101 and tcp:anna.local:1; over tcp: no rates, tcp:"),
+            "tcp:HOST:8101, tcp:HOST:8101 and tcp:HOST:1; over tcp: no rates, tcp:");
+}
+
+TEST(Redaction, MessagesKeepTheirMembersAndEnumerators) {
+  Redaction redaction;
+  for (const char* const name : {"message", "text", "kind", "mark"}) redaction.add_word(name, "X");
+  EXPECT_EQ(redacted_message(redaction, "/heel/recording", note_json({7, "mark", "a mark\nmark", 0})),
+            note_json({7, "mark", "a X\nX", 0}));
+  EXPECT_EQ(redacted_message(redaction, "/heel/tick", "{\"mark\":1}"), "{\"mark\":1}");
+}
+
+std::uint16_t sum_of(std::string_view body) {
+  std::uint16_t sum = 0;
+  for (std::size_t i = 0; i + 1 < body.size(); i += 2)
+    sum = static_cast<std::uint16_t>(
+        sum + (static_cast<std::uint8_t>(body[i]) << 8 | static_cast<std::uint8_t>(body[i + 1])));
+  return body.size() % 2 == 0 ? sum
+                              : static_cast<std::uint16_t>(sum ^ static_cast<std::uint8_t>(body.back()));
+}
+
+std::string packet_of(const std::string& body, std::uint16_t sum) {
+  return std::string("\xFA\xFB") + static_cast<char>(body.size() + 2) + body + static_cast<char>(sum >> 8) +
+         static_cast<char>(sum);
+}
+
+/// What the robot sends in a recording and in its bundle: all bytes.
+struct FromRobot final : RecordingVisitor {
+  void on_wire(const WireBytes& wire) override {
+    if (!wire.to_robot) bytes.append(wire.bytes.begin(), wire.bytes.begin() + wire.count);
+  }
+  std::string bytes;
+};
+
+TEST(BundledWire, HasNeitherSerialNumberNorNameOfTheRobot) {
+  using namespace std::string_literals;
+  const auto config = [](const std::string& serial, const std::string& name) {
+    return "\x20Pioneer\0p3at-sh\0"s + serial + "\0\1\x2c\1\2\3\4\5\6\7\x8\x9"s + name +
+           "\0\x64\3 more of it"s;
+  };
+  const auto echo = [](const std::string& name) { return "\2"s + name + "\0Pioneer\0p3at-sh\0"s; };
+  const auto bytes = [&](const std::string& serial, const std::string& name) {
+    const std::string body = config(serial, name), of_echo = echo(name);
+    const std::uint16_t wrong = 0x1234;
+    return "\xFA\xFB\xFF\x20 noise"s + packet_of(of_echo, sum_of(of_echo)) +
+           packet_of("\x32 rosie\0"s, sum_of("\x32 rosie\0"s)) + packet_of(body, sum_of(body)) +
+           packet_of(body, wrong) + packet_of(body, sum_of(body)).substr(0, 50);
+  };
+  const test::TemporaryFolder folder;
+  const std::string sent = bytes("SN-00042", "rosie");
+  {
+    Recorder recorder(folder.file("run.mcap"), RecordingClock{});
+    for (std::size_t at = 0; at < sent.size(); at += 7) {
+      const std::string part = sent.substr(at, 7);
+      recorder.record_wire({reinterpret_cast<const std::uint8_t*>(part.data()), part.size()},
+                           /*to_robot=*/false, 1);
+      recorder.record_wire(std::vector<std::uint8_t>{0xFA, 0xFB, 3, 0, 0, 0}, /*to_robot=*/true, 1);
+    }
+  }
+  write_bundle(folder.file("run.mcap"), folder.file("bundle.mcap"), {});
+  FromRobot before, after;
+  read_recording(folder.file("run.mcap"), before);
+  read_recording(folder.file("bundle.mcap"), after);
+  EXPECT_EQ(before.bytes, sent);
+  EXPECT_EQ(after.bytes, bytes("--------", "-----")) << "the sums of right packets are right";
 }
 
 struct Bundled final : RecordingVisitor {

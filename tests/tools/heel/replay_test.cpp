@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 
+#include "recording/bundle.h"
 #include "recording/recording_reader.h"
 #include "support/test_data.h"
 #include "telemetry/recorder.h"
@@ -199,6 +200,16 @@ TEST_F(Replay, ABundleReplaysLikeItsRecording) {
   } nothing;
   const RecordingReport report = read_recording(bundle, nothing);
   EXPECT_THAT(report.attachments.at("versions.txt"), AllOf(HasSubstr("heel "), HasSubstr("Linux ")));
+}
+
+TEST_F(Replay, ABundleReplaysWhenAPersonHasTheNameOfAKey) {
+  BundleOptions options;
+  for (const char* const name : {"robot", "gate", "auto", "model", "enabled", "following"})
+    options.redaction.add_word(name, "USER");
+  const std::string bundle = folder_.file("named.mcap");
+  write_bundle(recording_, bundle, options);
+  const Outcome replayed = run_heel({"replay", bundle});
+  EXPECT_EQ(replayed.status, 0) << replayed.out << replayed.err;
 }
 
 TEST_F(Replay, ExportWritesTheColumnsOfTheManual) {
