@@ -24,8 +24,19 @@ namespace {
 
 constexpr std::array<char, 8> kMagic{'H', 'E', 'E', 'L', 'B', 'O', 'X', '1'};
 
-/// The newest `N` records. The position only counts up: it is raised after the record is whole, so that what
-/// a crash leaves are whole records.
+/// A regular file that is empty or a black box, also one of another version of heel: it may be overwritten.
+bool may_become_black_box(int fd) {
+  struct stat facts {};
+  if (::fstat(fd, &facts) != 0 || !S_ISREG(facts.st_mode)) return false;
+  if (facts.st_size == 0) return true;
+  constexpr std::size_t kWithoutVersion = kMagic.size() - 1;
+  std::array<char, kWithoutVersion> begin{};
+  return ::pread(fd, begin.data(), begin.size(), 0) == static_cast<ssize_t>(begin.size()) &&
+         std::equal(begin.begin(), begin.end(), kMagic.begin());
+}
+
+/// The newest `N` - 1 records. The position only counts up: it is raised after the record is whole, so that
+/// what a crash leaves are whole records, but for the one that the next record was about to replace.
 template <typename Record, std::size_t N>
 struct Ring {
   std::atomic<std::uint64_t> count{0};
@@ -39,7 +50,7 @@ struct Ring {
   template <typename Take>
   void for_each(const Take& take) const {
     const std::uint64_t n = count.load(std::memory_order_acquire);
-    for (std::uint64_t i = n > N ? n - N : 0; i < n; ++i) take(records[i % N]);
+    for (std::uint64_t i = n >= N ? n - N + 1 : 0; i < n; ++i) take(records[i % N]);
   }
 };
 
@@ -91,19 +102,28 @@ void BlackBox::Contents::write(Recorder& recorder) const {
 }
 
 BlackBox::BlackBox(const std::string& path, RecordingClock clock) : path_(path) {
-  const auto fail = [&](const char* what) {
-    const int error = errno;
+  const auto fail = [&](const char* what, int error) {
     if (fd_ >= 0) ::close(fd_);
     throw Error(fmt::format("telemetry.black_box {}: {}: {}", path, what, std::strerror(error)));
   };
   fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0640);
   if (fd_ < 0 && errno == ENOENT)
     throw Error(fmt::format("telemetry.black_box {}: its folder is missing", path));
-  if (fd_ < 0) fail("cannot create");
-  if (::flock(fd_, LOCK_EX | LOCK_NB) != 0) fail("another heeld uses it");
-  if (::ftruncate(fd_, 0) != 0 || ::posix_fallocate(fd_, 0, sizeof(Contents)) != 0) fail("cannot be made");
+  if (fd_ < 0) fail("cannot create", errno);
+  if (::flock(fd_, LOCK_EX | LOCK_NB) != 0) fail("another heeld uses it", errno);
+  if (!may_become_black_box(fd_)) {
+    ::close(fd_);
+    throw Error(
+        fmt::format("telemetry.black_box {}: another file has this name (expected none, an empty one or a "
+                    "black box of heel)",
+                    path));
+  }
+  if (::ftruncate(fd_, 0) != 0) fail("cannot be emptied", errno);
+  // It returns its error and leaves errno alone.
+  if (const int error = ::posix_fallocate(fd_, 0, sizeof(Contents)); error != 0)
+    fail("cannot be made", error);
   void* const memory = ::mmap(nullptr, sizeof(Contents), PROT_READ | PROT_WRITE, MAP_SHARED, fd_, 0);
-  if (memory == MAP_FAILED) fail("cannot be mapped");
+  if (memory == MAP_FAILED) fail("cannot be mapped", errno);
   contents_ = static_cast<Contents*>(memory);  // zeros, which are empty rings
   contents_->layout = layout_sum();
   contents_->clock = clock;

@@ -16,8 +16,8 @@ namespace heel {
 
 class BlackBox {
  public:
-  /// Creates the file, or empties it. Throws heel::Error naming it when it cannot be mapped or another heeld
-  /// uses it.
+  /// Creates the file, or empties it. Throws heel::Error naming it when it cannot be mapped, another heeld
+  /// uses it, or it is a file of another kind, which stays as it is.
   BlackBox(const std::string& path, RecordingClock clock);
   ~BlackBox();
   BlackBox(const BlackBox&) = delete;
