@@ -30,6 +30,8 @@ void PictureRecorder::drain(Recorder& recorder, TimeNs budget_ns) {
 std::uint64_t PictureRecorder::discard() {
   std::uint64_t frames = 0;
   for (; frames_ != nullptr && frames_->front().grey != nullptr; ++frames) frames_->pop();
+  kept_.clear();
+  kept_bytes_ = 0;
   return frames;
 }
 

@@ -29,7 +29,7 @@ class PictureRecorder {
   /// Takes waiting frames until there are none, or so much time has passed. To be called often: the queue
   /// holds a second or two.
   void drain(Recorder& recorder, TimeNs budget_ns = kDrain_ns);
-  /// Forgets the frames that wait; their number.
+  /// Forgets the frames that wait, and those that are kept; the number of the former.
   std::uint64_t discard();
   /// Writes those that are kept in memory.
   void write_kept(Recorder& recorder);

@@ -193,10 +193,10 @@ void Telemetry::take(const Event& event) {
 }
 
 void Telemetry::log_losses(TimeNs now_ns) {
+  if (recorder_) recorder_lost_ = recorder_->records_lost();
   newest_.records_lost = queues_.ticks.dropped() + queues_.poses.dropped() + queues_.captures.dropped() +
                          queues_.capture_events.dropped() + queues_.control_events.dropped() +
-                         queues_.wire.dropped() + texts_lost_ + pictures_.lost();
-  if (recorder_) newest_.records_lost += recorder_->records_lost();
+                         queues_.wire.dropped() + texts_lost_ + pictures_.lost() + recorder_lost_;
   if (newest_.records_lost == losses_logged_ || now_ns - t_losses_logged_ns_ < kRepeatedEventPeriod_ns)
     return;
   spdlog::warn("telemetry is too slow: {} records lost so far", newest_.records_lost);

@@ -62,7 +62,7 @@ class Telemetry {
   // wait, the new one is dropped and counted.
   void configuration(ConfigurationText configuration);
   void operator_line(OperatorLine line);
-  /// A mark in the recording. False: nothing is recorded.
+  /// A mark in the recording. False: nothing is recorded, or not any more.
   bool mark(const std::string& text);
 
  private:
@@ -83,7 +83,7 @@ class Telemetry {
   void add_text(std::vector<Text>& waiting, Text text);
 
   TelemetryQueues& queues_;
-  const bool recording_;
+  std::atomic<bool> recording_;  // recorder_ is there; for other threads
   const TelemetryConfig config_;
   std::unique_ptr<Recorder> recorder_;   // null: nothing is recorded
   std::unique_ptr<BlackBox> black_box_;  // null: none
@@ -112,6 +112,7 @@ class Telemetry {
   double logged_brakes_m_s2_ = std::numeric_limits<double>::infinity();
   TimeNs t_refusal_logged_ns_ = 0;
   std::uint64_t texts_lost_ = 0;
+  std::uint64_t recorder_lost_ = 0;  // also after its end
   std::uint64_t losses_logged_ = 0;
   TimeNs t_losses_logged_ns_ = 0;
   TimeNs t_flushed_ns_ = 0;

@@ -58,12 +58,17 @@ void Telemetry::attach(const std::string& name, const std::string& media_type, s
 void Telemetry::end_recording(const std::string& why) {
   if (!recorder_) return;
   recorder_->record(RecordingNote{monotonic_now_ns(), "end", why, newest_.records_lost});
+  recording_.store(false, std::memory_order_relaxed);
   recorder_.reset();
 }
 
-/// Those of the queue; and those before a fault.
+/// Those of the queue; and those before a fault. Where nothing is recorded any more none is wanted: a full
+/// queue would count as a loss.
 void Telemetry::take_pictures(TimeNs budget_ns) {
-  if (!recorder_) return;
+  if (!recorder_) {
+    pictures_.discard();
+    return;
+  }
   pictures_.drain(*recorder_, budget_ns);
   if (pictures_wanted_) pictures_.write_kept(*recorder_);
   pictures_wanted_ = false;
@@ -99,7 +104,7 @@ void Telemetry::operator_line(OperatorLine line) {
 }
 
 bool Telemetry::mark(const std::string& text) {
-  if (!recording_) return false;
+  if (!recording_.load(std::memory_order_relaxed)) return false;
   add_text(texts_.marks, RecordingNote{monotonic_now_ns(), "mark", text, 0});
   return true;
 }

@@ -135,6 +135,21 @@ TEST_F(Pictures, ASlowEncoderDelaysNeitherTheRecordsNorTheEnd) {
   EXPECT_GE(numbers_.size(), 3u) << "one in each drain at least";
 }
 
+TEST_F(Pictures, AfterTheEndByKeepMbNothingIsLostAndMarksAreRefused) {
+  TelemetryQueues queues;
+  Telemetry telemetry(
+      queues, {.directory = folder_.path().string(), .pictures = "jpeg", .keep_mb = 0.001, .black_box = ""},
+      &queue_);
+  EXPECT_EQ(log_.count("ends here: it needs more than telemetry.keep_mb"), 1) << log_.text();
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    push(i, static_cast<TimeNs>(i));
+    telemetry.drain(static_cast<TimeNs>(i + 2) * kNsPerS);
+  }
+  EXPECT_FALSE(telemetry.mark("look"));
+  EXPECT_EQ(telemetry.snapshot().records_lost, 0u);
+  EXPECT_EQ(log_.count("too slow"), 0) << log_.text();
+}
+
 TEST_F(Pictures, WithoutPicturesNothingIsWritten) {
   {
     Recorder recorder(folder_.file("a.mcap"), RecordingClock{});
