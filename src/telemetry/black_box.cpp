@@ -87,8 +87,24 @@ struct BlackBox::Contents {
   bool holds_a_run() const {
     return magic == kMagic && ended.load(std::memory_order_acquire) == 0 && ticks.count.load() > 0;
   }
+  void save(const std::string& recording) const;
   void write(Recorder& recorder) const;
 };
+
+/// In place of a recording of that name. Throws heel::Error; then there is none.
+void BlackBox::Contents::save(const std::string& recording) const {
+  std::error_code none;
+  std::filesystem::remove(recording, none);
+  bool whole = false;
+  {
+    Recorder recorder(recording, clock);
+    write(recorder);
+    whole = recorder.finish();
+  }
+  if (whole) return;
+  std::filesystem::remove(recording, none);
+  throw Error(recording + ": the black box could not be written there (disk full?)");
+}
 
 /// In the order of time, as far as each topic has it.
 void BlackBox::Contents::write(Recorder& recorder) const {
@@ -161,10 +177,7 @@ void BlackBox::add(const ConfigurationText& configuration) {
 }
 
 void BlackBox::save(const std::string& recording) const {
-  std::error_code none;
-  std::filesystem::remove(recording, none);
-  Recorder recorder(recording, contents_->clock);
-  contents_->write(recorder);
+  contents_->save(recording);
 }
 
 void BlackBox::end() {
@@ -189,10 +202,7 @@ bool recover_black_box(const std::string& path, const std::string& recording) {
     if (contents->holds_a_run()) {
       if (contents->layout != layout_sum())
         throw Error(path + ": the black box of another build of heel (expected one of this build)");
-      std::error_code none;
-      std::filesystem::remove(recording, none);
-      Recorder recorder(recording, contents->clock);
-      contents->write(recorder);
+      contents->save(recording);
       recovered = true;
     }
   } catch (const Error& error) {

@@ -131,6 +131,12 @@ void Recorder::sync() {
   file_.sync();
 }
 
+bool Recorder::finish() {
+  writer_.finish();
+  file_.sync();
+  return !file_.failing() && file_.pieces_lost() == 0;
+}
+
 std::string new_recording_path(const std::string& folder, const std::string& suffix) {
   try {
     fs::create_directories(folder);

@@ -58,6 +58,10 @@ class Recorder {
   /// The same, and waits until the disk has it.
   void sync();
 
+  /// Writes the end of the file and waits until the disk has it. Nothing may be recorded after it. False: the
+  /// file lacks something.
+  bool finish();
+
   const std::string& path() const { return file_.path(); }
   std::uint64_t bytes() const { return writer_.bytes(); }
   std::uint64_t messages() const { return writer_.messages(); }

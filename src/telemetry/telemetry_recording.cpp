@@ -1,7 +1,9 @@
 // What telemetry does for the recording and the black box; telemetry.cpp has the records and the log.
 #include <spdlog/spdlog.h>
 
+#include <filesystem>
 #include <mutex>
+#include <system_error>
 #include <utility>
 
 #include "heel/error.h"
@@ -28,7 +30,11 @@ void Telemetry::open_black_box() {
     if (recover_black_box(config_.black_box, left))
       spdlog::warn("the last run of heeld did not end by itself: its last 30 s are in {}", left);
   } catch (const Error& error) {
-    spdlog::warn("{}", error.what());
+    const std::string kept = config_.black_box + ".kept";
+    std::error_code not_kept;
+    std::filesystem::rename(config_.black_box, kept, not_kept);
+    spdlog::warn("{}; the black box of the last run {}", error.what(),
+                 not_kept ? "is lost: " + not_kept.message() : "is kept as " + kept);
   }
   try {
     black_box_ = std::make_unique<BlackBox>(config_.black_box, RecordingClock::wall());

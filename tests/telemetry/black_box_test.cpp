@@ -156,6 +156,28 @@ TEST_F(BlackBoxTest, TheNextStartMakesARecordingOfIt) {
   EXPECT_EQ(log.count("did not end by itself"), 1) << "the second one did";
 }
 
+TEST_F(BlackBoxTest, OneThatCannotBeSavedIsKeptUnderAnotherName) {
+  const test::CollectedLog log;
+  {
+    BlackBox box(box_, RecordingClock{});
+    TickRecord tick;
+    for (tick.tick = 0; tick.tick < 100; ++tick.tick) box.add(tick);
+    const test::SmallDisk disk(1000);
+    EXPECT_THAT(test::complaint_of([&] { box.save(recording_); }),
+                HasSubstr("left.mcap: the black box could not"));
+  }
+  {
+    const test::SmallDisk disk(1000);
+    TelemetryQueues queues;
+    const Telemetry telemetry(queues, {.directory = "", .black_box = box_});
+    EXPECT_EQ(log.count("did not end by itself"), 0) << log.text();
+    EXPECT_EQ(log.count("the black box of the last run is kept as " + box_ + ".kept"), 1) << log.text();
+  }
+  EXPECT_FALSE(std::filesystem::exists(box_ + ".mcap")) << "a part of it";
+  std::filesystem::rename(box_ + ".kept", box_);
+  EXPECT_EQ(recovered().ticks.size(), 100u);
+}
+
 TEST_F(BlackBoxTest, AFaultSavesItWhereNothingIsRecorded) {
   const test::CollectedLog log;
   TelemetryQueues queues;
