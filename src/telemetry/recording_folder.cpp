@@ -25,7 +25,9 @@ struct KeptRecording {
 std::vector<KeptRecording> recordings_in(const std::string& folder) {
   std::vector<KeptRecording> all;
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+  // A range-for would throw where the folder can be opened and not be read to its end.
+  for (fs::directory_iterator at(folder, error); at != fs::directory_iterator(); at.increment(error)) {
+    const fs::directory_entry& entry = *at;
     const std::string name = entry.path().filename().string();
     if (!name.starts_with("heel-") || entry.path().extension() != kRecordingExtension) continue;
     std::error_code gone;  // removed by somebody else in this moment
