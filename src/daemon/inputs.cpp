@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "capture/factory/source_address.h"
@@ -31,6 +32,14 @@ void check_frame_size(const CameraConfig& config, const CameraModel& camera) {
                           config.info, camera.width_px, camera.height_px, config.width_px, config.height_px));
 }
 
+/// The direction of the left or right edge of the picture, the one that is nearer to the optical axis.
+double nearer_edge_rad(const CameraModel& camera) {
+  const auto off_axis_rad = [&](double x_px) {
+    return std::atan(std::abs(camera.undistort_px({x_px, camera.cy}).x() - camera.cx) / camera.fx);
+  };
+  return std::min(off_axis_rad(-0.5), off_axis_rad(camera.width_px - 0.5));
+}
+
 std::string verdict_text(const TemplateVerdict& verdict) {
   return fmt::format(
       "{} features over {:.0f} % of the region, {:.0f} % similar to others, {:.0f} % left at twice the "
@@ -42,11 +51,14 @@ std::string verdict_text(const TemplateVerdict& verdict) {
 }  // namespace
 
 void check_against_camera(const Config& config, const CameraModel& camera) {
-  const double half_view_rad = std::atan(0.5 * camera.width_px / camera.fx);
-  if (config.control.bearing_max_rad < half_view_rad) return;
-  throw Error(
-      fmt::format("control.bearing_max_rad: {} (expected less than {:.6g} rad, half the field of view of {})",
-                  config.control.bearing_max_rad, half_view_rad, config.camera.info));
+  const double edge_rad = nearer_edge_rad(camera);
+  const auto check = [&](const char* key, double bearing_rad) {
+    if (bearing_rad < edge_rad) return;
+    throw Error(fmt::format("{}: {} (expected less than {:.6g} rad, where the picture of {} ends)", key,
+                            bearing_rad, edge_rad, config.camera.info));
+  };
+  check("control.bearing_max_rad", config.control.bearing_max_rad);
+  if (config.control.law == "trail") check("control.trail_bearing_rad", config.control.trail_bearing_rad);
 }
 
 Inputs load_inputs(const Config& config) {
