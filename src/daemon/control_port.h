@@ -25,7 +25,9 @@ class ControlPort final : public OperatorPort {
     telemetry_.operator_line({monotonic_now_ns(), who, request, answer});
   }
   std::string mark(const std::string& text) override {
-    return telemetry_.mark(text) ? "" : "nothing is recorded (telemetry.directory names no folder)";
+    return telemetry_.mark(text) ? ""
+                                 : "nothing is recorded (telemetry.directory names no folder, or "
+                                   "telemetry.keep_mb was reached)";
   }
 
  private:

@@ -99,7 +99,7 @@ class ObjectReader {
     if (!json.is_string()) refuse(name, json, "a text");
     const auto& text = json.get_ref<const std::string&>();
     field.fill('\0');
-    text.copy(field.data(), field.size());
+    text.copy(field.data(), field.size() - 1);  // it ends with a zero
   }
   template <typename C, typename B>
   void read(const Json& json, const char* name, CountedBytes<C, B>& field) const {

@@ -53,7 +53,9 @@ TEST(TurnedSource, DoesNotAllocateForTheFirstFrameOfTheSizeThatIsAskedFor) {
     FrameView frame;
     const std::uint64_t before = test::allocations_of_this_thread();
     EXPECT_EQ(source->wait_frame(0, frame), FrameResult::Frame);
-    if (test::counts_allocations()) EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
+    if (test::counts_allocations()) {
+      EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
+    }
     EXPECT_EQ(frame.header.width_px, height_px);
     EXPECT_EQ(frame.header.height_px, kTurnedWidth_px);
     EXPECT_EQ(frame.grey[height_px - 1], 1) << "the upper left pixel is at the right";

@@ -12,7 +12,7 @@ template <typename Call>
 std::string complaint_of(Call&& call) {
   try {
     call();
-  } catch (const Error& error) {
+  } catch (const heel::Error& error) {
     return error.what();
   }
   return "accepted";

@@ -102,6 +102,8 @@ TEST(Lockstep, FollowsByATurnedCameraThatTheConfigurationKnows) {
 }
 
 TEST(Lockstep, ATurnedCameraThatTheConfigurationDoesNotKnowStopsTheRobot) {
+  if (test::kSanitized)
+    GTEST_SKIP() << "the person leaves the small picture before; TurnMonitor.StopsWithin… runs the same code";
   const HowItWent run = with_a_turned_camera(picture_turn(180, false), 0, false);
   EXPECT_TRUE(run.turned_away);
   EXPECT_LT(run.turned_rad, 0.45) << "the robot needs 0.2 s and 0.1 rad to stop turning";
