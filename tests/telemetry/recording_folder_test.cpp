@@ -44,7 +44,7 @@ TEST(RecordingFolder, AnErrorWhileItIsReadEndsTheListOnly) {
   const KeepLimits all{1'000'000, std::numeric_limits<TimeNs>::max()};
   const std::string path = folder.path().string();
   EXPECT_EQ(remove_old_recordings(path, "", all), 12u);
-  for (int entries = 0; entries < 5; ++entries) {
+  for (int entries = 0; entries < 3; ++entries) {  // fewer than there are files
     entries_until_error = entries;
     EXPECT_NO_THROW(EXPECT_LT(remove_old_recordings(path, "", all), 12u)) << entries;
     EXPECT_EQ(entries_until_error, -1) << "the error came";
