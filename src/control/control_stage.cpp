@@ -35,7 +35,7 @@ void copy_verdict(const Verdict& verdict, TickRecord& record) {
 
 struct ControlStage::Impl {
   Impl(const Config& config, std::span<const RobotModel> table)
-      : pictures_answer(!config.camera.source.starts_with("file:")),
+      : pictures_answer(!config.camera.from_file()),
         models(table),
         estimator(config),
         obstacle_map(table.front().geometry),
@@ -116,7 +116,7 @@ void ControlStage::Impl::update_robot(const RobotState& robot) {
   estimator.add_odometry(robot.odometry);
   if (sonar_on) obstacle_map.update(robot);
   brake_monitor.update(robot, last_command);
-  turn_monitor.add_odometry(robot.odometry);
+  turn_monitor.update(estimator.odometry(), robot.odometry.t_ns);
 }
 
 MeasurementStatus ControlStage::Impl::update_target(const ControlInput& input) {

@@ -49,15 +49,13 @@ double TurnMonitor::Person::update(const Pose2& robot, const Sighting& sighting,
   return -std::sin(facing_rad) * filter.velocity().x() + std::cos(facing_rad) * filter.velocity().y();
 }
 
-void TurnMonitor::add_odometry(const Odometry& odometry) {
-  if (odometry.t_ns <= t_odometry_ns_) return;
-  t_odometry_ns_ = odometry.t_ns;
-  odometry_.add(odometry);
+void TurnMonitor::update(const OdometryHistory& odometry, TimeNs t_newest_ns) {
   std::size_t explained = 0;
-  while (explained < waiting_count_ && waiting_[explained].t_ns <= t_odometry_ns_) {
+  while (explained < waiting_count_ && waiting_[explained].t_ns <= t_newest_ns) {
     const Sighting& sighting = waiting_[explained++];
-    if (const auto robot = odometry_.pose_at(sighting.t_ns)) explain(sighting, *robot);
+    if (const auto robot = odometry.pose_at(sighting.t_ns)) explain(sighting, *robot);
   }
+  if (explained == 0) return;
   std::copy(waiting_.begin() + static_cast<std::ptrdiff_t>(explained),
             waiting_.begin() + static_cast<std::ptrdiff_t>(waiting_count_), waiting_.begin());
   waiting_count_ -= explained;

@@ -23,8 +23,8 @@ namespace heel {
 /// Reads no clock, does not allocate.
 class TurnMonitor {
  public:
-  /// Each packet of the robot's, in order.
-  void add_odometry(const Odometry& odometry);
+  /// Once a tick. `t_newest_ns`: of the newest packet in `odometry`.
+  void update(const OdometryHistory& odometry, TimeNs t_newest_ns);
   /// Each new pose, in order of their frames. One that was not found counts for nothing.
   void add_pose(const PoseEstimate& pose, const CameraMount& mount);
   /// After an interruption, or an operator's reset.
@@ -52,8 +52,6 @@ class TurnMonitor {
   };
   void explain(const Sighting& sighting, const Pose2& robot);
 
-  OdometryHistory odometry_;
-  TimeNs t_odometry_ns_ = 0;
   // Sightings wait for a packet that is newer: an extrapolated heading is wrong while the yaw rate changes.
   static constexpr std::size_t kWaiting = 32;
   std::array<Sighting, kWaiting> waiting_{};

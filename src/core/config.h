@@ -32,6 +32,9 @@ struct CameraConfig {
   double mount_pitch_rad = 0.0;  ///< + looks up
   double mount_yaw_rad = 0.0;    ///< + looks to the left
   double mount_roll_rad = 0.0;   ///< + the right side is lower
+
+  /// Recorded pictures: they do not answer the robot's motion.
+  bool from_file() const { return source.starts_with("file:"); }
 };
 
 struct TargetConfig {

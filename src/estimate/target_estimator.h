@@ -23,6 +23,8 @@ class TargetEstimator {
   void reset();
 
   void add_odometry(const Odometry& odometry);
+  /// Of the packets so far.
+  const OdometryHistory& odometry() const { return odometry_; }
   /// Accepted, or the gate that the pose did not pass; never None.
   MeasurementStatus update(const PoseEstimate& pose);
   /// The person, and the pose that the robot is to take, in the robot frame at `now_ns`.

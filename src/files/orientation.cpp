@@ -17,36 +17,23 @@ constexpr std::array<std::array<int, 4>, 8> kSigns{{{1, 0, 0, 1},
                                                     {0, -1, -1, 0},
                                                     {0, -1, 1, 0}}};
 
+constexpr std::array<PictureTurn, 8> kTurns{
+    {{false, 0}, {true, 0}, {false, 2}, {true, 2}, {true, 3}, {false, 1}, {true, 1}, {false, 3}}};
+
 }  // namespace
 
+cv::Mat turned_picture(const cv::Mat& grey, const PictureTurn& turn) {
+  if (!turn.any()) return grey;
+  const bool swapped = turn.swaps_sides();
+  cv::Mat turned(swapped ? grey.cols : grey.rows, swapped ? grey.rows : grey.cols, CV_8UC1);
+  turn_grey(turn, grey.data, static_cast<std::uint32_t>(grey.step), static_cast<std::uint32_t>(grey.cols),
+            static_cast<std::uint32_t>(grey.rows), turned.data);
+  return turned;
+}
+
 cv::Mat shown_picture(const cv::Mat& stored, int orientation) {
-  cv::Mat shown;
-  switch (orientation) {
-    case 2:
-      cv::flip(stored, shown, 1);
-      return shown;
-    case 3:
-      cv::rotate(stored, shown, cv::ROTATE_180);
-      return shown;
-    case 4:
-      cv::flip(stored, shown, 0);
-      return shown;
-    case 5:
-      cv::transpose(stored, shown);
-      return shown;
-    case 6:
-      cv::rotate(stored, shown, cv::ROTATE_90_CLOCKWISE);
-      return shown;
-    case 7:
-      cv::transpose(stored, shown);
-      cv::rotate(shown, shown, cv::ROTATE_180);
-      return shown;
-    case 8:
-      cv::rotate(stored, shown, cv::ROTATE_90_COUNTERCLOCKWISE);
-      return shown;
-    default:
-      return stored;
-  }
+  if (orientation < 1 || orientation > static_cast<int>(kTurns.size())) return stored;
+  return turned_picture(stored, kTurns[static_cast<std::size_t>(orientation - 1)]);
 }
 
 int orientation_of_display_matrix(std::span<const std::int32_t, 9> matrix) {

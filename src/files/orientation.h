@@ -6,11 +6,16 @@
 #include <opencv2/core/mat.hpp>
 #include <span>
 
+#include "core/picture_turn.h"
+
 namespace heel {
 
 inline constexpr int kAsStored = 1;
 
-/// The picture as it is shown. `orientation` as in EXIF: 2 mirrored, 3 turned by 180°, 4 upside down and
+/// An 8-bit picture, turned, in one block of memory; the picture itself where there is nothing to turn.
+cv::Mat turned_picture(const cv::Mat& grey, const PictureTurn& turn);
+
+/// An 8-bit picture as it is shown. `orientation` as in EXIF: 2 mirrored, 3 turned by 180°, 4 upside down and
 /// mirrored, 5 transposed, 6 turned by 90° clockwise, 7 transposed and turned by 180°, 8 turned by 90°
 /// counterclockwise. Any other number: as stored.
 cv::Mat shown_picture(const cv::Mat& stored, int orientation);

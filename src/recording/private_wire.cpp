@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <set>
 
+#include "arcos/checksum.h"
+#include "arcos/commands.h"
+#include "arcos/config_packet.h"
+#include "arcos/packet.h"
 #include "heel/error.h"
 #include "heel/flow.h"
 #include "recording/flow_json.h"
@@ -10,20 +14,8 @@
 namespace heel {
 namespace {
 
-constexpr std::uint8_t kWireHeader0 = 0xFA, kWireHeader1 = 0xFB;
-constexpr std::size_t kWireHeadBytes = 3, kWireSumBytes = 2;
-constexpr std::size_t kMinWireCount = 3, kMaxWireCount = 249;
-constexpr std::uint8_t kSync2Id = 0x02, kConfigId = 0x20;
+constexpr auto kSync2Id = static_cast<std::uint8_t>(arcos::CommandId::Sync2);
 constexpr std::size_t kBytesFromSerialToName = 11;  // of CONFIGpac
-
-/// As arcos/checksum.h says.
-std::uint16_t wire_sum(std::span<const std::uint8_t> body) {
-  std::uint16_t sum = 0;
-  std::size_t i = 0;
-  for (; i + 1 < body.size(); i += 2) sum = static_cast<std::uint16_t>(sum + (body[i] << 8 | body[i + 1]));
-  if (i < body.size()) sum = static_cast<std::uint16_t>(sum ^ body[i]);
-  return sum;
-}
 
 /// Walks over the texts of a body, each with a NUL behind it.
 struct WireTexts {
@@ -66,16 +58,16 @@ void PrivateWire::search(bool at_end) {
   std::size_t at = 0;
   const auto has = [&](std::size_t bytes) { return rest_.size() - at >= bytes; };
   while (has(1)) {
-    if (rest_[at] != kWireHeader0 || (has(2) && rest_[at + 1] != kWireHeader1)) {
+    if (rest_[at] != arcos::kHeader0 || (has(2) && rest_[at + 1] != arcos::kHeader1)) {
       ++at;
       continue;
     }
-    const std::size_t count = has(kWireHeadBytes) ? rest_[at + 2] : kMaxWireCount;
-    if (count < kMinWireCount || count > kMaxWireCount) {
+    const std::size_t count = has(arcos::kHeaderSize) ? rest_[at + 2] : arcos::kMaxCount;
+    if (count < arcos::kMinCount || count > arcos::kMaxCount) {
       ++at;
       continue;
     }
-    const std::size_t size = kWireHeadBytes + count;
+    const std::size_t size = arcos::kHeaderSize + count;
     if (!has(size) && !at_end) break;
     const std::size_t there = std::min(size, rest_.size() - at);
     rest_begin_ += at;
@@ -89,13 +81,13 @@ void PrivateWire::search(bool at_end) {
 /// False: its checksum is wrong, or it has no end. It may be a CONFIGpac even so: on some robots that never
 /// passes its checksum.
 bool PrivateWire::take_packet(std::span<const std::uint8_t> packet, bool whole) {
-  if (packet.size() <= kWireHeadBytes) return false;
-  const std::size_t end = packet.size() - (whole ? kWireSumBytes : 0);
-  const std::span<const std::uint8_t> body = packet.subspan(kWireHeadBytes, end - kWireHeadBytes);
-  const bool right = whole && wire_sum(body) == (packet[end] << 8 | packet[end + 1]);
+  if (packet.size() <= arcos::kHeaderSize) return false;
+  const std::size_t end = packet.size() - (whole ? arcos::kChecksumSize : 0);
+  const std::span<const std::uint8_t> body = packet.subspan(arcos::kHeaderSize, end - arcos::kHeaderSize);
+  const bool right = whole && arcos::checksum(body) == (packet[end] << 8 | packet[end + 1]);
   std::vector<std::uint8_t> blanked(packet.begin(), packet.end());
-  WireTexts texts{std::span(blanked).subspan(kWireHeadBytes, body.size())};
-  if (body[0] == kConfigId) {
+  WireTexts texts{std::span(blanked).subspan(arcos::kHeaderSize, body.size())};
+  if (body[0] == arcos::kConfigPacketId) {
     texts.skip_text();  // type
     texts.skip_text();  // subtype
     texts.blank_text();
@@ -105,7 +97,7 @@ bool PrivateWire::take_packet(std::span<const std::uint8_t> packet, bool whole) 
     texts.blank_text();
   }
   if (right) {
-    const std::uint16_t sum = wire_sum(texts.body);
+    const std::uint16_t sum = arcos::checksum(texts.body);
     blanked[end] = static_cast<std::uint8_t>(sum >> 8);
     blanked[end + 1] = static_cast<std::uint8_t>(sum);
   }

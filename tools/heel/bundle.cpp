@@ -3,27 +3,48 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <filesystem>
 #include <iostream>
 #include <string>
 
 #include "bundle_facts.h"
 #include "commands.h"
+#include "heel/error.h"
 #include "recording/recording_reader.h"
 
 namespace heel::cli {
 namespace {
 
 struct BundleCommandOptions {
-  std::string recording = "/var/lib/heel";
+  std::string recording;
   std::string out = "heel-bundle.mcap";
   bool with_pictures = false;
   double max_mb = 20.0;
 };
 
+/// The service records in its state directory; without recordings its black box is in the runtime directory.
+constexpr std::array kServiceFolders{"/var/lib/heel", "/run/heel"};
+
+std::string recording_of_service() {
+  std::string why_not;
+  for (const char* const folder : kServiceFolders) {
+    try {
+      if (std::filesystem::is_directory(folder)) return recording_in(folder);
+    } catch (const Error& error) {
+      why_not += std::string(error.what()) + "; ";
+    }
+  }
+  throw Error(why_not +
+              "no recording of the service in /var/lib/heel or /run/heel (expected one, or a "
+              "recording as argument)");
+}
+
 void run_bundle(const BundleCommandOptions& options) {
   BundleOptions bundle{options.with_pictures, static_cast<std::uint64_t>(options.max_mb * 1e6),
                        machine_facts(), private_names()};
-  const std::string recording = recording_in(options.recording);
+  const std::string recording =
+      options.recording.empty() ? recording_of_service() : recording_in(options.recording);
   const BundleReport report = write_bundle(recording, options.out, bundle);
   for (const std::string& line : report.left_out) std::cerr << "heel bundle: " << line << '\n';
   std::cout << fmt::format("{}: {:.1f} MB of {}, with", options.out, 1e-6 * static_cast<double>(report.bytes),
@@ -40,10 +61,10 @@ void add_bundle_command(CLI::App& app) {
       "bundle",
       "Packs a recording, the journal, versions and devices into one file for a bug report. Host name, user\n"
       "names, serial numbers of devices and pictures are left out. `heel replay` opens it");
-  command
-      ->add_option("recording", options->recording,
-                   "a recording (*.mcap), or a folder of which the newest one is taken")
-      ->capture_default_str();
+  command->add_option(
+      "recording", options->recording,
+      "a recording (*.mcap), or a folder of which the newest one is taken (default: /var/lib/heel,\n"
+      "or /run/heel with the service's black box)");
   command->add_option("-o,--out", options->out, "the file")->capture_default_str();
   command->add_flag("--with-pictures", options->with_pictures, "pictures and templates as well");
   command->add_option("--max-mb", options->max_mb, "what the file may have at most, megabytes")

@@ -18,6 +18,7 @@
 #include "files/folder.h"
 #include "files/frame_input.h"
 #include "files/image_file.h"
+#include "files/orientation.h"
 #include "files/template_file.h"
 #include "heel/error.h"
 #include "picture.h"

@@ -13,6 +13,7 @@
 #include "files/camera_info.h"
 #include "files/frame_input.h"
 #include "files/image_file.h"
+#include "files/orientation.h"
 #include "files/template_file.h"
 #include "heel/error.h"
 #include "heel/shirt_template.h"

@@ -6,9 +6,9 @@
 
 #include "files/frame_input.h"
 #include "files/image_file.h"
+#include "files/orientation.h"
 #include "heel/error.h"
 #include "heel/pose_tracker.h"
-#include "turn_options.h"
 
 namespace heel::cli {
 namespace {

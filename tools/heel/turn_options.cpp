@@ -1,8 +1,6 @@
 // The options --rotate and --mirror, as the keys camera.rotate and camera.mirror.
 #include "turn_options.h"
 
-#include <cstdint>
-
 namespace heel::cli {
 
 void add_turn_options(CLI::App& command, TurnOptions& options) {
@@ -19,15 +17,6 @@ void add_turn_options(CLI::App& command, TurnOptions& options) {
 
 PictureTurn turn_of(const TurnOptions& options, const CameraConfig& config) {
   return picture_turn(options.rotate.value_or(config.rotate), options.mirror || config.mirror);
-}
-
-cv::Mat turned_picture(const cv::Mat& grey, const PictureTurn& turn) {
-  if (!turn.any()) return grey;
-  cv::Mat turned(turn.swaps_sides() ? grey.cols : grey.rows, turn.swaps_sides() ? grey.rows : grey.cols,
-                 CV_8UC1);
-  turn_grey(turn, grey.data, static_cast<std::uint32_t>(grey.step), static_cast<std::uint32_t>(grey.cols),
-            static_cast<std::uint32_t>(grey.rows), turned.data);
-  return turned;
 }
 
 }  // namespace heel::cli

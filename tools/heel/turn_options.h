@@ -2,7 +2,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <opencv2/core/mat.hpp>
 #include <optional>
 
 #include "core/config.h"
@@ -20,8 +19,5 @@ void add_turn_options(CLI::App& command, TurnOptions& options);
 
 /// What the options say, and the configuration where they say nothing.
 PictureTurn turn_of(const TurnOptions& options, const CameraConfig& config = {});
-
-/// An 8-bit picture, turned, in one block of memory; the picture itself where there is nothing to turn.
-cv::Mat turned_picture(const cv::Mat& grey, const PictureTurn& turn);
 
 }  // namespace heel::cli
