@@ -60,6 +60,11 @@ function(heel_test name)
   if(ARG_REAL_TIME)
     list(APPEND properties RESOURCE_LOCK real_time)
   endif()
+  # ctest starts those of the highest cost first. What runs one after the other, or long, starts before what can fill
+  # the gaps beside it.
+  if(ARG_REAL_TIME OR ARG_AS_ONE)
+    list(APPEND properties COST 100)
+  endif()
   if(ARG_LABELS)
     list(APPEND properties LABELS "${ARG_LABELS}")
   endif()

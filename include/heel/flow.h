@@ -63,6 +63,7 @@ struct PoseEstimate {
   TimeNs t_capture_ns = 0;  ///< of the frame
   TimeNs t_done_ns = 0;     ///< when vision finished
   PoseReason reason = PoseReason::TooFewFeatures;
+  PictureFault picture = PictureFault::None;  ///< of the pictures up to this one
 
   std::uint32_t template_index = 0;  ///< whose it is: 0 target.shirt, then target.more_shirts in their order
   bool tracked = false;  ///< found where the last pose predicted it; only that region was searched

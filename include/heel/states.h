@@ -115,6 +115,19 @@ enum class Hold : std::uint8_t {
   ObstacleAhead,  ///< TickRecord::free_distance_m
 };
 
+/// What is wrong with the camera's pictures, as far as they tell by themselves. It keeps nothing at rest; it
+/// says why nothing is found.
+enum class PictureFault : std::uint8_t {
+  None,
+  Dark,             ///< a cap on the lens, or no light
+  TooBright,        ///< exposure far too long, or light straight into the lens
+  NoDetail,         ///< a hand on the lens, or a bare wall that fills the picture
+  OutOfFocus,       ///< no sharp edge for seconds
+  Interlaced,       ///< rows of two times in one picture
+  Flicker,          ///< bands of light that move over the picture
+  ExposureHunting,  ///< the brightness goes up and down
+};
+
 /// The gate's limits that changed a command, as bits of VelocityCommand::limited_by.
 enum GateLimit : std::uint8_t {
   kGateSpeed = 1,
@@ -130,5 +143,6 @@ const char* to_string(SupervisorState state);
 const char* to_string(TransitionCause cause);
 const char* to_string(StopReason reason);
 const char* to_string(Hold hold);
+const char* to_string(PictureFault fault);
 
 }  // namespace heel

@@ -1,13 +1,16 @@
 #include "capture/luma_converter.h"
 
+#include <cstring>
+
 namespace heel {
 
 void LumaConverter::configure(PixelFormat format, std::uint32_t width_px, std::uint32_t height_px,
-                              std::uint32_t stride_bytes) {
+                              std::uint32_t stride_bytes, bool interlaced) {
   format_ = format;
   width_px_ = width_px;
   height_px_ = height_px;
   stride_bytes_ = stride_bytes;
+  interlaced_ = interlaced;
   grey_.assign(std::size_t{width_px} * height_px, 0);
 }
 
@@ -25,9 +28,26 @@ bool LumaConverter::convert(const std::uint8_t* buffer, std::size_t used_bytes, 
     problem_ = jpeg_.problem();
     return false;
   }
+  if (interlaced_) luma = one_field(luma);
   frame.grey = luma.data;
   frame.stride_bytes = luma.stride_bytes;
   return true;
+}
+
+/// The picture in grey_, with the rows 1, 3, … from those above and below.
+Luma LumaConverter::one_field(const Luma& luma) {
+  const auto row_of = [&](std::uint32_t y) { return grey_.data() + std::size_t{y} * width_px_; };
+  if (luma.data != grey_.data())
+    for (std::uint32_t y = 0; y < height_px_; y += 2)
+      std::memcpy(row_of(y), luma.data + std::size_t{y} * luma.stride_bytes, width_px_);
+  for (std::uint32_t y = 1; y < height_px_; y += 2) {
+    const std::uint8_t* above = row_of(y - 1);
+    const std::uint8_t* below = y + 1 < height_px_ ? row_of(y + 1) : above;
+    std::uint8_t* row = row_of(y);
+    for (std::uint32_t x = 0; x < width_px_; ++x)
+      row[x] = static_cast<std::uint8_t>((above[x] + below[x] + 1) / 2);
+  }
+  return {grey_.data(), width_px_};
 }
 
 }  // namespace heel

@@ -15,8 +15,9 @@ namespace heel {
 class LumaConverter {
  public:
   /// Allocates the image for frames of this format and size. `stride_bytes` is not used for Mjpg.
+  /// `interlaced`: every second row is of another time; those are replaced by the mean of their neighbours.
   void configure(PixelFormat format, std::uint32_t width_px, std::uint32_t height_px,
-                 std::uint32_t stride_bytes);
+                 std::uint32_t stride_bytes, bool interlaced = false);
 
   /// Converts the first `used_bytes` of a buffer of `buffer_bytes`, and sets the image of `frame`, which is
   /// valid until the next call and as long as the buffer is. False: the frame is too short or damaged;
@@ -26,12 +27,15 @@ class LumaConverter {
   const char* problem() const { return problem_; }
 
  private:
+  Luma one_field(const Luma& luma);
+
   PixelFormat format_ = PixelFormat::Grey;
   std::uint32_t width_px_ = 0;
   std::uint32_t height_px_ = 0;
   std::uint32_t stride_bytes_ = 0;
+  bool interlaced_ = false;
   JpegDecoder jpeg_;
-  std::vector<std::uint8_t> grey_;  // the image, for formats without a plane of luma
+  std::vector<std::uint8_t> grey_;  // the image, for formats without a plane of luma and for interlaced ones
   const char* problem_ = "";
 };
 

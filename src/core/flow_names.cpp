@@ -137,6 +137,28 @@ const char* to_string(StopReason reason) {
   return "?";
 }
 
+const char* to_string(PictureFault fault) {
+  switch (fault) {
+    case PictureFault::None:
+      return "none";
+    case PictureFault::Dark:
+      return "dark";
+    case PictureFault::TooBright:
+      return "too bright";
+    case PictureFault::NoDetail:
+      return "no detail";
+    case PictureFault::OutOfFocus:
+      return "out of focus";
+    case PictureFault::Interlaced:
+      return "interlaced";
+    case PictureFault::Flicker:
+      return "flicker";
+    case PictureFault::ExposureHunting:
+      return "exposure hunting";
+  }
+  return "?";
+}
+
 const char* to_string(Hold hold) {
   switch (hold) {
     case Hold::None:

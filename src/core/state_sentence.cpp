@@ -70,9 +70,7 @@ std::string refusal(const RobotKind& robot) {
   return "";
 }
 
-}  // namespace
-
-std::string state_sentence(const TickRecord& tick) {
+std::string sentence_of_state(const TickRecord& tick) {
   if (tick.stop_reason == StopReason::None) return moving_sentence(tick);
   const std::string reason = to_string(tick.stop_reason);
   if (tick.state == SupervisorState::Searching)
@@ -85,6 +83,48 @@ std::string state_sentence(const TickRecord& tick) {
   if (waits_for_person && tick.input.has_pose && !pose.found())
     return "at rest: " + reason + " (" + to_string(pose.reason) + ")";
   return "at rest: " + reason + remedy(tick);
+}
+
+/// Whether the reason to rest is that nobody is found.
+bool lacks_person(const TickRecord& tick) {
+  switch (tick.stop_reason) {
+    case StopReason::NoTargetYet:
+    case StopReason::TargetLost:
+    case StopReason::LowCertainty:
+    case StopReason::NotStarted:
+      return tick.input.has_pose && !tick.input.pose.found();
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+std::string picture_sentence(PictureFault fault) {
+  switch (fault) {
+    case PictureFault::None:
+      break;
+    case PictureFault::Dark:
+      return "the picture is dark: is the lens covered, or the light off?";
+    case PictureFault::TooBright:
+      return "the picture is too bright: does a light shine into the lens, or is the exposure set too long?";
+    case PictureFault::NoDetail:
+      return "the picture shows no detail: does something cover the lens, or a bare wall fill the view?";
+    case PictureFault::OutOfFocus:
+      return "the picture is out of focus: turn the lens, or clean it";
+    case PictureFault::Interlaced:
+      return "the picture has rows of two times: set the camera to progressive";
+    case PictureFault::Flicker:
+      return "the light flickers: set the camera's power line frequency to that of the mains";
+    case PictureFault::ExposureHunting:
+      return "the brightness goes up and down: set the exposure by hand";
+  }
+  return "";
+}
+
+std::string state_sentence(const TickRecord& tick) {
+  const std::string advice = lacks_person(tick) ? picture_sentence(tick.input.pose.picture) : "";
+  return sentence_of_state(tick) + (advice.empty() ? "" : "; " + advice);
 }
 
 }  // namespace heel

@@ -49,6 +49,7 @@ json camera_json(const StatusInput& input) {
   out["frame_age_s"] = tick.has_pose ? seconds_since(tick.pose.t_capture_ns, input.now_ns) : json(nullptr);
   out["dropped"] = input.camera.dropped_by_driver + input.camera.dropped_unread;
   out["reopened"] = input.camera.reopened;
+  out["picture"] = tick.has_pose ? json(to_string(tick.pose.picture)) : json(nullptr);
   return out;
 }
 
@@ -123,7 +124,7 @@ json status_json(const StatusInput& input, const SettingsView& settings) {
 }
 
 bool differs_to_a_watcher(const TickRecord& a, const TickRecord& b) {
-  return a.state != b.state || a.stop_reason != b.stop_reason || a.hold != b.hold || a.cause != b.cause ||
+  return a.state != b.state || a.stop_reason != b.stop_reason || a.hold != b.hold || a.input.pose.picture != b.input.pose.picture || a.cause != b.cause ||
          a.input.robot.phase != b.input.robot.phase;
 }
 

@@ -153,6 +153,7 @@ std::vector<CsvColumn<PoseEstimate>> make_pose_columns() {
       {"frame", [](L& l, const P& p, int) { l.integer(p.frame_sequence); }},
       {"reason_code", [](L& l, const P& p, int) { l.integer(static_cast<std::uint64_t>(p.reason)); }},
       {"reason", [](L& l, const P& p, int) { l.text(to_string(p.reason)); }},
+      {"picture", [](L& l, const P& p, int) { l.text(to_string(p.picture)); }},
       {"found", [](L& l, const P& p, int) { l.flag(p.found()); }},
       {"template", [](L& l, const P& p, int) { l.integer(std::uint64_t{p.template_index}); }},
       {"tracked", [](L& l, const P& p, int) { l.flag(p.tracked); }},

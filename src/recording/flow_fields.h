@@ -29,6 +29,7 @@ constexpr void fields(V& v, IsFlow<PoseEstimate> auto& p) {
   v("t_capture_ns", p.t_capture_ns);
   v("t_done_ns", p.t_done_ns);
   v("reason", p.reason);
+  v("picture", p.picture);
   v("template_index", p.template_index);
   v("tracked", p.tracked);
   v("frame_features", p.frame_features);

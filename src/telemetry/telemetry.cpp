@@ -118,6 +118,7 @@ void Telemetry::take(const TickRecord& tick) {
   }
   take_brakes(tick);
   take_measurement(tick);
+  take_picture(tick);
   ++newest_.ticks;
   newest_.tick = tick;
   if (recorder_) recorder_->record(tick);
@@ -177,6 +178,18 @@ void Telemetry::take_measurement(const TickRecord& tick) {
   t_refusal_logged_ns_ = now_ns;
   log_event({.part = "vision", .event = to_string(tick.measurement)}, spdlog::level::info, refusal);
   if (recorder_) recorder_->record_text(now_ns, refusal);
+}
+
+/// Changes of what the pictures show wrong.
+void Telemetry::take_picture(const TickRecord& tick) {
+  const PictureFault fault = tick.input.pose.picture;
+  if (fault == picture_fault_) return;
+  picture_fault_ = fault;
+  const bool good = fault == PictureFault::None;
+  const std::string text = good ? "the pictures are good again" : picture_sentence(fault);
+  log_event({.part = "camera", .event = to_string(fault)}, good ? spdlog::level::info : spdlog::level::warn,
+            text);
+  if (recorder_) recorder_->record_text(tick.input.now_ns, text);
 }
 
 void Telemetry::take(const Event& event) {

@@ -70,6 +70,7 @@ class Telemetry {
   void take_state(const TickRecord& tick, bool first);
   void take_brakes(const TickRecord& tick);
   void take_measurement(const TickRecord& tick);
+  void take_picture(const TickRecord& tick);
   void take(const Event& event);
   void take_texts();
   void log_losses(TimeNs now_ns);
@@ -109,6 +110,7 @@ class Telemetry {
   TimeNs t_hold_logged_ns_ = 0;
   std::uint32_t template_in_use_ = 0;
   std::string logged_refusal_;  // the last one: a frame refused for another reason is logged again
+  PictureFault picture_fault_ = PictureFault::None;  // logged last
   double logged_brakes_m_s2_ = std::numeric_limits<double>::infinity();
   TimeNs t_refusal_logged_ns_ = 0;
   std::uint64_t texts_lost_ = 0;

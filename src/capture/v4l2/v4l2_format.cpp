@@ -62,6 +62,12 @@ bool is_offered(const std::vector<std::uint32_t>& offered, PixelFormat format) {
   return false;
 }
 
+/// The rows of two fields in turn; the analogue cameras of a frame grabber.
+bool is_interlaced(std::uint32_t field) {
+  return field == V4L2_FIELD_INTERLACED || field == V4L2_FIELD_INTERLACED_TB ||
+         field == V4L2_FIELD_INTERLACED_BT;
+}
+
 /// S_FMT. True: the device has set exactly what was requested.
 bool set_format(V4l2Device& device, const CameraConfig& config, PixelFormat wanted, V4l2Setup& setup) {
   setup.busy = false;
@@ -90,8 +96,11 @@ bool set_format(V4l2Device& device, const CameraConfig& config, PixelFormat want
         requested, given.width, given.height, fourcc_text(given.pixelformat));
     return false;
   }
-  if (given.field != V4L2_FIELD_NONE && given.field != V4L2_FIELD_ANY) {
-    setup.problem = fmt::format("gives interlaced images at {} (expected a progressive camera)", requested);
+  setup.interlaced = is_interlaced(given.field);
+  if (!setup.interlaced && given.field != V4L2_FIELD_NONE && given.field != V4L2_FIELD_ANY) {
+    setup.problem = fmt::format(
+        "gives single or separate fields at {} (expected whole frames, progressive or interlaced)",
+        requested);
     return false;
   }
   setup.format = wanted;

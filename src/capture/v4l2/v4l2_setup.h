@@ -23,6 +23,7 @@ struct V4l2Setup {
   std::uint32_t width_px = 0;
   std::uint32_t height_px = 0;
   std::uint32_t stride_bytes = 0;  ///< 0 for MJPG
+  bool interlaced = false;         ///< a frame holds two fields of different times, row by row in turn
   double rate_hz = 0.0;            ///< 0: unknown to the device
   double exposure_s = 0.0;         ///< fixed exposure as read back; 0: automatic
   std::string card;                ///< the device's own name

@@ -107,6 +107,7 @@ OpenResult V4l2Source::open_device(const std::vector<PixelFormat>& without) {
   if (setup_.rate_hz < 0.9 * config_.rate_hz || setup_.rate_hz > 1.1 * config_.rate_hz) {
     description_ += fmt::format(" (requested: {:.4g} Hz)", config_.rate_hz);
   }
+  if (setup_.interlaced) description_ += ", interlaced: every second row is used";
   if (!setup_.controls.empty()) description_ += ", " + setup_.controls;
   return OpenResult::Opened;
 }
@@ -128,7 +129,8 @@ OpenResult V4l2Source::start_streaming() {
   streaming_ = true;
   sequence_.restart();
   stall_.opened(monotonic_now_ns());
-  converter_.configure(setup_.format, setup_.width_px, setup_.height_px, setup_.stride_bytes);
+  converter_.configure(setup_.format, setup_.width_px, setup_.height_px, setup_.stride_bytes,
+                       setup_.interlaced);
   return OpenResult::Opened;
 }
 

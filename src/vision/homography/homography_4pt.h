@@ -7,8 +7,12 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 
 namespace heel {
+
+/// The fewest pairs that determine a homography.
+inline constexpr std::size_t kHomographyPairs = 4;
 
 /// False if the sample cannot be four points of one visible plane: three of them lie (nearly) on a line in
 /// one view, or a triangle changes its orientation between the views. (An opaque plane is never mirrored, and

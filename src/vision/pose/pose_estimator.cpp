@@ -9,6 +9,7 @@
 #include <span>
 
 #include "heel/motion.h"
+#include "vision/homography/homography_4pt.h"
 #include "vision/matching/template_matcher.h"
 #include "vision/pose/back_pose_selector.h"
 #include "vision/pose/frame_features.h"
@@ -22,7 +23,6 @@
 namespace heel {
 namespace {
 
-constexpr std::size_t kHomographyPairs = 4;  // the fewest that determine a homography
 // So few supporting pairs are no detection, but enough of a hint to search their place again, upsampled.
 constexpr std::uint32_t kMinInliersForUpsampling = 5;
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 
+#include "vision/homography/homography_4pt.h"
 #include "vision/homography/shape_plausibility.h"
 #include "vision/matching/guided_matcher.h"
 
@@ -15,7 +16,6 @@ constexpr double kReliableCertainty = 0.1;  // of the paper: following may start
 constexpr double kComparableShare = 0.5;
 // The outline under H is that of a plane: a turned back extends farther, and its print beyond the region.
 constexpr double kOutlineMargin = 1.3;
-constexpr std::size_t kHomographyPairs = 4;  // the fewest that determine a homography
 
 /// The outline in the frame, larger by the margin.
 Outline place_of(const Eigen::Matrix3d& H_cur_from_ref, const Outline& outline_ref_px) {

@@ -52,7 +52,13 @@ void TemplateSelector::measure(StageTimes* times) {
 }
 
 PoseEstimate TemplateSelector::estimate(const FrameView& frame) {
-  if (!tracking_) return estimate_alone(frame);
+  PoseEstimate pose = tracking_ ? estimate_in_turn(frame) : estimate_alone(frame);
+  pose.picture = picture_monitor_.update(frame);
+  return pose;
+}
+
+/// The current template first; where it is not found, one other.
+PoseEstimate TemplateSelector::estimate_in_turn(const FrameView& frame) {
   PoseEstimate pose = estimate_with(current_, frame);
   // A frame that shows two persons does not say which of them another template would find.
   if (!pose.found() && pose.reason != PoseReason::Ambiguous && trackers_.size() > 1)

@@ -18,6 +18,7 @@
 #include "heel/shirt_template.h"
 #include "heel/stage_times.h"
 #include "heel/vision_config.h"
+#include "vision/picture/picture_monitor.h"
 #include "vision/pose/pose_of_back.h"
 
 namespace heel {
@@ -39,12 +40,14 @@ class TemplateSelector {
   void measure(StageTimes* times);
 
  private:
+  PoseEstimate estimate_in_turn(const FrameView& frame);
   PoseEstimate estimate_alone(const FrameView& frame);
   PoseEstimate estimate_with(std::size_t index, const FrameView& frame);
   PoseEstimate try_another(const FrameView& frame, const PoseEstimate& refused);
   bool takes_over(const PoseEstimate& pose) const;
 
   bool tracking_;
+  PictureMonitor picture_monitor_;
   std::vector<PoseTracker> trackers_;     // one for each template
   std::vector<PoseOfBack> pose_of_back_;  // the same
   std::size_t current_ = 0, next_ = 0;

@@ -89,9 +89,23 @@ TEST_F(V4l2SetupTest, MissingCapabilitiesAreRefusedByName) {
 TEST_F(V4l2SetupTest, FormatsThatHeelCannotReadAreListed) {
   camera_.formats = {V4L2_PIX_FMT_H264, V4L2_PIX_FMT_SBGGR8};
   expect_refused("offers H264, BA81", "expected one of GREY, NV12, YUYV, RGB3, BGR3, MJPG");
+}
+
+TEST_F(V4l2SetupTest, FieldsInOneFrameAreTakenSeparateOnesRefused) {
   camera_.formats = {V4L2_PIX_FMT_YUYV};
-  camera_.field = V4L2_FIELD_INTERLACED;
-  expect_refused("interlaced");
+  for (const std::uint32_t field :
+       {V4L2_FIELD_INTERLACED, V4L2_FIELD_INTERLACED_TB, V4L2_FIELD_INTERLACED_BT}) {
+    camera_.field = field;
+    const V4l2Setup setup = set_up();
+    EXPECT_TRUE(setup.complete) << setup.problem;
+    EXPECT_TRUE(setup.interlaced);
+  }
+  camera_.field = V4L2_FIELD_NONE;
+  EXPECT_FALSE(set_up().interlaced);
+  for (const std::uint32_t field : {V4L2_FIELD_ALTERNATE, V4L2_FIELD_TOP, V4L2_FIELD_SEQ_TB}) {
+    camera_.field = field;
+    expect_refused("gives single or separate fields at 8x4 YUYV", "expected whole frames");
+  }
 }
 
 TEST_F(V4l2SetupTest, ADeviceWhoseRateCannotBeSetKeepsItsOwn) {
