@@ -13,6 +13,9 @@ if(MOLD_PROGRAM AND HEEL_BUILD_TESTS AND NOT CMAKE_CROSSCOMPILING)
   add_link_options(-fuse-ld=mold)
 endif()
 
+# A program loads the libraries that it calls, and not all that its rooms may use.
+add_link_options(-Wl,--as-needed)
+
 add_library(heel_options INTERFACE)
 target_compile_options(heel_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Werror

@@ -85,6 +85,16 @@ cv::Mat decode_jpeg(ByteView file, std::string& problem) {
   return {};
 }
 
+cv::Mat picture_in_png(ByteView file, int& significant_bits, std::string& problem) {
+  PngPicture picture = decode_png(file);
+  significant_bits = picture.significant_bits;
+  problem = picture.problem;
+  if (picture.bytes.empty()) return {};
+  return cv::Mat(static_cast<int>(picture.height_px), static_cast<int>(picture.width_px),
+                 picture.deep ? CV_16U : CV_8U, picture.bytes.data())
+      .clone();
+}
+
 /// Makes std::cerr silent for as long as it lives: there OpenCV prints what it cannot decode, and heel prints
 /// one line for an error. heel itself prints to stderr, not to std::cerr, while it decodes. One thread at a
 /// time.
@@ -144,7 +154,7 @@ GreyImage decode_bytes(std::string& bytes, int least_white) {
   if (is_jpeg(file)) {
     raw = decode_jpeg(file, image.problem);
   } else if (is_png(file)) {
-    raw = decode_png(file, significant_bits, image.problem);
+    raw = picture_in_png(file, significant_bits, image.problem);
   } else if (is_for_opencv(file)) {
     raw = decode_by_opencv(bytes, file);
   }

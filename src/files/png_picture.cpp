@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csetjmp>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 namespace heel {
@@ -18,10 +19,8 @@ constexpr std::size_t kMaxPngPixels = std::size_t{1} << 27;
 struct PngReading {
   ByteView file;
   std::size_t at = 0;
-  std::string problem;
-  cv::Mat grey;
+  PngPicture picture;
   std::vector<png_bytep> rows;
-  int significant_bits = 0;
 };
 
 void read_bytes(png_structp png, png_bytep out, std::size_t count) {
@@ -32,7 +31,7 @@ void read_bytes(png_structp png, png_bytep out, std::size_t count) {
 }
 
 [[noreturn]] void keep_error(png_structp png, png_const_charp text) {
-  static_cast<PngReading*>(png_get_error_ptr(png))->problem = text;
+  static_cast<PngReading*>(png_get_error_ptr(png))->picture.problem = text;
   png_longjmp(png, 1);
 }
 
@@ -59,25 +58,27 @@ int stated_bits(png_structp png, png_infop info) {
 
 /// All of it between setjmp and longjmp, so that it has no object with a destructor.
 void read_all(png_structp png, png_infop info, PngReading& reading) {
+  PngPicture& picture = reading.picture;
   png_read_info(png, info);
-  const png_uint_32 width_px = png_get_image_width(png, info), height_px = png_get_image_height(png, info);
-  if (std::size_t{width_px} * height_px > kMaxPngPixels) png_error(png, "too large");
-  const bool deep = png_get_bit_depth(png, info) == 16;
-  reading.significant_bits = stated_bits(png, info);
+  picture.width_px = png_get_image_width(png, info);
+  picture.height_px = png_get_image_height(png, info);
+  if (std::size_t{picture.width_px} * picture.height_px > kMaxPngPixels) png_error(png, "too large");
+  picture.deep = png_get_bit_depth(png, info) == 16;
+  picture.significant_bits = stated_bits(png, info);
   set_transformations(png, info);
-  reading.grey.create(static_cast<int>(height_px), static_cast<int>(width_px), deep ? CV_16U : CV_8U);
-  if (png_get_rowbytes(png, info) != reading.grey.cols * reading.grey.elemSize())
-    png_error(png, "unknown kind of pixels");
-  reading.rows.resize(height_px);
-  for (png_uint_32 y = 0; y < height_px; ++y) reading.rows[y] = reading.grey.ptr(static_cast<int>(y));
+  const std::size_t row_bytes = std::size_t{picture.width_px} * (picture.deep ? 2 : 1);
+  if (png_get_rowbytes(png, info) != row_bytes) png_error(png, "unknown kind of pixels");
+  picture.bytes.resize(row_bytes * picture.height_px);
+  reading.rows.resize(picture.height_px);
+  for (std::size_t y = 0; y < picture.height_px; ++y) reading.rows[y] = picture.bytes.data() + y * row_bytes;
   png_read_image(png, reading.rows.data());
   png_read_end(png, nullptr);
 }
 
 }  // namespace
 
-cv::Mat decode_png(ByteView file, int& significant_bits, std::string& problem) {
-  PngReading reading{file, 0, "", {}, {}, 0};
+PngPicture decode_png(ByteView file) {
+  PngReading reading{file, 0, {}, {}};
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reading, keep_error, ignore_warning);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
   if (info != nullptr) {
@@ -85,13 +86,11 @@ cv::Mat decode_png(ByteView file, int& significant_bits, std::string& problem) {
     if (setjmp(png_jmpbuf(png)) == 0) {
       read_all(png, info, reading);
     } else {
-      reading.grey.release();
+      reading.picture.bytes.clear();
     }
   }
   png_destroy_read_struct(&png, &info, nullptr);
-  significant_bits = reading.significant_bits;
-  problem = reading.problem;
-  return reading.grey;
+  return std::move(reading.picture);
 }
 
 }  // namespace heel

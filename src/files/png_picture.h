@@ -2,16 +2,22 @@
 #pragma once
 
 #include <cstdint>
-#include <opencv2/core/mat.hpp>
-#include <span>
 #include <string>
+#include <vector>
 
 #include "files/byte_view.h"
 
 namespace heel {
 
-/// The picture as stored, grey: CV_8U, or CV_16U with the values of the file. Empty: damaged or cut short;
-/// `problem` says how. `significant_bits`: of the values, by the file's sBIT chunk; 0 when it has none.
-cv::Mat decode_png(ByteView file, int& significant_bits, std::string& problem);
+/// A picture as stored, grey. No bytes: damaged or cut short; `problem` says how.
+struct PngPicture {
+  std::uint32_t width_px = 0, height_px = 0;
+  bool deep = false;  ///< two bytes a value, in this machine's order, with the values of the file; else one
+  int significant_bits = 0;         ///< of the values, by the file's sBIT chunk; 0 when it has none
+  std::vector<std::uint8_t> bytes;  ///< row-major without gaps
+  std::string problem;
+};
+
+PngPicture decode_png(ByteView file);
 
 }  // namespace heel

@@ -22,11 +22,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "files/atomic_file.h"
+#include "files/grey_encoder.h"
+#include "files/png_picture.h"
 #include "files/template_header.h"
 #include "heel/error.h"
 #include "heel/shirt_template.h"
@@ -103,24 +105,18 @@ void validate(const ShirtTemplate& shirt, const std::string& path) {
 }
 
 std::string png_of(const std::vector<std::uint8_t>& image, const CameraModel& camera) {
-  const cv::Mat grey(camera.height_px, camera.width_px, CV_8UC1, const_cast<std::uint8_t*>(image.data()));
-  std::vector<std::uint8_t> png;
-  cv::imencode(".png", grey, png);
-  return {png.begin(), png.end()};
+  return png_of_grey(packed_grey(image.data(), camera.width_px, camera.height_px));
 }
 
-std::vector<std::uint8_t> decode_png(std::string_view png, const std::string& path,
-                                     const CameraModel& camera) {
-  cv::Mat grey;
-  try {
-    const cv::Mat bytes(1, static_cast<int>(png.size()), CV_8UC1, const_cast<char*>(png.data()));
-    if (!png.empty()) grey = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
-  } catch (const cv::Exception&) {
-    grey.release();
-  }
-  require(grey.cols == camera.width_px && grey.rows == camera.height_px, path, "image",
+std::vector<std::uint8_t> pixels_of(std::string_view png, const std::string& path,
+                                    const CameraModel& camera) {
+  PngPicture picture = decode_png({reinterpret_cast<const std::uint8_t*>(png.data()), png.size()});
+  require(!picture.bytes.empty() && !picture.deep &&
+              picture.width_px == static_cast<std::uint32_t>(camera.width_px) &&
+              picture.height_px == static_cast<std::uint32_t>(camera.height_px),
+          path, "image",
           fmt::format("a PNG of the camera's {}x{} pixels", camera.width_px, camera.height_px));
-  return {grey.datastart, grey.dataend};
+  return std::move(picture.bytes);
 }
 
 /// The reference view's picture, then those of the further views.
@@ -131,9 +127,9 @@ void decode_images(std::string_view images, const std::vector<std::size_t>& furt
     require(bytes <= left, path, "further_views: image_bytes", "no more than the file has");
     left -= bytes;
   }
-  shirt.grey = decode_png(images.substr(0, left), path, shirt.camera);
+  shirt.grey = pixels_of(images.substr(0, left), path, shirt.camera);
   for (std::size_t i = 0; i < further_bytes.size(); ++i) {
-    shirt.further_views[i].grey = decode_png(images.substr(left, further_bytes[i]), path, shirt.camera);
+    shirt.further_views[i].grey = pixels_of(images.substr(left, further_bytes[i]), path, shirt.camera);
     left += further_bytes[i];
   }
 }

@@ -4,9 +4,12 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
+#include <utility>
 
+#include "files/byte_view.h"
+#include "files/grey_encoder.h"
+#include "files/jpeg_decoder.h"
+#include "files/png_picture.h"
 #include "heel/error.h"
 
 namespace heel {
@@ -15,7 +18,6 @@ namespace {
 using PictureJson = nlohmann::ordered_json;
 
 constexpr int kJpegQuality = 85;
-constexpr int kPngEffort = 1;  // of 9: more takes three times as long for a tenth less
 
 constexpr std::string_view kBase64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
@@ -50,28 +52,41 @@ std::string from_base64(std::string_view text) {
   return bytes;
 }
 
+/// Empty: it is no whole PNG of 8 bits and of that size.
+std::vector<std::uint8_t> pixels_in_png(ByteView file, const FrameHeader& header) {
+  PngPicture png = decode_png(file);
+  if (png.deep || png.width_px != header.width_px || png.height_px != header.height_px) return {};
+  return std::move(png.bytes);
+}
+
+/// Empty: it is no whole JPEG of that size.
+std::vector<std::uint8_t> pixels_in_jpeg(ByteView file, const FrameHeader& header) {
+  JpegDecoder decoder;
+  std::uint32_t width_px = 0, height_px = 0;
+  if (!decoder.read_size(file.data(), file.size(), width_px, height_px) || width_px != header.width_px ||
+      height_px != header.height_px)
+    return {};
+  std::vector<std::uint8_t> pixels(std::size_t{width_px} * height_px);
+  if (!decoder.decode(file.data(), file.size(), width_px, height_px, pixels.data())) return {};
+  return pixels;
+}
+
 }  // namespace
 
 RecordedPicture compressed_picture(const FrameView& frame, bool lossless) {
-  const cv::Mat grey(static_cast<int>(frame.header.height_px), static_cast<int>(frame.header.width_px), CV_8U,
-                     const_cast<std::uint8_t*>(frame.grey), frame.stride_bytes);
-  const std::vector<int> options = lossless ? std::vector<int>{cv::IMWRITE_PNG_COMPRESSION, kPngEffort}
-                                            : std::vector<int>{cv::IMWRITE_JPEG_QUALITY, kJpegQuality};
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(lossless ? ".png" : ".jpg", grey, bytes, options))
-    throw Error(fmt::format("frame {}: cannot be compressed", frame.header.sequence));
-  return {frame.header, lossless ? "png" : "jpeg", std::string(bytes.begin(), bytes.end())};
+  return {frame.header, lossless ? "png" : "jpeg",
+          lossless ? png_of_grey(frame) : jpeg_of_grey(frame, kJpegQuality)};
 }
 
 std::vector<std::uint8_t> picture_pixels(const RecordedPicture& picture) {
-  const cv::Mat bytes(1, static_cast<int>(picture.bytes.size()), CV_8U,
-                      const_cast<char*>(picture.bytes.data()));
-  const cv::Mat grey = picture.bytes.empty() ? cv::Mat() : cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
-  if (grey.cols != static_cast<int>(picture.header.width_px) ||
-      grey.rows != static_cast<int>(picture.header.height_px))
-    throw Error(fmt::format("frame {}: no {} picture of {}×{} pixels", picture.header.sequence,
-                            picture.format, picture.header.width_px, picture.header.height_px));
-  return {grey.datastart, grey.dataend};
+  const FrameHeader& header = picture.header;
+  const ByteView file(reinterpret_cast<const std::uint8_t*>(picture.bytes.data()), picture.bytes.size());
+  std::vector<std::uint8_t> pixels =
+      picture.format == "png" ? pixels_in_png(file, header) : pixels_in_jpeg(file, header);
+  if (pixels.empty())
+    throw Error(fmt::format("frame {}: no {} picture of {}×{} pixels", header.sequence, picture.format,
+                            header.width_px, header.height_px));
+  return pixels;
 }
 
 void append_picture_json(std::string& json, const RecordedPicture& picture, TimeNs t_log_ns) {

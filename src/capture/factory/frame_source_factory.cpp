@@ -1,8 +1,7 @@
 #include "capture/factory/frame_source_factory.h"
 
+#include "capture/factory/camera_module.h"
 #include "capture/factory/source_address.h"
-#include "capture/file/file_source.h"
-#include "capture/libcamera/libcamera_source.h"
 #include "capture/shared_memory/sim_source.h"
 #include "capture/turned/turned_source.h"
 #include "capture/v4l2/v4l2_source.h"
@@ -17,7 +16,7 @@ std::unique_ptr<FrameSource> make_untouched(const CameraConfig& config) {
   const SourceAddress address = parse_source_address(config.source);
   switch (address.kind) {
     case SourceKind::File:
-      return std::make_unique<FileSource>(address.rest, config.rate_hz, config.file_speed);
+      return source_of_module("file", address.rest, config);
     case SourceKind::Sim:
       return std::make_unique<SimSource>(address.rest);
     case SourceKind::V4l2:
@@ -26,7 +25,7 @@ std::unique_ptr<FrameSource> make_untouched(const CameraConfig& config) {
       break;
   }
 #ifdef HEEL_HAVE_LIBCAMERA
-  return std::make_unique<LibcameraSource>(address.rest, config);
+  return source_of_module("libcamera", address.rest, config);
 #else
   throw Error("camera address '" + config.source +
               "': this program was built without libcamera (expected v4l2:PATH, file:PATH or sim:NAME)");
