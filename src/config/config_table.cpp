@@ -199,6 +199,9 @@ const ConfigKey kKeys[] = {
     number(HEEL_KEY(runtime, priority_control), "", {1, 98}, No, "SCHED_FIFO priority of the control thread."),
     number(HEEL_KEY(runtime, priority_capture), "", {1, 98}, No, "SCHED_FIFO priority of the capture thread."),
     number(HEEL_KEY(runtime, priority_vision), "", {1, 98}, No, "SCHED_FIFO priority of the vision thread."),
+    number(HEEL_KEY(runtime, core_control), "", {-1, 1023}, No, "Processor core of the control thread, for machines with cores set aside (isolcpus); -1: any."),
+    number(HEEL_KEY(runtime, core_capture), "", {-1, 1023}, No, "Processor core of the capture thread; -1: any."),
+    number(HEEL_KEY(runtime, core_vision), "", {-1, 1023}, No, "Processor core of the vision thread; -1: any."),
 };
 // clang-format on
 

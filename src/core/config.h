@@ -146,6 +146,10 @@ struct RuntimeConfig {
   int priority_control = 60;
   int priority_capture = 50;
   int priority_vision = 40;
+  // The processor core that the thread runs on alone; −1: any.
+  int core_control = -1;
+  int core_capture = -1;
+  int core_vision = -1;
 };
 
 struct Config {

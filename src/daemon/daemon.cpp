@@ -105,6 +105,7 @@ class Daemon {
 
 // Load.
 int run_daemon(const std::string& config_path) {
+  prepare_process_memory();
   LoadedConfig loaded = load_config(config_path);
   // Before anything that starts a thread (logging and OpenCV do): a thread that does not block SIGTERM would
   // receive it, and the process would end with the wheels turning.

@@ -9,6 +9,10 @@ namespace heel {
 namespace {
 
 void log_entry(const ThreadPlan& plan, const ThreadEntry& entry) {
+  if (entry.core_error != 0) {
+    spdlog::warn("thread {}: processor core {} refused ({}); it runs on any core; see runtime.core_{}",
+                 plan.name, plan.core, std::strerror(entry.core_error), plan.name + std::strlen("heel-"));
+  }
   if (entry.realtime) {
     spdlog::debug("thread {}: real-time priority {} granted", plan.name, plan.priority);
   } else if (entry.error != 0) {

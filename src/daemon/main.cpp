@@ -9,6 +9,7 @@
 #include "control/state_manual.h"
 #include "daemon/check.h"
 #include "daemon/daemon.h"
+#include "daemon/thread_table.h"
 
 namespace {
 
@@ -25,6 +26,7 @@ struct Options {
   bool print_default_config = false;
   bool print_config_manual = false;
   bool print_state_manual = false;
+  bool print_threads = false;
 };
 
 /// A command line that cannot be used, in one line on standard error.
@@ -50,6 +52,10 @@ int run(const Options& options) {
   }
   if (options.print_state_manual) {
     std::fputs(heel::state_manual_text().c_str(), stdout);
+    return 0;
+  }
+  if (options.print_threads) {
+    std::fputs(heel::thread_table_text({}).c_str(), stdout);
     return 0;
   }
   if (options.check) {
@@ -79,6 +85,8 @@ int run(int argc, char** argv) {
                               "Print the manual of all keys (docs/configuration.md), and exit");
   auto* states = app.add_flag("--print-state-manual", options.print_state_manual,
                               "Print the tables of the supervisor (in docs/safety.md), and exit");
+  auto* threads = app.add_flag("--print-threads", options.print_threads,
+                               "Print the table of threads (in docs/real-time.md), and exit");
   app.footer(
       "Exit status: 0 done, or stopped by a signal; 1 an error while running; 64 the command line cannot\n"
       "be used; 78 the configuration or a file that it names cannot be used, or none is given.");
@@ -91,7 +99,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return refuse(error.what());
   }
-  if (config->count() + print->count() + manual->count() + states->count() == 0) {
+  if (config->count() + print->count() + manual->count() + states->count() + threads->count() == 0) {
     std::fputs(
         "heeld: no configuration; expected --config FILE (heeld --print-default-config prints an example)\n",
         stderr);

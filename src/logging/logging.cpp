@@ -13,6 +13,7 @@
 
 #include "heel/error.h"
 #include "logging/journal_sink.h"
+#include "realtime/schedule.h"
 
 namespace heel {
 
@@ -50,7 +51,7 @@ std::unique_ptr<spdlog::formatter> make_terminal_formatter() {
 
 void start_logging(const std::string& level) {
   const spdlog::level::level_enum parsed = parse_level(level);
-  spdlog::init_thread_pool(kQueuedMessages, 1);
+  spdlog::init_thread_pool(kQueuedMessages, 1, [] { name_thread(ThreadRole::Log); });
   // When the reader of standard error is too slow, the oldest messages are dropped and no thread waits.
   auto logger = std::make_shared<spdlog::async_logger>("heel", make_sink(), spdlog::thread_pool(),
                                                        spdlog::async_overflow_policy::overrun_oldest);

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <utility>
 
+#include "realtime/schedule.h"
+
 namespace heel {
 
 LinkConnector::LinkConnector(RobotAddress address, TimeNs pause_ns)
@@ -33,6 +35,7 @@ std::string LinkConnector::last_note() const {
 }
 
 void LinkConnector::run() {
+  name_thread(ThreadRole::Link);
   while (!quit_.load()) {
     const Owner owner = owner_.load(std::memory_order_acquire);
     if (owner == Owner::None || owner == Owner::Caller) {

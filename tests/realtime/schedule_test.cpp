@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <set>
 #include <string>
@@ -39,6 +40,24 @@ TEST(Schedule, RowsFollowTheConfiguration) {
       << "telemetry writes to disk and formats text";
   EXPECT_EQ(plan_of(schedule, ThreadRole::Operator).priority, 0) << "its load comes from outside";
   EXPECT_EQ(plan_of(schedule, ThreadRole::Settings).priority, 0) << "it waits for the disk";
+}
+
+TEST(Schedule, CoresFollowTheConfigurationAndAreAnyByDefault) {
+  for (const ThreadPlan& plan : make_schedule(Config{})) EXPECT_EQ(plan.core, -1) << plan.name;
+  Config config;
+  config.runtime.core_control = 3;
+  config.runtime.core_capture = 2;
+  config.runtime.core_vision = 1;
+  const Schedule schedule = make_schedule(config);
+  EXPECT_EQ(plan_of(schedule, ThreadRole::Control).core, 3);
+  EXPECT_EQ(plan_of(schedule, ThreadRole::Capture).core, 2);
+  EXPECT_EQ(plan_of(schedule, ThreadRole::Vision).core, 1);
+}
+
+TEST(Schedule, RowsStandInTheOrderOfTheirRoles) {
+  const Schedule schedule = make_schedule(Config{});
+  for (std::size_t i = 0; i < schedule.size(); ++i)
+    EXPECT_EQ(static_cast<std::size_t>(schedule[i].role), i) << schedule[i].name;
 }
 
 TEST(Schedule, NamesAreDistinctAndFitTheKernelsFifteenCharacters) {
@@ -120,6 +139,19 @@ TEST(EnterThread, ARefusalIsReportedAndTheThreadKeepsOrdinaryScheduling) {
   EXPECT_EQ(entered.entry.error, EPERM);
   EXPECT_EQ(entered.policy, SCHED_OTHER);
   EXPECT_EQ(entered.name, "heel-control");
+}
+
+TEST(EnterThread, HasItsCoreAlone) {
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  ThreadEntry entry;
+  std::jthread([&] {
+    entry = enter_thread({.role = ThreadRole::Vision, .name = "heel-vision", .core = 0}, true);
+    sched_getaffinity(0, sizeof cores, &cores);
+  }).join();
+  EXPECT_EQ(entry.core_error, 0);
+  EXPECT_EQ(CPU_COUNT(&cores), 1);
+  EXPECT_TRUE(CPU_ISSET(0, &cores));
 }
 
 TEST(EnterThread, APriorityThatDoesNotExistIsRefused) {

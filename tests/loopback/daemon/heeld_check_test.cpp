@@ -142,11 +142,12 @@ TEST(HeeldCheck, HelpStatesTheExitStatuses) {
 
 TEST(HeeldCheck, PrintsTheCommittedExampleAndManual) {
   const Outcome example = heeld({"--print-default-config"}), manual = heeld({"--print-config-manual"}),
-                states = heeld({"--print-state-manual"});
+                states = heeld({"--print-state-manual"}), threads = heeld({"--print-threads"});
   EXPECT_EQ(example.out, read_text(source_path("config/heel.toml")));
   EXPECT_EQ(manual.out, read_text(source_path("docs/configuration.md")));
   EXPECT_THAT(read_text(source_path("docs/safety.md")), HasSubstr(states.out));
-  for (const Outcome& outcome : {example, manual, states}) {
+  EXPECT_THAT(read_text(source_path("docs/real-time.md")), HasSubstr(threads.out));
+  for (const Outcome& outcome : {example, manual, states, threads}) {
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.err, "");
     EXPECT_GT(outcome.out.size(), 1000u);
