@@ -41,6 +41,7 @@ void add_experiment_command(CLI::App& app);
 void add_fit_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_bench_vision_command(CLI::App& bench);
+void add_bench_daemon_command(CLI::App& bench);
 void add_status_command(CLI::App& app);
 void add_start_command(CLI::App& app);
 void add_stop_command(CLI::App& app);
