@@ -5,6 +5,7 @@
 
 #include "realtime/clock.h"
 #include "realtime/futex.h"
+#include "realtime/hot_section.h"
 
 namespace heel {
 
@@ -62,9 +63,15 @@ void CaptureLoop::pause() {
   pause_ns_ = std::min(2 * pause_ns_, settings_.reopen_longest_ns);
 }
 
+/// Opening and closing may allocate; a frame may not.
+FrameResult CaptureLoop::wait_frame(FrameView& frame) {
+  const HotSection hot;
+  return source_.wait_frame(settings_.wait_ns, frame);
+}
+
 void CaptureLoop::take_frame() {
   FrameView frame;
-  const FrameResult result = source_.wait_frame(settings_.wait_ns, frame);
+  const FrameResult result = wait_frame(frame);
   dropped_by_driver_.store(source_.counters().dropped_by_driver + source_.counters().corrupt,
                            std::memory_order_relaxed);
   switch (result) {
@@ -94,6 +101,7 @@ void CaptureLoop::take_frame() {
 }
 
 void CaptureLoop::publish(const FrameView& frame) {
+  const HotSection hot;
   const FrameHeader& header = frame.header;
   const bool right_size =
       header.width_px == frames_.max_width_px() && header.height_px == frames_.max_height_px();

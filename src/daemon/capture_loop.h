@@ -45,6 +45,7 @@ class CaptureLoop {
   bool stopping() const { return stop_.load(std::memory_order_acquire) != 0; }
   void try_open();
   void pause();
+  FrameResult wait_frame(FrameView& frame);
   void take_frame();
   void publish(const FrameView& frame);
   void restart_stream();

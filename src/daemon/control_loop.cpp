@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "models/robot_models.h"
+#include "realtime/hot_section.h"
 #include "robot/session_event_text.h"
 
 namespace heel {
@@ -21,6 +22,7 @@ ControlLoop::ControlLoop(const Config& config, Mailbox<PoseEstimate>& poses, Tel
       queues_(queues) {}
 
 void ControlLoop::run() {
+  const HotSection hot;
   deadline_.restart(monotonic_now_ns());
   while (!stop_.load(std::memory_order_relaxed)) {
     const TimeNs lateness_ns = wait_for_tick();

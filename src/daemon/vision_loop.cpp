@@ -1,6 +1,7 @@
 #include "daemon/vision_loop.h"
 
 #include "realtime/clock.h"
+#include "realtime/hot_section.h"
 
 namespace heel {
 
@@ -18,6 +19,7 @@ VisionLoop::VisionLoop(FrameTripleBuffer& frames, TemplateSelector& templates,
       pictures_(pictures) {}
 
 void VisionLoop::run() {
+  const HotSection hot;
   while (!stop_.load(std::memory_order_relaxed)) {
     if (!frames_.wait(kLongestWait_ns)) continue;
     const FrameView* frame = frames_.take();
