@@ -11,6 +11,8 @@ find_package(ZLIB REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(PNG REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # headers only: Beast and Asio
+find_package(prometheus-cpp REQUIRED)
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 pkg_check_modules(SERIALPORT REQUIRED IMPORTED_TARGET libserialport)
 # FFmpeg's libraries: OpenCV's reader of videos loses time stamps and display matrices.

@@ -31,12 +31,14 @@ std::string resolved_address(const std::string& address, const fs::path& folder)
 
 void resolve_paths(Config& config, const fs::path& folder) {
   for (const auto& key : config_keys()) {
-    if (auto* const* list = std::get_if<std::vector<std::string>* (*)(Config&)>(&key.field))
+    auto* const* list = std::get_if<std::vector<std::string>* (*)(Config&)>(&key.field);
+    if (list && key.text == ConfigText::Path)
       for (std::string& path : *(*list)(config)) path = resolved_path(path, folder);
     auto* const* field = std::get_if<std::string* (*)(Config&)>(&key.field);
-    if (!field || key.text == ConfigText::Choice) continue;
+    if (!field) continue;
     std::string& value = *(*field)(config);
-    value = key.text == ConfigText::Path ? resolved_path(value, folder) : resolved_address(value, folder);
+    if (key.text == ConfigText::Path) value = resolved_path(value, folder);
+    if (key.text == ConfigText::Address) value = resolved_address(value, folder);
   }
 }
 

@@ -1,8 +1,12 @@
 #include "config/config_reader.h"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
+#include <netinet/in.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -18,12 +22,39 @@ bool is_choice(std::string_view text, std::string_view choices) {
   return std::find(known.begin(), known.end(), text) != known.end();
 }
 
+/// 127.0.0.1:8080 or [::1]:8080; empty: none.
+bool is_listen_address(std::string_view text) {
+  if (text.empty()) return true;
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) return false;
+  const std::string_view port_text = text.substr(colon + 1);
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(port_text.data(), port_text.data() + port_text.size(), port);
+  if (error != std::errc() || end != port_text.data() + port_text.size()) return false;
+  std::string host(text.substr(0, colon));
+  in6_addr address{};
+  if (!host.starts_with('[')) return inet_pton(AF_INET, host.c_str(), &address) == 1;
+  return host.ends_with(']') && inet_pton(AF_INET6, host.substr(1, host.size() - 2).c_str(), &address) == 1;
+}
+
+/// Of a host: letters, digits, hyphens and dots.
+bool is_host_name(std::string_view text) {
+  const auto fits = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.';
+  };
+  return !text.empty() && text.size() <= 253 && std::all_of(text.begin(), text.end(), fits);
+}
+
 bool text_is_valid(const ConfigKey& key, std::string_view text) {
   switch (key.text) {
     case ConfigText::Choice:
       return is_choice(text, key.choices);
     case ConfigText::Path:
       return true;
+    case ConfigText::Listen:
+      return is_listen_address(text);
+    case ConfigText::Name:
+      return is_host_name(text);
     case ConfigText::Address: {
       const auto colon = text.find(':');
       return colon != std::string_view::npos && colon + 1 < text.size() &&
@@ -70,7 +101,7 @@ class ValueSetter {
     std::vector<std::string> texts;
     for (const toml::node& value : *values) {
       const auto* text = value.as_string();
-      if (!text || text->get().empty()) return false;
+      if (!text || text->get().empty() || !text_is_valid(key_, text->get())) return false;
       texts.push_back(text->get());
     }
     *field(config_) = std::move(texts);

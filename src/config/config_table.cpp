@@ -53,6 +53,13 @@ constexpr ConfigKey paths(Name section, Name name, std::vector<std::string>* (*f
                           Name effect) {
   return {section, name, field, "", 0, most, ConfigText::Path, "", No, Tighter::None, effect};
 }
+constexpr ConfigKey names(Name section, Name name, std::vector<std::string>* (*field)(Config&), double most,
+                          Name effect) {
+  return {section, name, field, "", 0, most, ConfigText::Name, "", No, Tighter::None, effect};
+}
+constexpr ConfigKey listen_address(Name section, Name name, std::string* (*field)(Config&), Name effect) {
+  return {section, name, field, "", 0, 0, ConfigText::Listen, "", No, Tighter::None, effect};
+}
 constexpr ConfigKey address(Name section, Name name, std::string* (*field)(Config&), Name schemes,
                             Name effect) {
   return {section, name, field, "", 0, 0, ConfigText::Address, schemes, No, Tighter::None, effect};
@@ -69,6 +76,8 @@ constexpr ConfigSection kSections[] = {
     {"robot", "The line to the robot, and the limits set in the robot's own controller."},
     {"telemetry", "The recording of a run."},
     {"operator", "The commands of operators."},
+    {"view",
+     "The page for browsers, and what monitoring reads: docs/page.md. Off until there is an address."},
     {"runtime", "The process: log, start-up and real-time priorities."},
 };
 
@@ -192,6 +201,12 @@ const ConfigKey kKeys[] = {
 
     // "operator" is a word of C++: its member has another name.
     path("operator", "socket", [](Config& c) { return &c.operators.socket; }, "The local socket that `heel status`, `heel start` and the like connect to; the user and the group that heeld runs under may. With an empty name there is none, and with supervisor.start = \"operator\" the robot then never moves."),
+
+    listen_address(HEEL_KEY(view, address), "Where the page is served: 127.0.0.1:8080 for this computer alone (or a reverse proxy on it), 0.0.0.0:8080 for its networks; port 0 takes a free one, which the log names. With an empty text nothing is served."),
+    path(HEEL_KEY(view, token_file), "File with the token, at least 16 characters, that a browser must know to change anything; with an empty name the systemd credential view-token, when there is one. Without a token nothing can be changed over the network; an emergency stop needs none."),
+    names(HEEL_KEY(view, hosts), 16, "Names by which browsers may reach the page, besides IP addresses and localhost; a page under another name is refused."),
+    number(HEEL_KEY(view, picture_hz), "Hz", {0.1, 30}, No, "Largest rate of the pictures that the page shows. None is made while nobody looks."),
+    number(HEEL_KEY(view, picture_quality), "", {10, 95}, No, "Quality of these JPEG pictures."),
 
     choice(HEEL_KEY(runtime, log_level), "trace|debug|info|warn|error", Yes, "Lowest level of the messages that are logged."),
     choice(HEEL_KEY(runtime, ready_after), "all|robot|start", No, "When systemd receives READY: all is after the robot has answered and the first frame has come, robot is after the robot has answered, start is at once."),

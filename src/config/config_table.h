@@ -18,13 +18,15 @@ namespace heel {
 /// Where a key's value is stored; the alternative is also the type of the value.
 using ConfigField =
     std::variant<bool* (*)(Config&), int* (*)(Config&), double* (*)(Config&), std::string* (*)(Config&),
-                 std::vector<std::string>* (*)(Config&)>;  // the last one: paths
+                 std::vector<std::string>* (*)(Config&)>;  // the last one: paths or names
 
 /// What a text value holds.
 enum class ConfigText : std::uint8_t {
   Choice,   ///< one of `choices`
   Path,     ///< a file or folder; relative to the configuration file's folder
   Address,  ///< SCHEME:REST; a path after v4l2:, file:, serial: or pty: is relative as for Path
+  Listen,   ///< IP:PORT to listen at; empty: none
+  Name,     ///< of a host
 };
 
 enum class Reload : std::uint8_t {

@@ -66,6 +66,8 @@ std::string expected_value(const ConfigKey& key) {
   if (type == "bool") return "true or false";
   if (type == "path") return "a path in quotes";
   if (type == "paths") return fmt::format("at most {} paths in quotes, as [\"a\", \"b\"]", key.max);
+  if (type == "names") return fmt::format("at most {} names of hosts in quotes, as [\"a\", \"b\"]", key.max);
+  if (type == "listen") return "IP:PORT in quotes, as \"127.0.0.1:8080\", or \"\"";
   if (type == "address") return listed(key, ":…", " or ") + ", in quotes";
   if (type == "choice") return listed(key, "", " or ");
   return fmt::format("a {}number {}…{}{}{}", type == "int" ? "whole " : "", key.min, key.max,
@@ -77,6 +79,8 @@ std::string value_range(const ConfigKey& key) {
   if (type == "bool") return "true, false";
   if (type == "path") return "path";
   if (type == "paths") return fmt::format("{}…{} paths", key.min, key.max);
+  if (type == "names") return fmt::format("{}…{} names", key.min, key.max);
+  if (type == "listen") return "IP:PORT";
   if (type == "address") return listed(key, ":…", ", ");
   if (type == "choice") return listed(key, "", ", ");
   return fmt::format("{}…{}{}", key.min, key.max, type == "int" ? ", whole" : "");
@@ -91,7 +95,7 @@ std::string_view type_name(const ConfigKey& key) {
     case 2:
       return "real";
     case 4:
-      return "paths";
+      return key.text == ConfigText::Name ? "names" : "paths";
     default:
       break;
   }
@@ -102,6 +106,10 @@ std::string_view type_name(const ConfigKey& key) {
       return "path";
     case ConfigText::Address:
       return "address";
+    case ConfigText::Listen:
+      return "listen";
+    case ConfigText::Name:
+      return "name";
   }
   return "?";
 }

@@ -23,7 +23,7 @@ std::string expected_value(const ConfigKey& key);
 /// The same without words and unit, for a table: "0…10", "64…4096, whole", "true, false", "path".
 std::string value_range(const ConfigKey& key);
 
-/// "bool", "int", "real", "choice", "path", "address", "paths".
+/// "bool", "int", "real", "choice", "path", "address", "listen", "paths", "names".
 std::string_view type_name(const ConfigKey& key);
 
 /// The parts of "a|b|c".

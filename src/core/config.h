@@ -138,6 +138,14 @@ struct OperatorConfig {
   std::string socket = "/run/heel/control.sock";  ///< of the operators; empty: none
 };
 
+struct ViewConfig {
+  std::string address;             ///< HOST:PORT that the page is served at; empty: it is not served
+  std::string token_file;          ///< empty: the credential "view-token" of systemd, when there is one
+  std::vector<std::string> hosts;  ///< names that browsers may reach it by, beside addresses and localhost
+  double picture_hz = 15.0;        ///< largest rate of the pictures on the page
+  int picture_quality = 75;        ///< of their JPEG compression
+};
+
 struct RuntimeConfig {
   std::string log_level = "info";
   std::string ready_after =
@@ -163,6 +171,7 @@ struct Config {
   RobotConfig robot;
   TelemetryConfig telemetry;
   OperatorConfig operators;
+  ViewConfig view;
   RuntimeConfig runtime;
 };
 

@@ -25,9 +25,9 @@ class ControlLoop {
   /// STOP, SONAR 0, CLOSE, for a thread whose run() has ended by an exception; nothing when already done.
   void shut_robot_down();
 
-  /// From the operator thread, which alone calls it: the newest request replaces one that no tick has taken
-  /// yet, but an emergency stop is never replaced. Wait-free. A tick's `request_number` tells when it was
-  /// handled; a number that is already larger: it was replaced.
+  /// From one thread at a time (ControlPort sees to it): the newest request replaces one that no tick has
+  /// taken yet, but an emergency stop is never replaced. Wait-free. A tick's `request_number` tells when it
+  /// was handled; a number that is already larger: it was replaced.
   void request(const OperatorRequest& request);
   /// From the operator thread: a sign that the operator is there (supervisor.operator_timeout_s).
   void operator_alive(TimeNs t_ns) { t_operator_ns_.store(t_ns, std::memory_order_relaxed); }

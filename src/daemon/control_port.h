@@ -1,6 +1,8 @@
 // The control loop and the camera as the operator thread sees them.
 #pragma once
 
+#include <cstdint>
+#include <mutex>
 #include <string>
 
 #include "daemon/capture_loop.h"
@@ -17,7 +19,14 @@ class ControlPort final : public OperatorPort {
   ControlPort(ControlLoop& control, const CaptureLoop& capture, Telemetry& telemetry)
       : control_(control), capture_(capture), telemetry_(telemetry) {}
 
-  void request(const OperatorRequest& request) override { control_.request(request); }
+  OperatorRequest request(OperatorCommand command, TimeNs t_ns) override {
+    // Two threads ask, and a mailbox of the control loop has one writer. Neither waits longer than a copy
+    // takes.
+    const std::lock_guard lock(mutex_);
+    const OperatorRequest request{++number_, t_ns, command};
+    control_.request(request);
+    return request;
+  }
   void alive(TimeNs t_ns) override { control_.operator_alive(t_ns); }
   bool take_tick(TickRecord& out) override { return control_.take_operator_status(out); }
   CaptureCounters camera() override { return capture_.counters(); }
@@ -31,6 +40,8 @@ class ControlPort final : public OperatorPort {
   }
 
  private:
+  std::mutex mutex_;  // of the number, and of writing to the control loop's mailboxes
+  std::uint64_t number_ = 0;
   ControlLoop& control_;
   const CaptureLoop& capture_;
   Telemetry& telemetry_;

@@ -26,10 +26,13 @@
 #include "files/template_file.h"
 #include "heel/error.h"
 #include "logging/logging.h"
+#include "logging/recent_log.h"
 #include "operator/local_socket.h"
 #include "operator/operator_server.h"
 #include "operator/settings.h"
 #include "operator/settings_loop.h"
+#include "operator/web/live_feed.h"
+#include "operator/web/view_server.h"
 #include "realtime/clock.h"
 #include "realtime/schedule.h"
 #include "telemetry/telemetry.h"
@@ -47,16 +50,18 @@ std::optional<LocalSocket> make_socket(const std::string& path) {
   return std::optional<LocalSocket>(std::in_place, path);
 }
 
-std::unique_ptr<PictureQueue> make_picture_queue(const TelemetryConfig& config, const CameraModel& camera) {
+std::unique_ptr<PictureQueue> make_picture_queue(const Config& config, const CameraModel& camera) {
   constexpr std::size_t kFrames = 48;  // more than a second, for a disk that is slow to sync
-  if (config.directory.empty() || config.pictures == "none") return nullptr;
+  const bool recorded = !config.telemetry.directory.empty() && config.telemetry.pictures != "none";
+  if (!recorded && config.view.address.empty()) return nullptr;
   return std::make_unique<PictureQueue>(kFrames, static_cast<std::uint32_t>(camera.width_px),
                                         static_cast<std::uint32_t>(camera.height_px));
 }
 
 class Daemon {
  public:
-  Daemon(LoadedConfig loaded, Signals& signals);
+  /// `log`: the newest lines of the log, for the page.
+  Daemon(LoadedConfig loaded, Signals& signals, std::shared_ptr<RecentLog> log);
   int run();
 
  private:
@@ -92,8 +97,12 @@ class Daemon {
   SettingsLoop settings_loop_;
   ControlPort control_port_;
   std::unique_ptr<OperatorServer> operators_;  // null: no socket
+  const std::shared_ptr<RecentLog> log_;
+  const ViewFacts view_facts_;
+  LiveFeed live_feed_;
+  std::unique_ptr<ViewServer> view_;  // null: no page
   std::thread capture_thread_, vision_thread_, control_thread_, telemetry_thread_, settings_thread_,
-      operator_thread_;
+      operator_thread_, view_thread_;
 
   std::uint64_t configurations_ = 0;  // taken over since the start; for the settings thread
   std::uint64_t reloads_started_ = 0, reloads_ended_ = 0;
@@ -110,10 +119,11 @@ int run_daemon(const std::string& config_path) {
   // Before anything that starts a thread (logging and OpenCV do): a thread that does not block SIGTERM would
   // receive it, and the process would end with the wheels turning.
   Signals signals;
-  start_logging(loaded.config.runtime.log_level);
+  const auto log = std::make_shared<RecentLog>();
+  start_logging(loaded.config.runtime.log_level, log);
   int exit_status = 1;
   try {
-    exit_status = Daemon(std::move(loaded), signals).run();
+    exit_status = Daemon(std::move(loaded), signals, log).run();
   } catch (...) {
     stop_logging();
     throw;
@@ -123,7 +133,7 @@ int run_daemon(const std::string& config_path) {
 }
 
 // Wire.
-Daemon::Daemon(LoadedConfig loaded, Signals& signals)
+Daemon::Daemon(LoadedConfig loaded, Signals& signals, std::shared_ptr<RecentLog> log)
     : loaded_(std::move(loaded)),
       inputs_(load_inputs(loaded_.config)),
       signals_(signals),
@@ -131,7 +141,7 @@ Daemon::Daemon(LoadedConfig loaded, Signals& signals)
       socket_(make_socket(loaded_.config.operators.socket)),
       frames_(static_cast<std::uint32_t>(inputs_.camera.width_px),
               static_cast<std::uint32_t>(inputs_.camera.height_px)),
-      pictures_(make_picture_queue(loaded_.config.telemetry, inputs_.camera)),
+      pictures_(make_picture_queue(loaded_.config, inputs_.camera)),
       source_(make_frame_source(loaded_.config.camera)),
       templates_(inputs_.shirts, inputs_.camera, loaded_.config.vision),
       capture_(*source_, frames_, queues_.captures, queues_.capture_events,
@@ -142,12 +152,20 @@ Daemon::Daemon(LoadedConfig loaded, Signals& signals)
       settings_(loaded_, {[this](const Config& config) { check_against_camera(config, inputs_.camera); },
                           [this](const Config& config) { apply(config); }}),
       settings_loop_(settings_),
-      control_port_(control_, capture_, telemetry_) {
+      control_port_(control_, capture_, telemetry_),
+      log_(std::move(log)),
+      view_facts_(view_facts(inputs_)),
+      live_feed_(loaded_.config.view.picture_hz) {
   telemetry_.configuration({monotonic_now_ns(), configurations_, config_toml(loaded_.config)});
   if (pictures_) attach_vision_files();
-  if (!socket_) return;
-  operators_ =
-      std::make_unique<OperatorServer>(std::move(*socket_), control_port_, settings_, settings_loop_);
+  if (socket_)
+    operators_ =
+        std::make_unique<OperatorServer>(std::move(*socket_), control_port_, settings_, settings_loop_);
+  if (loaded_.config.view.address.empty()) return;
+  const ViewParts parts{settings_,  telemetry_, control_port_, operators_.get(),
+                        live_feed_, *log_,      view_facts_};
+  view_ = std::make_unique<ViewServer>(loaded_.config.view, parts);
+  telemetry_.listen(live_feed_);
 }
 
 int Daemon::run() {
@@ -173,6 +191,7 @@ void Daemon::start() {
   telemetry_thread_ = start_thread(ThreadRole::Telemetry, [this] { telemetry_.run(); });
   settings_thread_ = start_thread(ThreadRole::Settings, [this] { settings_loop_.run(); });
   if (operators_) operator_thread_ = start_thread(ThreadRole::Operator, [this] { operators_->run(); });
+  if (view_) view_thread_ = start_thread(ThreadRole::View, [this] { view_->run(); });
   control_thread_ = start_thread(ThreadRole::Control, [this] { control_.run(); });
   vision_thread_ = start_thread(ThreadRole::Vision, [this] { vision_.run(); });
   capture_thread_ = start_thread(ThreadRole::Capture, [this] { capture_.run(); });
@@ -247,6 +266,10 @@ void Daemon::stop() {
   control_.stop();
   control_thread_.join();
   control_.shut_robot_down();  // in case its thread ended by an exception
+  if (view_) {
+    view_->stop();
+    view_thread_.join();
+  }
   settings_loop_.stop();
   settings_thread_.join();
   if (operators_) {
@@ -260,6 +283,7 @@ void Daemon::stop() {
   vision_thread_.join();
   telemetry_.stop();
   telemetry_thread_.join();
+  view_.reset();
   status_.send_kept();
   log_counters();
   spdlog::info("heeld stopped");

@@ -98,6 +98,25 @@ std::vector<std::string> template_lines(const Config& config, const Inputs& inpu
   return lines;
 }
 
+ViewFacts view_facts(const Inputs& inputs) {
+  ViewFacts facts;
+  facts.camera = inputs.camera;
+  for (const ShirtTemplate& shirt : inputs.shirts) {
+    const Region& roi = shirt.roi;
+    const double left_px = roi.x_px, right_px = roi.x_px + roi.width_px;
+    const double top_px = roi.y_px, bottom_px = roi.y_px + roi.height_px;
+    ShownTemplate shown;
+    shown.distance_m = shirt.distance_m;
+    shown.corners_px = {Eigen::Vector2d(left_px, top_px), Eigen::Vector2d(right_px, top_px),
+                        Eigen::Vector2d(right_px, bottom_px), Eigen::Vector2d(left_px, bottom_px)};
+    for (Eigen::Vector2d& corner_px : shown.corners_px) corner_px = shirt.camera.undistort_px(corner_px);
+    shown.width_m = shirt.distance_m * (shown.corners_px[1].x() - shown.corners_px[0].x()) / shirt.camera.fx;
+    shown.height_m = shirt.distance_m * (shown.corners_px[3].y() - shown.corners_px[0].y()) / shirt.camera.fy;
+    facts.templates.push_back(shown);
+  }
+  return facts;
+}
+
 void log_configuration(const LoadedConfig& loaded, const Inputs& inputs) {
   const Config& c = loaded.config;
   spdlog::info("configuration: {}", loaded.file);

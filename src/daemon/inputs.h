@@ -9,6 +9,7 @@
 #include "core/config.h"
 #include "heel/camera_model.h"
 #include "heel/shirt_template.h"
+#include "operator/web/view_facts.h"
 
 namespace heel {
 
@@ -26,6 +27,9 @@ void check_against_camera(const Config& config, const CameraModel& camera);
 
 /// One line about each template: its file, its distance, its features, their spread and their similarity.
 std::vector<std::string> template_lines(const Config& config, const Inputs& inputs);
+
+/// For the page.
+ViewFacts view_facts(const Inputs& inputs);
 
 /// Logs the inputs and the limits that the daemon runs with.
 void log_configuration(const LoadedConfig& loaded, const Inputs& inputs);

@@ -10,6 +10,8 @@
 
 #include <cstdlib>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "heel/error.h"
 #include "logging/journal_sink.h"
@@ -49,12 +51,15 @@ std::unique_ptr<spdlog::formatter> make_terminal_formatter() {
   return std::make_unique<spdlog::pattern_formatter>("%H:%M:%S.%e %^%l%$ %v");
 }
 
-void start_logging(const std::string& level) {
+void start_logging(const std::string& level, std::shared_ptr<spdlog::sinks::sink> also_to) {
   const spdlog::level::level_enum parsed = parse_level(level);
+  std::vector<spdlog::sink_ptr> sinks = {make_sink()};
+  if (also_to) sinks.push_back(std::move(also_to));
   spdlog::init_thread_pool(kQueuedMessages, 1, [] { name_thread(ThreadRole::Log); });
   // When the reader of standard error is too slow, the oldest messages are dropped and no thread waits.
-  auto logger = std::make_shared<spdlog::async_logger>("heel", make_sink(), spdlog::thread_pool(),
-                                                       spdlog::async_overflow_policy::overrun_oldest);
+  auto logger =
+      std::make_shared<spdlog::async_logger>("heel", sinks.begin(), sinks.end(), spdlog::thread_pool(),
+                                             spdlog::async_overflow_policy::overrun_oldest);
   logger->set_level(parsed);
   logger->flush_on(spdlog::level::info);
   spdlog::set_default_logger(std::move(logger));

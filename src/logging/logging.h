@@ -8,12 +8,16 @@
 
 namespace spdlog {
 class formatter;
+namespace sinks {
+class sink;
 }
+}  // namespace spdlog
 
 namespace heel {
 
 /// Starts logging at `level`: trace, debug, info, warn, error, critical or off. Throws heel::Error otherwise.
-void start_logging(const std::string& level);
+/// `also_to`, where given, gets every message too.
+void start_logging(const std::string& level, std::shared_ptr<spdlog::sinks::sink> also_to = nullptr);
 
 /// Changes the level while running. Throws heel::Error for an unknown level, which changes nothing.
 void set_log_level(const std::string& level);

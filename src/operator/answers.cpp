@@ -27,6 +27,13 @@ std::string error_line(std::optional<std::int64_t> id, const std::string& error)
   return line_of(out);
 }
 
+std::string token_line(std::optional<std::int64_t> id) {
+  json out = answer(id, false);
+  out["error"] = "not allowed without the token (expected a login before)";
+  out["needs_token"] = true;
+  return line_of(out);
+}
+
 std::string done_line(const Request& request) {
   return line_of(answer(request.id, true));
 }

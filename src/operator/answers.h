@@ -14,6 +14,8 @@ namespace heel {
 
 /// {"v":1,"id":7,"ok":false,"error":"one line"}
 std::string error_line(std::optional<std::int64_t> id, const std::string& error);
+/// The same for a request that a client may not make before it has said the token; with "needs_token":true.
+std::string token_line(std::optional<std::int64_t> id);
 /// {"v":1,"id":7,"ok":true}
 std::string done_line(const Request& request);
 /// The table of requests.

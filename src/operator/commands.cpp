@@ -28,7 +28,7 @@ void CommandQueue::add(OperatorCommand command, std::uint64_t ticket, TimeNs now
     for (const Posted& one : waiting_) give_up(one, "not done: an emergency stop came before it");
     current_.reset();
     waiting_.clear();
-    emergency_stops_.push_back({post(command, now_ns), ticket});
+    emergency_stops_.push_back({port_.request(command, now_ns), ticket});
     return;
   }
   Posted later{{0, now_ns, command}, ticket};
@@ -74,9 +74,11 @@ void CommandQueue::settle_current(const TickRecord& tick, TimeNs now_ns) {
     CommandResult result{posted.ticket, posted.request.command, tick.outcome, ""};
     if (tick.outcome == OperatorOutcome::Refused) result.error = refusal_text(tick);
     results_.push_back(std::move(result));
+  } else if (tick.request_number > posted.request.number) {
+    give_up(posted, "not done: an emergency stop came before it was handled");
   } else if (now_ns - posted.request.t_ns > kPatience_ns) {
     // A start that is handled later, when nobody expects it, would be dangerous.
-    post(OperatorCommand::None, now_ns);
+    port_.request(OperatorCommand::None, now_ns);
     give_up(posted, "the control loop did not answer within 0.5 s; the request is withdrawn");
   } else {
     return;
@@ -93,13 +95,7 @@ void CommandQueue::post_next(TimeNs now_ns) {
   if (current_ || !emergency_stops_.empty() || waiting_.empty()) return;
   const Posted next = waiting_.front();
   waiting_.pop_front();
-  current_ = Posted{post(next.request.command, now_ns), next.ticket};
-}
-
-OperatorRequest CommandQueue::post(OperatorCommand command, TimeNs now_ns) {
-  const OperatorRequest request{++number_, now_ns, command};
-  port_.request(request);
-  return request;
+  current_ = Posted{port_.request(next.request.command, now_ns), next.ticket};
 }
 
 void CommandQueue::give_up(const Posted& posted, std::string error) {

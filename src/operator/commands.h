@@ -48,14 +48,12 @@ class CommandQueue {
     std::uint64_t ticket = 0;
   };
 
-  OperatorRequest post(OperatorCommand command, TimeNs now_ns);
   void give_up(const Posted& posted, std::string error);
   void settle_emergency_stops(const TickRecord& tick, TimeNs now_ns);
   void settle_current(const TickRecord& tick, TimeNs now_ns);
   void post_next(TimeNs now_ns);
 
   OperatorPort& port_;
-  std::uint64_t number_ = 0;
   std::optional<Posted> current_;
   std::vector<Posted> emergency_stops_;
   std::deque<Posted> waiting_;  // not posted yet

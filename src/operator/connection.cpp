@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -33,7 +34,10 @@ bool RateLimit::allow(TimeNs now_ns) {
 }
 
 Connection::Connection(int fd, std::uint64_t number, TimeNs now_ns)
-    : t_active_ns(now_ns), fd_(fd), number_(number), who_(peer_of(fd)) {}
+    : Connection(fd, number, now_ns, peer_of(fd), nullptr) {}
+
+Connection::Connection(int fd, std::uint64_t number, TimeNs now_ns, std::string who, MayWrite may_write)
+    : t_active_ns(now_ns), fd_(fd), number_(number), who_(std::move(who)), may_write_(std::move(may_write)) {}
 
 Connection::~Connection() {
   close(fd_);

@@ -1,7 +1,9 @@
-// One client of the local socket: its bytes in and out, bounded, and never waited for.
+// One client of the operator thread: its bytes in and out, bounded, and never waited for.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,13 +35,18 @@ struct Watch {
   bool changed = true;  ///< something has changed since the last line
 };
 
+/// Whether a client may do more than read and stop the robot; another thread may change it.
+using MayWrite = std::shared_ptr<const std::atomic<bool>>;
+
 class Connection {
  public:
   static constexpr std::size_t kMaxWaitingBytes = 64 * 1024;  ///< answers that the client has not read
   static constexpr double kRequestsPerS = 100.0;
 
-  /// Owns the socket `fd`, which does not block.
+  /// Owns the socket `fd`, which does not block. A process of this computer, which may write.
   Connection(int fd, std::uint64_t number, TimeNs now_ns);
+  /// Somebody else; `may_write` is not null.
+  Connection(int fd, std::uint64_t number, TimeNs now_ns, std::string who, MayWrite may_write);
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
@@ -48,6 +55,7 @@ class Connection {
   std::uint64_t number() const { return number_; }
   /// "user 1000, process 4711".
   const std::string& who() const { return who_; }
+  bool may_write() const { return !may_write_ || may_write_->load(std::memory_order_acquire); }
 
   /// Reads what has come, at most 4 KiB. False: nothing had come.
   bool read();
@@ -85,6 +93,7 @@ class Connection {
   int fd_;
   std::uint64_t number_;
   std::string who_;
+  MayWrite may_write_;  // null: it may
   LineBuffer in_{kMaxRequestBytes};
   std::string out_;
   bool input_ended_ = false;

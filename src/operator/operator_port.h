@@ -1,4 +1,4 @@
-// What the operator thread needs of the daemon. None of it waits.
+// What the operator thread and the page's thread need of the daemon. None of it waits.
 #pragma once
 
 #include <string>
@@ -10,8 +10,9 @@ namespace heel {
 class OperatorPort {
  public:
   virtual ~OperatorPort() = default;
-  /// Hands the newest request to the control loop; an emergency stop is never replaced by a later request.
-  virtual void request(const OperatorRequest& request) = 0;
+  /// Hands the newest request to the control loop, and returns it with its number; an emergency stop is never
+  /// replaced by a later request. From any thread.
+  virtual OperatorRequest request(OperatorCommand command, TimeNs t_ns) = 0;
   /// A sign that the operator is there.
   virtual void alive(TimeNs t_ns) = 0;
   /// True and the newest tick, when there is one not taken before.

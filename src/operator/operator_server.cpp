@@ -4,9 +4,11 @@
 #include <poll.h>
 #include <spdlog/spdlog.h>
 #include <sys/eventfd.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <tuple>
@@ -98,13 +100,36 @@ void OperatorServer::wait() {
   }
 }
 
+int OperatorServer::invite(std::string who, MayWrite may_write) {
+  std::array<int, 2> ends{};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    throw Error(std::string("operator: no pair of sockets: ") + std::strerror(errno));
+  {
+    const std::lock_guard lock(invited_mutex_);
+    invited_.push_back(std::make_unique<Connection>(ends[0], ++clients_so_far_, monotonic_now_ns(),
+                                                    std::move(who), std::move(may_write)));
+  }
+  wake();
+  return ends[1];
+}
+
+void OperatorServer::add_client(std::unique_ptr<Connection> client) {
+  if (clients_.size() >= kMaxClients) make_room();
+  clients_.push_back(std::move(client));
+}
+
 void OperatorServer::accept_clients() {
+  std::vector<std::unique_ptr<Connection>> invited;
+  {
+    const std::lock_guard lock(invited_mutex_);
+    invited.swap(invited_);
+  }
+  for (auto& client : invited) add_client(std::move(client));
   for (std::size_t i = 0; i < kMaxClients; ++i) {
     const TimeNs now_ns = monotonic_now_ns();
     const int fd = socket_.accept(now_ns);
     if (fd < 0) return;
-    if (clients_.size() >= kMaxClients) make_room();
-    clients_.push_back(std::make_unique<Connection>(fd, ++clients_so_far_, now_ns));
+    add_client(std::make_unique<Connection>(fd, ++clients_so_far_, now_ns));
   }
 }
 
@@ -161,7 +186,12 @@ void OperatorServer::read_requests() {
 
 void OperatorServer::serve(Connection& client, Request request, TimeNs now_ns) {
   client.t_active_ns = now_ns;
-  port_.alive(now_ns);
+  if (client.may_write()) {
+    port_.alive(now_ns);
+  } else if (!needs_no_token(request.kind)) {
+    client.send_line(token_line(request.id));
+    return;
+  }
   switch (request.kind) {
     case RequestKind::Help:
       client.send_line(help_line(request));

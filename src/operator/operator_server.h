@@ -10,6 +10,7 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,8 @@ namespace heel {
 
 class OperatorServer {
  public:
-  static constexpr std::size_t kMaxClients = 16;
-  static constexpr std::size_t kMaxWatchers = 8;
+  static constexpr std::size_t kMaxClients = 24;
+  static constexpr std::size_t kMaxWatchers = 16;
   static constexpr TimeNs kWatchSpacing_ns = 100 * kNsPerMs;  ///< least time between two lines to a watcher
 
   /// All but the socket is borrowed and must outlive run(), and `settings_loop` must have ended before this
@@ -37,8 +38,12 @@ class OperatorServer {
 
   /// Until stop().
   void run();
-  /// From any thread.
+  // From any thread:
   void stop();
+  /// A client that is no process of this computer, as a browser behind the page: the descriptor of its end of
+  /// a connection, which does not block and which the caller closes. Until `may_write` is true it may only
+  /// read and stop the robot, and is no sign of the operator. Throws heel::Error without a free descriptor.
+  int invite(std::string who, MayWrite may_write);
 
  private:
   struct Asked {  // a request whose answer comes later
@@ -50,6 +55,7 @@ class OperatorServer {
   int poll_timeout_ms() const;
   void wait();
   void accept_clients();
+  void add_client(std::unique_ptr<Connection> client);
   void make_room();
   void read_requests();
   void serve(Connection& client, Request request, TimeNs now_ns);
@@ -74,8 +80,10 @@ class OperatorServer {
   int wake_fd_ = -1;
   std::atomic<bool> stop_{false};
 
+  std::mutex invited_mutex_;
+  std::vector<std::unique_ptr<Connection>> invited_;  // guarded by invited_mutex_; not among the clients yet
   std::vector<std::unique_ptr<Connection>> clients_;
-  std::uint64_t clients_so_far_ = 0;
+  std::atomic<std::uint64_t> clients_so_far_{0};
   std::map<std::uint64_t, Asked> asked_;  // by ticket
   std::uint64_t tickets_ = 0;
   TickRecord tick_;

@@ -149,6 +149,11 @@ std::span<const RequestRow> request_table() {
   return kTable;
 }
 
+bool needs_no_token(RequestKind kind) {
+  return kind == RequestKind::Help || kind == RequestKind::Status || kind == RequestKind::Watch ||
+         kind == RequestKind::EStop;
+}
+
 ParsedRequest parse_request(std::string_view line) {
   ParsedRequest parsed;
   Reader reader(parsed);

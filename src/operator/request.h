@@ -42,6 +42,9 @@ struct Request {
   double period_s = 1.0;                      ///< of Watch: the longest time between two lines
 };
 
+/// Requests that change nothing, and the emergency stop: no token is needed for them.
+bool needs_no_token(RequestKind kind);
+
 /// A row of the table of requests, which the parser, the answer to `help` and the manual share.
 struct RequestRow {
   RequestKind kind;

@@ -23,8 +23,13 @@ class PictureQueue {
   PictureQueue(const PictureQueue&) = delete;
   PictureQueue& operator=(const PictureQueue&) = delete;
 
-  /// Writer. False: the queue is full, or the frame is larger than its slots; it was dropped and counted.
+  /// Any thread. While it is closed, frames are neither copied nor counted.
+  void set_open(bool open) { open_.store(open, std::memory_order_relaxed); }
+
+  /// Writer. False: the queue is closed or full, or the frame is larger than its slots; it was dropped and
+  /// counted.
   bool push(const FrameView& frame) {
+    if (!open_.load(std::memory_order_relaxed)) return false;
     const FrameHeader& header = frame.header;
     const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
     const bool full = tail - head_.load(std::memory_order_acquire) == headers_.size();
@@ -57,6 +62,7 @@ class PictureQueue {
   const std::size_t slot_bytes_;
   std::vector<FrameHeader> headers_;
   std::vector<std::uint8_t> pixels_;
+  std::atomic<bool> open_{true};
   // Positions only count up. The writer's release publishes the slot that it has filled, the reader's the one
   // that it has left.
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> tail_{0};  // written by the writer

@@ -98,6 +98,9 @@ Schedule make_schedule(const Config& config) {
       {.role = ThreadRole::Settings,
        .name = "heel-settings",
        .does = "checks, applies and saves new values of the configuration"},
+      {.role = ThreadRole::View,
+       .name = "heel-view",
+       .does = "serves the page of view.address, where that is set"},
       {.role = ThreadRole::Log, .name = "heel-log", .does = "writes the log"},
   }};
 }

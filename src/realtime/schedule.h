@@ -20,6 +20,7 @@ enum class ThreadRole : std::uint8_t {
   Telemetry,
   Operator,
   Settings,
+  View,
   Log
 };
 
@@ -34,7 +35,7 @@ struct ThreadPlan {
   bool hot = false;        ///< after start it does not allocate, lock, format text or cause a page fault
 };
 
-inline constexpr std::size_t kThreads = 9;
+inline constexpr std::size_t kThreads = 10;
 /// In the order of ThreadRole.
 using Schedule = std::array<ThreadPlan, kThreads>;
 

@@ -8,14 +8,19 @@ namespace heel {
 
 PictureRecorder::PictureRecorder(PictureQueue* frames, const std::string& which, Encoder encoder)
     : frames_(frames),
+      records_(which != "none"),
       on_fault_(which == "on_fault"),
       lossless_(which == "lossless"),
       encoder_(std::move(encoder)) {}
 
 void PictureRecorder::drain(Recorder& recorder, TimeNs budget_ns) {
-  if (frames_ == nullptr) return;
+  if (!records()) {
+    discard();
+    return;
+  }
   const TimeNs t_end_ns = monotonic_now_ns() + budget_ns;
   for (FrameView frame = frames_->front(); frame.grey != nullptr; frame = frames_->front()) {
+    if (show_) show_(frame);
     RecordedPicture picture = encoder_(frame, lossless_);
     frames_->pop();
     if (on_fault_) {
@@ -29,7 +34,11 @@ void PictureRecorder::drain(Recorder& recorder, TimeNs budget_ns) {
 
 std::uint64_t PictureRecorder::discard() {
   std::uint64_t frames = 0;
-  for (; frames_ != nullptr && frames_->front().grey != nullptr; ++frames) frames_->pop();
+  if (frames_ == nullptr) return frames;
+  for (FrameView frame = frames_->front(); frame.grey != nullptr; frame = frames_->front(), ++frames) {
+    if (show_) show_(frame);
+    frames_->pop();
+  }
   kept_.clear();
   kept_bytes_ = 0;
   return frames;

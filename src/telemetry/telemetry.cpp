@@ -63,7 +63,7 @@ void Telemetry::run() {
   }
   drain(monotonic_now_ns());
   take_pictures(kLastPictures_ns);
-  if (recorder_) newest_.records_lost += pictures_.discard();
+  if (recorder_ && pictures_.records()) newest_.records_lost += pictures_.discard();
   end_recording("heeld stopped");
   if (black_box_) black_box_->end();
 }
@@ -79,6 +79,7 @@ void Telemetry::drain(TimeNs now_ns) {
   for (PoseEstimate pose; queues_.poses.pop(pose);) {
     ++newest_.poses;
     newest_.pose = pose;
+    if (listener_ != nullptr) listener_->pose(pose);
     if (recorder_) recorder_->record(pose);
     if (black_box_) black_box_->add(pose);
   }
@@ -121,6 +122,7 @@ void Telemetry::take(const TickRecord& tick) {
   take_picture(tick);
   ++newest_.ticks;
   newest_.tick = tick;
+  if (listener_ != nullptr) listener_->tick(tick);
   if (recorder_) recorder_->record(tick);
   if (black_box_) black_box_->add(tick);
 }
@@ -194,6 +196,7 @@ void Telemetry::take_picture(const TickRecord& tick) {
 
 void Telemetry::take(const Event& event) {
   ++newest_.events;
+  if (listener_ != nullptr) listener_->event(event);
   if (recorder_) recorder_->record(event);
   if (black_box_) black_box_->add(event);
   TimeNs& t_logged_ns = t_logged_ns_[static_cast<std::size_t>(event.kind)];

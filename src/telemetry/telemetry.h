@@ -23,6 +23,7 @@
 #include "telemetry/black_box.h"
 #include "telemetry/picture_recorder.h"
 #include "telemetry/recorder.h"
+#include "telemetry/telemetry_listener.h"
 #include "telemetry/telemetry_queues.h"
 
 namespace heel {
@@ -47,6 +48,9 @@ class Telemetry {
 
   /// Before run(): a file that belongs to the recording, as the template that the pictures were searched for.
   void attach(const std::string& name, const std::string& media_type, std::string_view content);
+
+  /// Before run(): who else sees the records. It is borrowed.
+  void listen(TelemetryListener& listener);
 
   /// Drains the queues every 50 ms until stop(), and then once more.
   void run();
@@ -89,8 +93,9 @@ class Telemetry {
   std::unique_ptr<Recorder> recorder_;   // null: nothing is recorded
   std::unique_ptr<BlackBox> black_box_;  // null: none
   PictureRecorder pictures_;
-  bool pictures_wanted_ = false;  // a fault or a mark has come since the last drain
-  bool fault_ = false;            // a fault has come since the last drain
+  TelemetryListener* listener_ = nullptr;  // null: none
+  bool pictures_wanted_ = false;           // a fault or a mark has come since the last drain
+  bool fault_ = false;                     // a fault has come since the last drain
 
   struct Texts {
     std::vector<ConfigurationText> configurations;

@@ -61,6 +61,11 @@ void Telemetry::attach(const std::string& name, const std::string& media_type, s
   if (recorder_) recorder_->attach(name, media_type, content);
 }
 
+void Telemetry::listen(TelemetryListener& listener) {
+  listener_ = &listener;
+  pictures_.show_to([&listener](const FrameView& frame) { listener.picture(frame); });
+}
+
 void Telemetry::end_recording(const std::string& why) {
   if (!recorder_) return;
   recorder_->record(RecordingNote{monotonic_now_ns(), "end", why, newest_.records_lost});
@@ -71,6 +76,8 @@ void Telemetry::end_recording(const std::string& why) {
 /// Those of the queue; and those before a fault. Where nothing is recorded any more none is wanted: a full
 /// queue would count as a loss.
 void Telemetry::take_pictures(TimeNs budget_ns) {
+  const bool shown = listener_ != nullptr && listener_->wants_pictures();
+  pictures_.set_wanted(shown || (recorder_ && pictures_.records()));
   if (!recorder_) {
     pictures_.discard();
     return;

@@ -15,7 +15,10 @@ using Tickets = std::vector<std::uint64_t>;
 constexpr TimeNs kNow_ns = 10 * kNsPerS;
 
 struct ScriptedPort final : OperatorPort {
-  void request(const OperatorRequest& request) override { requests.push_back(request); }
+  OperatorRequest request(OperatorCommand command, TimeNs t_ns) override {
+    requests.push_back({requests.size() + 1, t_ns, command});
+    return requests.back();
+  }
   void alive(TimeNs) override {}
   bool take_tick(TickRecord&) override { return false; }
   CaptureCounters camera() override { return {}; }

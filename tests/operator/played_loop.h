@@ -14,10 +14,11 @@ namespace heel::test {
 /// A control loop that does what it is asked at once: in the tick after the request.
 class PlayedLoop final : public OperatorPort {
  public:
-  void request(const OperatorRequest& request) override {
+  OperatorRequest request(OperatorCommand command, TimeNs t_ns) override {
     const std::lock_guard lock(mutex_);
-    requests_.push_back(request.command);
-    if (deaf_) return;
+    const OperatorRequest request{++number_, t_ns, command};
+    requests_.push_back(command);
+    if (deaf_) return request;
     tick_.request_number = request.number;
     tick_.outcome = OperatorOutcome::Done;
     switch (request.command) {
@@ -36,6 +37,7 @@ class PlayedLoop final : public OperatorPort {
         tick_.state = SupervisorState::Idle;
         break;
     }
+    return request;
   }
   void alive(TimeNs) override {
     std::unique_lock lock(mutex_);
@@ -105,6 +107,7 @@ class PlayedLoop final : public OperatorPort {
 
  private:
   std::mutex mutex_;
+  std::uint64_t number_ = 0;
   TickRecord tick_;
   std::vector<std::string> answers_, marks_;
   std::vector<OperatorCommand> requests_;

@@ -1,0 +1,12 @@
+// The configuration for the page's settings: every key of the table, with what may be done with it.
+#pragma once
+
+#include "operator/settings.h"
+#include "operator/web/view_json.h"
+
+namespace heel {
+
+/// {"file":…,"keys":[{"key":…,"value":…,"file_value":…,"default":…,"min":…,…}]}
+ViewJson config_json(const std::string& file, const SettingsView& settings);
+
+}  // namespace heel

@@ -1,0 +1,48 @@
+#include "operator/web/page_context.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "operator/web/limits.h"
+#include "realtime/clock.h"
+
+namespace heel {
+
+void PageContext::warn(const std::string& text) {
+  if (warnings.take(monotonic_now_ns())) spdlog::warn("page: {}", text);
+}
+
+Presence::Presence(PageContext& context, std::string address)
+    : t_active_ns(monotonic_now_ns()), context_(context), address_(std::move(address)) {
+  limited_ = !context_.limits.connected(counted_address(address_), t_active_ns);
+  if (limited_) context_.warn(address_ + ": too many connections: only an emergency stop is served");
+  context_.present.push_back(this);
+}
+
+Presence::~Presence() {
+  std::erase(context_.present, this);
+  context_.limits.disconnected(counted_address(address_));
+}
+
+void Presence::active() {
+  t_active_ns = monotonic_now_ns();
+}
+
+bool make_room(PageContext& context) {
+  const auto open = std::count_if(context.present.begin(), context.present.end(),
+                                  [](const Presence* one) { return !one->closing; });
+  if (static_cast<std::size_t>(open) < kMaxPageConnections) return true;
+  Presence* oldest = nullptr;
+  for (Presence* one : context.present) {
+    if (one->closing || !one->close) continue;
+    if (oldest == nullptr || one->t_active_ns < oldest->t_active_ns) oldest = one;
+  }
+  if (oldest == nullptr) return false;
+  oldest->closing = true;
+  oldest->close();
+  return true;
+}
+
+}  // namespace heel
