@@ -55,6 +55,8 @@ class Connection {
   std::uint64_t number() const { return number_; }
   /// "user 1000, process 4711".
   const std::string& who() const { return who_; }
+  /// A process of this computer, through the local socket.
+  bool local() const { return !may_write_; }
   bool may_write() const { return !may_write_ || may_write_->load(std::memory_order_acquire); }
 
   /// Reads what has come, at most 4 KiB. False: nothing had come.

@@ -113,9 +113,9 @@ int OperatorServer::invite(std::string who, MayWrite may_write) {
   return ends[1];
 }
 
-void OperatorServer::add_client(std::unique_ptr<Connection> client) {
-  if (clients_.size() >= kMaxClients) make_room();
-  clients_.push_back(std::move(client));
+std::size_t OperatorServer::local_clients() const {
+  return static_cast<std::size_t>(
+      std::count_if(clients_.begin(), clients_.end(), [](const auto& one) { return one->local(); }));
 }
 
 void OperatorServer::accept_clients() {
@@ -124,12 +124,13 @@ void OperatorServer::accept_clients() {
     const std::lock_guard lock(invited_mutex_);
     invited.swap(invited_);
   }
-  for (auto& client : invited) add_client(std::move(client));
+  for (auto& client : invited) clients_.push_back(std::move(client));
   for (std::size_t i = 0; i < kMaxClients; ++i) {
     const TimeNs now_ns = monotonic_now_ns();
     const int fd = socket_.accept(now_ns);
     if (fd < 0) return;
-    add_client(std::make_unique<Connection>(fd, ++clients_so_far_, now_ns));
+    if (local_clients() >= kMaxClients) make_room();
+    clients_.push_back(std::make_unique<Connection>(fd, ++clients_so_far_, now_ns));
   }
 }
 
@@ -140,9 +141,10 @@ void OperatorServer::make_room() {
   for (const auto& client : clients_) client->read_all();
   read_requests();
   remove_finished();
-  if (clients_.size() < kMaxClients) return;
+  if (local_clients() < kMaxClients) return;
   const auto rank = [](const Connection& client) {
-    return std::tuple(client.watch.has_value(), client.open_requests > 0, client.t_active_ns);
+    return std::tuple(!client.local(), client.watch.has_value(), client.open_requests > 0,
+                      client.t_active_ns);
   };
   const auto idle = std::min_element(clients_.begin(), clients_.end(),
                                      [&](const auto& a, const auto& b) { return rank(*a) < rank(*b); });
@@ -233,8 +235,9 @@ void OperatorServer::serve(Connection& client, Request request, TimeNs now_ns) {
 }
 
 void OperatorServer::start_watch(Connection& client, const Request& request) {
-  const auto watchers =
-      std::count_if(clients_.begin(), clients_.end(), [](const auto& one) { return one->watch.has_value(); });
+  const auto watchers = std::count_if(clients_.begin(), clients_.end(), [&](const auto& one) {
+    return one->watch.has_value() && one->local() == client.local();
+  });
   if (!client.watch && static_cast<std::size_t>(watchers) >= kMaxWatchers) {
     client.send_line(error_line(request.id, fmt::format("{} clients watch already", kMaxWatchers)));
     return;

@@ -26,8 +26,8 @@ namespace heel {
 
 class OperatorServer {
  public:
-  static constexpr std::size_t kMaxClients = 24;
-  static constexpr std::size_t kMaxWatchers = 16;
+  static constexpr std::size_t kMaxClients = 16;  ///< processes of this computer
+  static constexpr std::size_t kMaxWatchers = 8;  ///< of them; and as many of those that are invited
   static constexpr TimeNs kWatchSpacing_ns = 100 * kNsPerMs;  ///< least time between two lines to a watcher
 
   /// All but the socket is borrowed and must outlive run(), and `settings_loop` must have ended before this
@@ -43,6 +43,7 @@ class OperatorServer {
   /// A client that is no process of this computer, as a browser behind the page: the descriptor of its end of
   /// a connection, which does not block and which the caller closes. Until `may_write` is true it may only
   /// read and stop the robot, and is no sign of the operator. Throws heel::Error without a free descriptor.
+  /// The caller bounds how many there are.
   int invite(std::string who, MayWrite may_write);
 
  private:
@@ -55,7 +56,7 @@ class OperatorServer {
   int poll_timeout_ms() const;
   void wait();
   void accept_clients();
-  void add_client(std::unique_ptr<Connection> client);
+  std::size_t local_clients() const;
   void make_room();
   void read_requests();
   void serve(Connection& client, Request request, TimeNs now_ns);

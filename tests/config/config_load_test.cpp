@@ -139,6 +139,22 @@ TEST(ConfigLoad, AListOfPathsHoldsTextAndNotTooMuchOfIt) {
   }
 }
 
+TEST(ConfigLoad, ThePageListensAtAnAddressInNumbersAndItsNamesAreThoseOfHosts) {
+  for (const char* good : {"", "127.0.0.1:8080", "0.0.0.0:0", "[::1]:65535"})
+    EXPECT_EQ(
+        parse_config(std::string("[view]\naddress = \"") + good + "\"\n", "/etc/f.toml").config.view.address,
+        good);
+  for (const char* bad :
+       {"8080", "localhost:8080", "127.0.0.1:", "127.0.0.1:65536", "::1:80", "1.2.3:80", "a:80 "})
+    EXPECT_THAT(complaints_about(std::string("[view]\naddress = \"") + bad + "\"\n"),
+                ElementsAre(HasSubstr("(expected IP:PORT in quotes")))
+        << bad;
+  const Config config = parse_config("[view]\nhosts = [\"robot.local\"]\n", "/etc/f.toml").config;
+  EXPECT_THAT(config.view.hosts, ElementsAre("robot.local")) << "a name is no path";
+  EXPECT_THAT(complaints_about("[view]\nhosts = [\"http://robot\"]\n"),
+              ElementsAre(HasSubstr("(expected at most 16 names of hosts in quotes")));
+}
+
 TEST(ConfigLoad, PathsInAddressesAreRelativeToTheFile) {
   for (const char* scheme : {"serial", "pty"}) {
     const std::string text = std::string("[robot]\naddress = \"") + scheme + ":dev/robot\"\n";

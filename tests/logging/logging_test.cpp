@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "logging/journal_sink.h"
+#include "logging/recent_log.h"
 #include "support/complaint.h"
 #include "support/process.h"
 
@@ -123,6 +124,28 @@ TEST(Logging, AFullStandardErrorBlocksNoThreadThatLogs) {
     syscall(SYS_exit_group, 0);
   });
   EXPECT_EQ(process.wait(), 0);
+}
+
+TEST(RecentLog, KeepsTheNewestLinesWithTheirPart) {
+  const auto recent = std::make_shared<RecentLog>();
+  start_logging("info", recent);
+  spdlog::debug("not logged at this level");
+  for (std::size_t i = 1; i < RecentLog::kKept + 10; ++i) spdlog::info("line {}", i);
+  const auto newest = [&] {
+    const std::vector<LoggedLine> lines = recent->after(0, 1);
+    return lines.empty() ? LoggedLine() : lines[0];
+  };
+  ASSERT_TRUE(test::eventually([&] { return newest().text == "line 509"; }));
+  const std::vector<LoggedLine> all = recent->after(0, 10'000);
+  ASSERT_EQ(all.size(), RecentLog::kKept);
+  EXPECT_EQ(all.front().text, "line 10");
+  EXPECT_EQ(recent->after(all.back().number - 2, 100).size(), 2u);
+  EXPECT_EQ(recent->after(all.back().number, 100).size(), 0u);
+  log_event({.part = "camera", .event = "camera lost"}, spdlog::level::warn, "gone");
+  ASSERT_TRUE(test::eventually([&] { return newest().text == "gone"; }));
+  EXPECT_EQ(newest().part, "camera");
+  EXPECT_EQ(newest().level, spdlog::level::warn);
+  stop_logging();
 }
 
 }  // namespace

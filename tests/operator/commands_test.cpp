@@ -49,6 +49,16 @@ class Commands : public ::testing::Test {
   const TickRecord nothing_;
 };
 
+TEST_F(Commands, AnEmergencyStopOfAnotherAskerTakesTheirPlace) {
+  commands_.add(OperatorCommand::Start, 1, kNow_ns);
+  port_.request(OperatorCommand::EStop, kNow_ns);  // the page's
+  const auto results = commands_.settle(handled(2, SupervisorState::Emergency), kNow_ns);
+  ASSERT_THAT(results, SizeIs(1));
+  EXPECT_EQ(results[0].error, "not done: an emergency stop came before it was handled");
+  commands_.add(OperatorCommand::Reset, 2, kNow_ns);
+  EXPECT_EQ(port_.requests.back().number, 3u) << "newer than that of the other asker";
+}
+
 TEST_F(Commands, AreAnsweredAfterTheTickThatHandledThem) {
   commands_.add(OperatorCommand::Start, 1, kNow_ns);
   ASSERT_THAT(port_.requests, SizeIs(1));

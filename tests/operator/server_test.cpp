@@ -2,10 +2,14 @@
 // what they cannot do to each other.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -302,6 +306,67 @@ TEST_F(Server, AClientThatWatchesAndFloodsIsClosed) {
   for (int i = 0; i < 130; ++i) flood += "{\"do\":\"alive\"}\n";
   client.send(flood);
   EXPECT_TRUE(client.closed());
+}
+
+/// The end of an invited client.
+class Invited {
+ public:
+  explicit Invited(int fd) : fd_(fd) {}
+  ~Invited() { close(fd_); }
+  Invited(const Invited&) = delete;
+  Invited& operator=(const Invited&) = delete;
+
+  json ask(const std::string& request) const {
+    const std::string line = request + "\n";
+    EXPECT_EQ(send(fd_, line.data(), line.size(), MSG_NOSIGNAL), static_cast<ssize_t>(line.size()));
+    std::string answer;
+    test::eventually([&] {
+      std::array<char, 16384> bytes{};
+      const ssize_t count = recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT);
+      if (count > 0) answer.append(bytes.data(), static_cast<std::size_t>(count));
+      return answer.ends_with('\n');
+    });
+    return json::parse(answer, nullptr, false);
+  }
+
+ private:
+  int fd_;
+};
+
+TEST_F(Server, AnInvitedClientReadsAndStopsUntilItMayWrite) {
+  const auto may_write = std::make_shared<std::atomic<bool>>(false);
+  const Invited invited(server_.invite("page, 192.168.1.7", may_write));
+  EXPECT_EQ(invited.ask(R"({"do":"status"})")["ok"], true);
+  EXPECT_EQ(invited.ask(R"({"do":"help"})")["ok"], true);
+  for (const char* refused :
+       {R"({"do":"start"})", R"({"do":"stop"})", R"({"do":"reset"})", R"({"do":"save"})", R"({"do":"mark"})",
+        R"({"do":"alive"})", R"({"do":"set","values":{"gate.v_max_m_s":0.3}})"}) {
+    const json answer = invited.ask(refused);
+    EXPECT_EQ(answer["ok"], false) << answer;
+    EXPECT_EQ(answer["needs_token"], true) << answer;
+  }
+  EXPECT_EQ(loop_.signs_of_life(), 0) << "it is no operator";
+  EXPECT_TRUE(loop_.requests().empty());
+  EXPECT_EQ(settings_.view().in_use.gate.v_max_m_s, 0.5);
+  EXPECT_EQ(invited.ask(R"({"do":"estop"})")["state"], "emergency");
+  *may_write = true;
+  EXPECT_EQ(invited.ask(R"({"do":"reset"})")["outcome"], "done");
+  EXPECT_EQ(loop_.signs_of_life(), 1);
+  EXPECT_EQ(loop_.requests(), (std::vector{OperatorCommand::EStop, OperatorCommand::Reset}));
+}
+
+TEST_F(Server, InvitedClientsTakeNoPlaceOfLocalOnes) {
+  const auto may_write = std::make_shared<std::atomic<bool>>(true);
+  std::vector<std::unique_ptr<Invited>> invited;
+  for (std::size_t i = 0; i < OperatorServer::kMaxWatchers; ++i) {
+    invited.push_back(std::make_unique<Invited>(server_.invite("page", may_write)));
+    EXPECT_EQ(invited.back()->ask(R"({"do":"watch","period_s":60})")["event"], "status");
+  }
+  std::vector<std::unique_ptr<SocketClient>> clients;
+  for (std::size_t i = 0; i < OperatorServer::kMaxClients; ++i)
+    clients.push_back(std::make_unique<SocketClient>(path_));
+  EXPECT_EQ(ask(*clients.back(), R"({"do":"watch"})")["event"], "status");
+  EXPECT_EQ(ask(*clients.front(), R"({"do":"alive"})")["ok"], true) << "none was closed";
 }
 
 TEST_F(Server, AControlLoopThatDoesNotAnswerIsNamed) {

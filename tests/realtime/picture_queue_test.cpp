@@ -48,6 +48,17 @@ TEST(PictureQueue, KeepsFramesWithoutTheGapsOfTheirRows) {
   EXPECT_EQ(queue.dropped(), 2u);
 }
 
+TEST(PictureQueue, WhileItIsClosedNothingIsCopiedOrCounted) {
+  PictureQueue queue(2, kWidth_px, kHeight_px);
+  queue.set_open(false);
+  EXPECT_FALSE(queue.push(Frame(1).view));
+  EXPECT_EQ(queue.front().grey, nullptr);
+  EXPECT_EQ(queue.dropped(), 0u);
+  queue.set_open(true);
+  EXPECT_TRUE(queue.push(Frame(2).view));
+  EXPECT_EQ(queue.front().header.sequence, 2u);
+}
+
 TEST(PictureQueue, FramesAreWholeAndInOrderBetweenTwoThreads) {
   PictureQueue queue(3, kWidth_px, kHeight_px);
   constexpr std::uint64_t kFrames = 3000;

@@ -141,13 +141,76 @@ TEST_F(Pictures, AfterTheEndByKeepMbNothingIsLostAndMarksAreRefused) {
       queues, {.directory = folder_.path().string(), .pictures = "jpeg", .keep_mb = 0.001, .black_box = ""},
       &queue_);
   EXPECT_EQ(log_.count("ends here: it needs more than telemetry.keep_mb"), 1) << log_.text();
-  for (std::uint64_t i = 0; i < 40; ++i) {
-    push(i, static_cast<TimeNs>(i));
+  push(0, 0);
+  for (std::uint64_t i = 1; i < 40; ++i) {
     telemetry.drain(static_cast<TimeNs>(i + 2) * kNsPerS);
+    const std::vector<std::uint8_t> grey = ramp(i);
+    EXPECT_FALSE(queue_.push({{i, static_cast<TimeNs>(i), kWidth_px, kHeight_px}, grey.data(), kWidth_px}))
+        << "nobody wants it any more";
   }
   EXPECT_FALSE(telemetry.mark("look"));
   EXPECT_EQ(telemetry.snapshot().records_lost, 0u);
   EXPECT_EQ(log_.count("too slow"), 0) << log_.text();
+}
+
+/// Looks at pictures while the test says so.
+class Looker final : public TelemetryListener {
+ public:
+  void tick(const TickRecord&) override { ++ticks; }
+  void pose(const PoseEstimate&) override { ++poses; }
+  void event(const Event&) override { ++events; }
+  bool wants_pictures() override { return wants; }
+  void picture(const FrameView& frame) override { seen.push_back(frame.header.sequence); }
+
+  bool wants = false;
+  int ticks = 0, poses = 0, events = 0;
+  std::vector<std::uint64_t> seen;
+};
+
+TEST_F(Pictures, AListenerSeesThemWithoutARecordingAndOnlyWhileItWantsThem) {
+  TelemetryQueues queues;
+  Telemetry telemetry(queues, {.directory = "", .pictures = "none", .black_box = ""}, &queue_);
+  Looker looker;
+  telemetry.listen(looker);
+  telemetry.drain(kNsPerS);
+  const std::vector<std::uint8_t> grey = ramp(0);
+  EXPECT_FALSE(queue_.push({{1, 1, kWidth_px, kHeight_px}, grey.data(), kWidth_px})) << "nobody looks";
+  looker.wants = true;
+  telemetry.drain(2 * kNsPerS);
+  push(2, 2);
+  push(3, 3);
+  queues.ticks.push({});
+  queues.poses.push({});
+  queues.control_events.push({});
+  telemetry.drain(3 * kNsPerS);
+  EXPECT_THAT(looker.seen, testing::ElementsAre(2u, 3u));
+  EXPECT_EQ(looker.ticks, 1);
+  EXPECT_EQ(looker.poses, 1);
+  EXPECT_EQ(looker.events, 1);
+  EXPECT_EQ(telemetry.snapshot().records_lost, 0u);
+}
+
+TEST_F(Pictures, AListenerSeesWhatIsRecordedAndARecordingWithoutPicturesHasNone) {
+  for (const bool recorded : {true, false}) {
+    const test::TemporaryFolder folder;
+    Looker looker;
+    looker.wants = true;
+    {
+      TelemetryQueues queues;
+      Telemetry telemetry(
+          queues,
+          {.directory = folder.path().string(), .pictures = recorded ? "jpeg" : "none", .black_box = ""},
+          &queue_);
+      telemetry.listen(looker);
+      telemetry.drain(kNsPerS);
+      push(7, 7);
+      telemetry.drain(2 * kNsPerS);
+    }
+    numbers_.clear();
+    read_recording(recording_in(folder.path().string()), *this);
+    EXPECT_THAT(looker.seen, testing::ElementsAre(7u));
+    EXPECT_EQ(numbers_.size(), recorded ? 1u : 0u);
+  }
 }
 
 TEST_F(Pictures, WithoutPicturesNothingIsWritten) {
