@@ -19,8 +19,9 @@ inline constexpr double kPageRequestsPerS = 100.0;           ///< of one connect
 // Sizes.
 inline constexpr std::size_t kMaxHeadBytes = 8 * 1024;
 inline constexpr std::size_t kMaxBodyBytes = 16 * 1024;
-inline constexpr std::size_t kMaxMessageBytes = 4096;             ///< from a browser
-inline constexpr std::size_t kMaxWaitingBytes = 2 * 1024 * 1024;  ///< to a browser that does not read
+inline constexpr std::size_t kMaxMessageBytes = 4096;        ///< from a browser
+inline constexpr std::size_t kMaxWaitingBytes = 512 * 1024;  ///< to a browser that does not read
+inline constexpr int kSendBufferBytes = 256 * 1024;          ///< of the kernel, for a WebSocket
 
 // Times.
 inline constexpr TimeNs kRequestTime_ns = 5 * kNsPerS;  ///< for a whole request, and idle between two

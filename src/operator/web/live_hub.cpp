@@ -57,7 +57,8 @@ void LiveHub::tell_feed() {
 
 void LiveHub::send_to_all(std::string text) {
   const auto message = std::make_shared<const LiveMessage>(LiveMessage{false, std::move(text)});
-  for (LiveViewer* viewer : viewers_) viewer->send(message);
+  // One that does not read leaves while it is sent to.
+  for (LiveViewer* viewer : std::vector(viewers_)) viewer->send(message);
 }
 
 void LiveHub::send_news() {
@@ -86,7 +87,7 @@ void LiveHub::send_picture(const KeptFrame& frame) {
   ++pictures_;
   const auto message = std::make_shared<const LiveMessage>(
       LiveMessage{true, picture_message(frame.header, jpeg, monotonic_now_ns())});
-  for (LiveViewer* viewer : viewers_) {
+  for (LiveViewer* viewer : std::vector(viewers_)) {
     if (!ready(viewer)) continue;
     viewer->picture_on_its_way = true;
     viewer->send(message);

@@ -9,6 +9,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
+#include <exception>
 #include <string>
 #include <utility>
 
@@ -124,7 +125,14 @@ void ViewServer::run() {
                impl_->context.token.set() ? "" : "; without a token: nothing can be changed there");
   impl_->accept();
   impl_->look();
-  impl_->context.io.run();
+  for (bool ended = false; !ended;) {
+    try {
+      impl_->context.io.run();
+      ended = true;
+    } catch (const std::exception& error) {  // a defect of the page does not stop the robot's daemon
+      spdlog::error("page: {}", error.what());
+    }
+  }
 }
 
 void ViewServer::stop() {

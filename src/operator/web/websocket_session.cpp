@@ -40,6 +40,9 @@ void WebSocketSession::start(UpgradeRequest request) {
     if (error) return;
     beast::error_code ignored;
     beast::get_lowest_layer(self->stream_).socket().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
+    beast::get_lowest_layer(self->stream_)
+        .socket()
+        .set_option(boost::asio::socket_base::send_buffer_size(kSendBufferBytes), ignored);
     self->opened();
     self->read();
   });
