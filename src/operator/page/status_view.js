@@ -1,0 +1,102 @@
+// State, reason and advice in large letters, the figures beside them, and the chips in the bar.
+
+import { byId, setText } from "./dom.js";
+import { describe } from "./sentence.js";
+
+const kChips_ms = 500;
+/** So long without a pose, and the camera counts as silent. */
+const kCameraSilent_ms = 1000;
+
+export class StatusView {
+  #frames = 0;
+  #framesSince_ms = performance.now();
+  #pose_ms = 0;
+
+  /** @param {import("./bus.js").Bus} bus */
+  constructor(bus) {
+    this.bus = bus;
+    bus.on("tick", (tick) => this.#showTick(tick));
+    bus.on("pose", () => {
+      ++this.#frames;
+      this.#pose_ms = performance.now();
+    });
+    bus.on("info", (/** @type {import("./messages.js").Info} */ info) => {
+      setText(byId("robot-name"), info.robot || "");
+      byId("robot-name").title = `heel ${info.version}`;
+    });
+    setInterval(() => this.#showChips(), kChips_ms);
+    this.#showChips();
+  }
+
+  /** @param {import("./messages.js").Tick} tick */
+  #showTick(tick) {
+    const { sentence, advice, level } = describe(tick);
+    setText(byId("sentence"), sentence);
+    setText(byId("advice"), advice);
+    document.body.dataset.level = level;
+    document.body.dataset.state = tick.state;
+    document.title = `${tick.state} – heel`;
+    setText(byId("figure-speed"), `${signed(tick.robot.v_m_s, 2)} m/s`);
+    setText(byId("figure-turn"), `${signed((tick.robot.yaw_rate_rad_s * 180) / Math.PI, 0)} °/s`);
+    setText(byId("figure-person"), metres(tick.person_m));
+    setText(byId("figure-free"), metres(tick.free_distance_m));
+  }
+
+  #showChips() {
+    /** @type {import("./messages.js").Tick | undefined} */
+    const tick = this.bus.newest("tick");
+    const old = this.bus.newest("old") ?? true;
+    const now_ms = performance.now();
+    const rate_hz = Math.round((this.#frames * 1000) / (now_ms - this.#framesSince_ms));
+    this.#frames = 0;
+    this.#framesSince_ms = now_ms;
+    if (!tick || old) {
+      for (const name of ["battery", "link", "camera"]) chip(name, `${name === "link" ? "robot" : name} ?`, "", "not known");
+    } else {
+      const { battery_v } = tick.robot;
+      chip("battery", battery_v === null ? "battery ?" : `${battery_v.toFixed(1)} V`, battery_v === null ? "" : this.#batteryLevel(battery_v),
+        "voltage of the robot's battery");
+      const linked = tick.robot.link === "running";
+      chip("link", linked ? "robot" : `robot ${tick.robot.link}`, linked ? "good" : "bad", `the line to the robot is ${tick.robot.link}`);
+      const silent = now_ms - this.#pose_ms > kCameraSilent_ms;
+      chip("camera", silent ? "camera silent" : `camera ${rate_hz}/s`, silent ? "bad" : "good", "frames that vision has processed in a second");
+    }
+    const recording = this.bus.newest("info")?.recording;
+    chip("recording", recording ? "recording" : "not recording", recording ? "good" : "", "telemetry.directory");
+  }
+
+  /** @param {number} battery_v */
+  #batteryLevel(battery_v) {
+    const limit = (/** @type {string} */ key) =>
+      this.bus.newest("config")?.keys.find((/** @type {any} */ setting) => setting.key === key)?.value ?? 0;
+    if (battery_v < limit("supervisor.battery_low_v")) return "bad";
+    return battery_v < limit("supervisor.battery_ok_v") ? "warn" : "good";
+  }
+}
+
+/**
+ * @param {string} name
+ * @param {string} text
+ * @param {string} level
+ * @param {string} meaning
+ */
+function chip(name, text, level, meaning) {
+  const element = byId(`chip-${name}`);
+  setText(element, text);
+  if (element.title !== meaning) element.title = meaning;
+  element.dataset.level = level;
+}
+
+/**
+ * @param {number} value
+ * @param {number} digits
+ */
+function signed(value, digits) {
+  const text = Math.abs(value).toFixed(digits);
+  return value < 0 && Number(text) !== 0 ? `−${text}` : text;
+}
+
+/** @param {number | null | undefined} length_m null: not known, or without end */
+function metres(length_m) {
+  return length_m === null || length_m === undefined ? "–" : `${length_m.toFixed(2)} m`;
+}
