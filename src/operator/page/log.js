@@ -64,7 +64,7 @@ export class LogView {
 
   /** @param {LogEvent} event */
   #makeLine(event) {
-    const line = make("li", { "data-severity": event.severity },
+    const line = make("div", { class: "log-line", "data-severity": event.severity },
       make("time", { datetime: event.wall }, clock(event.wall)), make("span", { class: "log-severity" }, event.severity),
       make("span", { class: "log-part" }, event.part), make("span", { class: "log-text" }, event.text));
     line.hidden = !this.#matches(line);

@@ -53,7 +53,7 @@ export class SettingRow {
     this.input.setAttribute("aria-label", setting.key);
     this.input.setAttribute("aria-describedby", `${id}-effect`);
     this.element = make("div", { class: "setting", "data-key": setting.key },
-      make("div", {}, make("h4", { class: "setting-name" }, setting.key), this.effect),
+      make("div", {}, make("h3", { class: "setting-name" }, setting.key), this.effect),
       make("div", {}, make("div", { class: "setting-value" }, this.input, make("span", { class: "setting-unit" }, setting.unit)),
         this.marks), this.error);
     this.show(setting, false);
@@ -147,7 +147,7 @@ export class SettingRow {
     }
     this.marks.append(` · file ${written(setting.file_value)} `);
     if (!mayWrite) return;
-    const undo = make("button", { type: "button", "aria-label": `${setting.key}: back to the file's value` }, "back to file");
+    const undo = make("button", { type: "button", "aria-label": `${setting.key}: back to file` }, "back to file");
     undo.addEventListener("click", () => this.#send(setting.file_value));
     this.marks.append(undo);
   }

@@ -64,7 +64,7 @@ export class SettingsView {
         this.#rows.set(setting.key, row);
         return row.element;
       });
-      return make("section", { "data-section": section }, make("h3", { class: "setting-section" }, section), ...rows);
+      return make("section", { "data-section": section }, make("h2", { class: "setting-section" }, section), ...rows);
     });
     byId("setting-list").replaceChildren(...parts, make("p", { class: "setting-empty", id: "setting-empty", hidden: "" }));
   }

@@ -1,0 +1,23 @@
+// One heeld and one simulated walk for all tests, so they run one after another.
+import { defineConfig } from "@playwright/test";
+
+const chromium = process.env.HEEL_CHROMIUM ?? "/usr/bin/chromium";
+const out = `${process.env.HEEL_BUILD_DIR ?? "../../build/release"}/page`;
+
+export default defineConfig({
+  testDir: ".",
+  testMatch: "*.spec.mjs",
+  outputDir: `${out}/failures`,
+  workers: 1,
+  fullyParallel: false,
+  timeout: 40_000,
+  expect: { timeout: 10_000 },
+  reporter: [["list"]],
+  use: {
+    browserName: "chromium",
+    actionTimeout: 8_000,
+    locale: "en-GB",
+    launchOptions: { executablePath: chromium, args: ["--no-sandbox"] },
+  },
+  metadata: { screenshots: `${out}/screenshots` },
+});
