@@ -33,6 +33,11 @@ export const test = base.extend({
     page.on("request", (request) => {
       if (new URL(request.url()).host !== new URL(walk.address).host) complaints.push(`another host: ${request.url()}`);
     });
+    // Before the page's own listeners, of which one ends the event.
+    await page.addInitScript(() => {
+      const note = (event) => (window.pressed_ms ??= performance.timeOrigin + event.timeStamp);
+      for (const name of ["pointerdown", "keydown"]) window.addEventListener(name, note, { capture: true });
+    });
     await page.goto(walk.address);
     await use(new Operator(page, walk));
     expect(complaints).toEqual([]);
@@ -93,11 +98,7 @@ export class Operator {
 
   /** When the browser got the press, in seconds of CLOCK_MONOTONIC. */
   async pressAt(press) {
-    await this.page.evaluate(() => {
-      window.pressed_ms = undefined;
-      const note = (event) => (window.pressed_ms ??= performance.timeOrigin + event.timeStamp);
-      for (const name of ["pointerdown", "keydown"]) window.addEventListener(name, note, { capture: true, once: true });
-    });
+    await this.page.evaluate(() => (window.pressed_ms = undefined));
     await press();
     const pressed_ms = await this.page.evaluate(() => window.pressed_ms);
     const wallMinusMonotonic_s = Date.now() / 1000 - Number(process.hrtime.bigint()) * 1e-9;

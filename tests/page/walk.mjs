@@ -22,7 +22,7 @@ walk_after_s = 4.0
 [[person.path]]
 step = "straight"
 length_m = 40.0
-speed_m_s = 0.25
+speed_m_s = 0.2
 [camera]
 mount_x_m = 0.15
 mount_z_m = 1.1

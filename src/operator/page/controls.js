@@ -1,6 +1,6 @@
 // Start, stop, reset and the sign that the operator watches.
 
-import { kPlain, whyNot } from "./control_rules.js";
+import { kPlain, kSignIn, whyNot } from "./control_rules.js";
 import { byId, setText } from "./dom.js";
 
 const kAlive_ms = 500;
@@ -23,7 +23,7 @@ export class Controls {
     this.channel = channel;
     this.askForToken = askForToken;
     for (const command of kCommands) byId(command).addEventListener("click", () => this.#press(command));
-    for (const name of ["tick", "session", "old"]) bus.on(name, () => this.#update());
+    for (const name of ["tick", "session", "info", "old"]) bus.on(name, () => this.#update());
     this.#alive.addEventListener("click", () => {
       const on = this.#alive.getAttribute("aria-checked") !== "true";
       this.#alive.setAttribute("aria-checked", String(on));
@@ -43,13 +43,14 @@ export class Controls {
 
   /** @param {"start" | "stop" | "reset"} command */
   #why(command) {
-    return whyNot(command, { ...this.bus.newest("session"), old: this.bus.newest("old") ?? true, tick: this.bus.newest("tick") });
+    return whyNot(command, { ...this.bus.newest("session"), hasToken: this.bus.newest("info")?.has_token !== false,
+      old: this.bus.newest("old") ?? true, tick: this.bus.newest("tick") });
   }
 
   /** @param {"start" | "stop" | "reset"} command */
   async #press(command) {
     const why = this.#why(command);
-    if (why === "sign in first") {
+    if (why === kSignIn) {
       this.askForToken();
       return;
     }
@@ -79,7 +80,7 @@ export class Controls {
     for (const command of kCommands) {
       const why = this.#why(command);
       const button = byId(command);
-      button.setAttribute("aria-disabled", String(why !== "" && why !== "sign in first"));
+      button.setAttribute("aria-disabled", String(why !== "" && why !== kSignIn));
       button.dataset.ready = String(why === "");
       button.title = why ? `${command}: ${why}` : "";
       if (why) refusals.set(why, [...(refusals.get(why) ?? []), command]);

@@ -35,6 +35,17 @@ export function setText(element, text) {
 }
 
 /**
+ * A number with a true minus sign, and without one for what is rounded to zero.
+ * @param {number} value
+ * @param {number} digits
+ * @returns {string}
+ */
+export function signed(value, digits) {
+  const text = Math.abs(value).toFixed(digits);
+  return value < 0 && Number(text) !== 0 ? `−${text}` : text;
+}
+
+/**
  * A group of buttons of which one is chosen, with arrow keys.
  * @param {HTMLElement} group
  * @param {[string, string][]} choices value and label

@@ -62,7 +62,7 @@
  * @typedef {object} Info
  * @property {string} version
  * @property {string} robot
- * @property {boolean} needs_token
+ * @property {boolean} has_token whether there is a token, without which nothing can be changed
  * @property {boolean} recording
  * @property {{width: number, height: number, hfov_rad: number}} camera
  * @property {{front_m: number, rear_m: number, width_m: number}} robot_outline
@@ -87,7 +87,5 @@
  * @property {string[]} [choices]
  * @property {string} effect
  */
-
-/** @typedef {{mayWrite: boolean, needsToken: boolean, connected: boolean}} Session */
 
 export {};

@@ -1,11 +1,13 @@
 // The plots: yaw, place of the person, commands and latency over the last seconds or minutes.
 
-import { byId, colour, make, makeSegments, setText } from "./dom.js";
+import { byId, colour, make, makeSegments, setText, signed } from "./dom.js";
 import { writesText } from "./estop.js";
 import { Series } from "./series.js";
 
 const kDegrees = 180 / Math.PI;
 const kRedraw_ms = 250;
+/** A long window moves by less than a pixel in that time: it is drawn again when it has moved by this part of itself. */
+const kRedrawShare = 1 / 200;
 /** @type {[string, string][]} */
 const kWindows = [["30", "30 s"], ["60", "1 min"], ["120", "2 min"], ["300", "5 min"]];
 
@@ -29,6 +31,7 @@ export class PlotsView {
   #paused = false;
   #clock_ms = 0;
   #pausedAt_ms = 0;
+  #drawn_ms = 0;
 
   /** @param {import("./bus.js").Bus} bus */
   constructor(bus) {
@@ -50,7 +53,10 @@ export class PlotsView {
     document.addEventListener("themechange", () => {
       for (const { graph } of this.#plots.values()) graph?.updateOptions({ colors: seriesColours(), gridLineColor: colour("grid"), axisLineColor: colour("line") });
     });
-    setInterval(() => this.#redraw(false), kRedraw_ms);
+    setInterval(() => {
+      const now_ms = performance.now();
+      if (now_ms - this.#drawn_ms >= this.#window_s * 1000 * kRedrawShare) this.#redraw(false);
+    }, kRedraw_ms);
   }
 
   /** @param {typeof kPlots[number]} plot */
@@ -117,6 +123,7 @@ export class PlotsView {
   #redraw(always) {
     const visible = byId("panel-plots").offsetParent !== null && document.visibilityState === "visible";
     if (!visible || (this.#paused && !always)) return;
+    this.#drawn_ms = performance.now();
     const end_ms = this.#paused ? this.#pausedAt_ms : this.#newest_ms();
     const dateWindow = [end_ms - this.#window_s * 1000, end_ms];
     for (const { name, labels, digits, span } of kPlots) {
@@ -137,7 +144,7 @@ export class PlotsView {
   #showValues(plot, row, digits) {
     plot.values.forEach((value, i) => {
       const number = /** @type {number | null} */ (row[i + 1]);
-      setText(value, number === null ? "–" : number.toFixed(digits).replace("-", "−"));
+      setText(value, number === null ? "–" : signed(number, digits));
     });
   }
 

@@ -41,6 +41,16 @@ export function describe(tick) {
 }
 
 /**
+ * What can be said when nothing is heard any more.
+ * @param {import("./messages.js").Tick | undefined} tick the last that came
+ * @returns {ReturnType<typeof describe>}
+ */
+export function describeOld(tick) {
+  const last = tick ? ` It was: ${plainSentence(tick.sentence)}.` : "";
+  return { sentence: "No news from the robot", advice: `Use the robot's STOP button if it must stop.${last}`, level: "bad" };
+}
+
+/**
  * The daemon's sentence without its commands for a terminal, as a sentence begins.
  * @param {string} sentence
  * @returns {string}

@@ -1,7 +1,7 @@
 // State, reason and advice in large letters, the figures beside them, and the chips in the bar.
 
-import { byId, setText } from "./dom.js";
-import { describe } from "./sentence.js";
+import { byId, setText, signed } from "./dom.js";
+import { describe, describeOld } from "./sentence.js";
 
 const kChips_ms = 500;
 /** So long without a pose, and the camera counts as silent. */
@@ -16,6 +16,11 @@ export class StatusView {
   constructor(bus) {
     this.bus = bus;
     bus.on("tick", (tick) => this.#showTick(tick));
+    bus.on("old", (old) => {
+      const tick = bus.newest("tick");
+      if (old) this.#showSentence(describeOld(tick));
+      else if (tick) this.#showTick(tick);
+    });
     bus.on("pose", () => {
       ++this.#frames;
       this.#pose_ms = performance.now();
@@ -28,12 +33,16 @@ export class StatusView {
     this.#showChips();
   }
 
-  /** @param {import("./messages.js").Tick} tick */
-  #showTick(tick) {
-    const { sentence, advice, level } = describe(tick);
+  /** @param {ReturnType<typeof describe>} description */
+  #showSentence({ sentence, advice, level }) {
     setText(byId("sentence"), sentence);
     setText(byId("advice"), advice);
     document.body.dataset.level = level;
+  }
+
+  /** @param {import("./messages.js").Tick} tick */
+  #showTick(tick) {
+    this.#showSentence(describe(tick));
     document.body.dataset.state = tick.state;
     document.title = `${tick.state} – heel`;
     setText(byId("figure-speed"), `${signed(tick.robot.v_m_s, 2)} m/s`);
@@ -85,15 +94,6 @@ function chip(name, text, level, meaning) {
   setText(element, text);
   if (element.title !== meaning) element.title = meaning;
   element.dataset.level = level;
-}
-
-/**
- * @param {number} value
- * @param {number} digits
- */
-function signed(value, digits) {
-  const text = Math.abs(value).toFixed(digits);
-  return value < 0 && Number(text) !== 0 ? `−${text}` : text;
 }
 
 /** @param {number | null | undefined} length_m null: not known, or without end */
