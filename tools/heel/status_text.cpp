@@ -4,33 +4,12 @@
 
 #include <string_view>
 
+#include "status_fields.h"
+
 namespace heel::cli {
 namespace {
 
 constexpr double kDegPerRad = 57.29577951308232;
-
-/// A number of the status as `format` writes it, or "unknown" where it is null or missing.
-std::string number(const Json& object, std::string_view field, fmt::format_string<double> format) {
-  const auto found = object.find(field);
-  if (found == object.end() || !found->is_number()) return "unknown";
-  return fmt::format(format, found->get<double>());
-}
-
-bool flag(const Json& object, std::string_view field) {
-  const auto found = object.find(field);
-  return found != object.end() && found->is_boolean() && found->get<bool>();
-}
-
-std::string text(const Json& object, std::string_view field) {
-  const auto found = object.find(field);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : "unknown";
-}
-
-const Json& part(const Json& status, std::string_view name) {
-  static const Json kNone = Json::object();
-  const auto found = status.find(name);
-  return found == status.end() || !found->is_object() ? kNone : *found;
-}
 
 /// "p3at-sh, "; empty: the robot has not said what it is.
 std::string kind_text(const Json& robot) {

@@ -1,10 +1,17 @@
-// heel watch: the status of the running heeld, at each change and once a period.
+// heel watch: the status of the running heeld. On a terminal a view that is drawn again and again, elsewhere
+// a line at each change and once a period.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
 
 #include "commands.h"
 #include "operator_client.h"
 #include "status_text.h"
+#include "terminal.h"
+#include "watch_screen.h"
 
 namespace heel::cli {
 namespace {
@@ -12,8 +19,12 @@ namespace {
 constexpr double kAlivePeriod_s = 0.5;
 constexpr double kLate_s = 5.0;  // so much after the period: heeld does not answer
 
+constexpr double kScreenPeriod_s = 0.2;
+constexpr double kKeyWait_s = 0.04;  // between two looks at the keys
+
 struct WatchOptions : OperatorOptions {
   bool json = false;
+  bool lines = false;
   bool alive = false;
   double period_s = 1.0;
 };
@@ -46,20 +57,77 @@ void run_watch(const WatchOptions& options) {
   }
 }
 
+/// What a line that is no status says: empty, or what became of an emergency stop.
+std::string note_of(const Json& answer) {
+  if (answer.contains("error")) return answer.value("error", std::string());
+  return answer.contains("outcome")
+             ? fmt::format("emergency stop: {}", answer.value("outcome", std::string()))
+             : "";
+}
+
+/// Until `q`, a signal, or the end of heeld.
+void run_watch_screen(const WatchOptions& options) {
+  using SteadyClock = std::chrono::steady_clock;
+  const auto seconds_since = [](SteadyClock::time_point then) {
+    return std::chrono::duration<double>(SteadyClock::now() - then).count();
+  };
+  OperatorClient client(options.socket, "watch");
+  const double period_s = std::min(options.period_s, kScreenPeriod_s);
+  Json status = client.ask({{"do", "watch"}, {"period_s", period_s}}, period_s + kLate_s);
+  SteadyClock::time_point last_status = SteadyClock::now(), last_alive, last_note;
+  Screen screen;
+  WatchLook look;
+  look.colour = std::getenv("NO_COLOR") == nullptr;
+  while (!screen.ended()) {
+    for (char key = screen.key(); key != 0; key = screen.key()) {
+      if (key == 'q' || key == 'Q') return;
+      if (key != ' ') continue;
+      client.send({{"do", "estop"}});
+      look.note = "emergency stop sent";
+      last_note = SteadyClock::now();
+    }
+    if (options.alive && seconds_since(last_alive) >= kAlivePeriod_s) {
+      last_alive = SteadyClock::now();
+      client.send({{"do", "alive"}});
+    }
+    const Json line = client.next(kKeyWait_s);
+    if (line.contains("event")) {
+      status = line;
+      last_status = SteadyClock::now();
+    } else if (const std::string note = note_of(line); !note.empty()) {
+      look.note = note;
+      last_note = SteadyClock::now();
+    }
+    if (seconds_since(last_note) > kLate_s) look.note.clear();
+    look.columns = screen.size().columns;
+    look.news_age_s = seconds_since(last_status);
+    screen.draw(watch_screen(status, look));
+  }
+}
+
 }  // namespace
 
 void add_watch_command(CLI::App& app) {
   auto options = std::make_shared<WatchOptions>();
   CLI::App* command = app.add_subcommand(
-      "watch", "Shows a line of status at each change, and once a period, until it is interrupted");
+      "watch",
+      "Shows state, reason, speed, person, battery and what was set, until `q`; the space bar is an "
+      "emergency stop. "
+      "Not on a terminal: a line at each change, and once a period, until it is interrupted");
   command->add_flag("--json", options->json, "each as one JSON object (docs/operator.md)");
+  command->add_flag("--lines", options->lines, "lines on a terminal, too");
   command->add_option("--period", options->period_s, "longest time between two lines, seconds")
       ->check(number_from(0.1, 60.0))
       ->capture_default_str();
   command->add_flag("--alive", options->alive,
                     "say twice a second that the operator is there (supervisor.operator_timeout_s)");
   add_operator_options(*command, *options);
-  command->callback([options] { run_watch(*options); });
+  command->callback([options] {
+    if (!options->json && !options->lines && is_screen())
+      run_watch_screen(*options);
+    else
+      run_watch(*options);
+  });
 }
 
 }  // namespace heel::cli

@@ -1,13 +1,20 @@
 // heel status, start, stop, estop, reset, set, save, watch: with an operator thread whose control loop the
 // test plays, and without heeld.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pty.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include "operator/operator_server.h"
 #include "operator/played_loop.h"
@@ -103,6 +110,94 @@ TEST_F(HeelOperator, WatchPrintsALineAtEachChange) {
   EXPECT_EQ(heel({"start"}).status, 0);
   EXPECT_TRUE(says("ARMED: ")) << watch.output();
   EXPECT_TRUE(test::eventually([&] { return loop_.signs_of_life() > 5; })) << "--alive";
+}
+
+/// `heel watch` on a terminal of 80 columns and 24 rows.
+class WatchOnATerminal {
+ public:
+  explicit WatchOnATerminal(const std::string& socket) {
+    const winsize size{24, 80, 0, 0};
+    // Made before the fork: between it and exec nothing may allocate, because other threads run.
+    std::string program = HEEL_PROGRAM, watch = "watch", option = "--socket", name = socket,
+                kind = "TERM=xterm";
+    std::vector<char*> arguments{program.data(), watch.data(), option.data(), name.data(), nullptr};
+    std::vector<char*> environment{kind.data()};
+    for (char** variable = environ; *variable != nullptr; ++variable)
+      if (!std::string_view(*variable).starts_with("TERM=")) environment.push_back(*variable);
+    environment.push_back(nullptr);
+    pid_ = forkpty(&terminal_, nullptr, nullptr, &size);
+    if (pid_ == 0) {
+      execve(program.data(), arguments.data(), environment.data());
+      _exit(127);
+    }
+    fcntl(terminal_, F_SETFL, O_NONBLOCK);
+  }
+  ~WatchOnATerminal() {
+    if (!ended_) kill(pid_, SIGKILL);
+    wait();
+    close(terminal_);
+  }
+  WatchOnATerminal(const WatchOnATerminal&) = delete;
+  WatchOnATerminal& operator=(const WatchOnATerminal&) = delete;
+
+  void press(char key) const { ASSERT_EQ(write(terminal_, &key, 1), 1); }
+  bool shows(const std::string& text) {
+    return test::eventually([&] {
+      read_more();
+      // The newest view begins where the cursor went home last.
+      const std::size_t newest = out_.rfind("\x1b[H");
+      return newest != std::string::npos && out_.find(text, newest) != std::string::npos;
+    });
+  }
+  int wait() {
+    if (ended_) return status_;
+    const bool ended = test::eventually([&] {
+      read_more();
+      return waitpid(pid_, &status_, WNOHANG) == pid_;
+    });
+    ended_ = true;
+    read_more();
+    return ended ? status_ : -1000;
+  }
+  const std::string& output() const { return out_; }
+
+ private:
+  void read_more() {
+    std::array<char, 4096> bytes;
+    for (ssize_t count; (count = read(terminal_, bytes.data(), bytes.size())) > 0;)
+      out_.append(bytes.data(), static_cast<std::size_t>(count));
+  }
+
+  pid_t pid_ = -1;
+  int terminal_ = -1, status_ = -1;
+  bool ended_ = false;
+  std::string out_;
+};
+
+TEST_F(HeelOperator, OnATerminalWatchIsAViewWhoseSpaceBarIsAnEmergencyStop) {
+  WatchOnATerminal watch(socket_);
+  ASSERT_TRUE(watch.shows("  IDLE  ")) << watch.output();
+  for (const char* row : {"speed", "person", "shirt", "battery", "space: emergency stop"})
+    EXPECT_TRUE(watch.shows(row)) << row;
+  EXPECT_EQ(heel({"start"}).status, 0);
+  EXPECT_TRUE(watch.shows("  ARMED  ")) << watch.output();
+  EXPECT_EQ(heel({"set", "gate.v_max_m_s=0.25"}).status, 0);
+  EXPECT_TRUE(watch.shows("gate.v_max_m_s 0.5 -> 0.25")) << watch.output();
+  watch.press('x');
+  watch.press(' ');
+  EXPECT_TRUE(watch.shows("  EMERGENCY  ")) << watch.output();
+  EXPECT_TRUE(watch.shows("emergency stop: done")) << watch.output();
+  watch.press('q');
+  EXPECT_EQ(watch.wait(), 0);
+  EXPECT_THAT(watch.output(), ::testing::EndsWith("\x1b[?25h")) << "the cursor is shown again";
+}
+
+TEST_F(HeelOperator, ASignalEndsTheViewAndLeavesTheTerminalAsItWas) {
+  WatchOnATerminal watch(socket_);
+  ASSERT_TRUE(watch.shows("  IDLE  ")) << watch.output();
+  watch.press('\x03');  // Ctrl-C
+  EXPECT_EQ(watch.wait(), 0);
+  EXPECT_THAT(watch.output(), ::testing::EndsWith("\x1b[?25h"));
 }
 
 TEST_F(HeelOperator, TheSocketIsNamedByAVariable) {
