@@ -9,6 +9,8 @@ const kScaleLeast = 4;
 const kScaleMost = 400;
 const kZoomStep = 1.35;
 const kSpoken_ms = 2000;
+/** Around what must be in view. */
+const kMargin_m = 1.4;
 
 export class MapView {
   #canvas = /** @type {HTMLCanvasElement} */ (byId("map"));
@@ -60,13 +62,14 @@ export class MapView {
     /** @type {import("./messages.js").Info | undefined} */
     const info = this.bus.newest("info");
     const px = fitCanvas(this.#canvas);
+    const { width, height } = this.#canvas;
+    let scale = this.#scale * px;
     if (tick && this.#follows) {
-      // Halfway to the person, so that both are in view.
+      // Halfway to the person, and so small that both are in view.
       const person = knownPlace(tick.target);
       this.#middle = odomFromRobot(tick.robot, (person?.x_m ?? 0) / 2, (person?.y_m ?? 0) / 2);
+      if (person) scale = Math.min(scale, Math.min(width, height) / (Math.hypot(person.x_m, person.y_m) + kMargin_m));
     }
-    const { width, height } = this.#canvas;
-    const scale = this.#scale * px;
     const view = {
       context: this.#context, width, height, px, scale,
       place: (/** @type {import("./map_paths.js").Point} */ point) => /** @type {[number, number]} */ ([
@@ -124,9 +127,8 @@ export class MapView {
     const [yLeast, yMost] = range(points.map((point) => point.y));
     this.#follow(false);
     this.#middle = { x: (xLeast + xMost) / 2, y: (yLeast + yMost) / 2 };
-    const margin_m = 1.2;
     this.#scale = 1;
-    this.#zoom(Math.min(this.#canvas.clientHeight / (xMost - xLeast + margin_m), this.#canvas.clientWidth / (yMost - yLeast + margin_m)));
+    this.#zoom(Math.min(this.#canvas.clientHeight / (xMost - xLeast + kMargin_m), this.#canvas.clientWidth / (yMost - yLeast + kMargin_m)));
   }
 
   /**
