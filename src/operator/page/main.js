@@ -45,13 +45,27 @@ new SettingsView(bus, channel, () => readInto("config", "/api/config"));
 new LogView(bus, channel);
 setUpTabs(bus);
 
+/** @type {Map<string, Promise<void>>} */
+const waiting = new Map();
+let lastRead = Promise.resolve();
+
 /**
+ * Reads a path, one request after another: a browser opens six connections to a host, for all its tabs, and the emergency stop needs
+ * one of them also when nothing is answered. What waits already is not asked for again.
  * @param {string} name
  * @param {string} path
+ * @returns {Promise<void>}
  */
-async function readInto(name, path) {
-  const value = await facts(path);
-  if (value) bus.emit(name, value);
+function readInto(name, path) {
+  const read = async () => {
+    waiting.delete(path);
+    const value = await facts(path);
+    if (value) bus.emit(name, value);
+  };
+  const promise = waiting.get(path) ?? lastRead.then(read);
+  if (!waiting.has(path)) lastRead = promise;
+  waiting.set(path, promise);
+  return promise;
 }
 
 // After each connection: the daemon may be another one than before.

@@ -44,7 +44,7 @@ export class PlotsView {
     const pause = byId("plot-pause");
     pause.addEventListener("click", () => this.#pause(!this.#paused));
     document.addEventListener("keydown", (event) => {
-      if (event.key === "p" && !writesText(event.target) && !event.ctrlKey && !event.metaKey) this.#pause(!this.#paused);
+      if (event.key.toLowerCase() === "p" && !writesText(event.target) && !event.ctrlKey && !event.metaKey) this.#pause(!this.#paused);
     });
     bus.on("tick", (tick) => this.#takeTick(tick));
     bus.on("pose", (pose) => this.#takePose(pose));
