@@ -45,7 +45,7 @@
  * @property {[number, number, number, number] | null} predicted
  * @property {[number, number][] | null} inlier_px
  * @property {{capture_to_vision: Known, vision: Known, to_command: Known}} latency_ms from the exposure to the pose, of that vision
- *   alone, and from the pose to the command
+ *   alone, and from the exposure to the command
  */
 
 /** @typedef {{t_s: number, wall: string, severity: string, part: string, text: string}} LogEvent */

@@ -100,9 +100,7 @@ export class PlotsView {
     this.#add("yaw", wall_ms, [found ? pose.yaw_rad * kDegrees : null, Number.isFinite(travel_rad) ? -Number(travel_rad) * kDegrees : null]);
     this.#add("t_x", wall_ms, [found ? pose.position_m?.[0] : null]);
     this.#add("t_z", wall_ms, [found ? pose.position_m?.[2] : null]);
-    const { capture_to_vision, to_command } = pose.latency_ms;
-    const whole = Number.isFinite(capture_to_vision) && Number.isFinite(to_command) ? Number(capture_to_vision) + Number(to_command) : null;
-    this.#add("latency", wall_ms, [whole, capture_to_vision]);
+    this.#add("latency", wall_ms, [pose.latency_ms.to_command, pose.latency_ms.capture_to_vision]);
   }
 
   /** @param {boolean} paused */
@@ -170,7 +168,7 @@ export class PlotsView {
       labels: ["time", ...labels], ...range, colors: seriesColours(), strokeWidth: 1.5,
       legend: "never", gridLineColor: colour("grid"), axisLineColor: colour("line"), axisLabelFontSize: 11,
       axes: { y: { axisLabelWidth: 38, pixelsPerLabel: 17 }, x: { axisLabelWidth: 66, pixelsPerLabel: 90, drawAxis: plot === last } },
-      xRangePad: 0, highlightCircleSize: 3,
+      xRangePad: 0, highlightCircleSize: 3, connectSeparatedPoints: plot === last,
       highlightCallback: (/** @type {any} */ _event, /** @type {number} */ wall_ms) => {
         if (this.#paused) showAt(wall_ms);
       },
