@@ -12,12 +12,12 @@ find_package(yaml-cpp REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(PNG REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers only: Beast and Asio
-find_package(prometheus-cpp REQUIRED)
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 pkg_check_modules(SERIALPORT REQUIRED IMPORTED_TARGET libserialport)
 # FFmpeg's libraries: OpenCV's reader of videos loses time stamps and display matrices.
 pkg_check_modules(LIBAV REQUIRED IMPORTED_TARGET libavformat libavcodec libswscale libavutil)
 pkg_check_modules(SYSTEMD REQUIRED IMPORTED_TARGET libsystemd)
+pkg_check_modules(PROMETHEUS REQUIRED IMPORTED_TARGET prometheus-cpp-core)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 option(HEEL_WITH_LIBCAMERA "Cameras through libcamera, where it is installed" ON)
 if(HEEL_WITH_LIBCAMERA)

@@ -45,7 +45,7 @@ The package holds the daemon heeld and its service, the operator's command
 heel, and heel-sim, a simulated robot, person and camera. The service is
 neither enabled nor started: that is for a person beside the robot.")
 set(CPACK_DEBIAN_HEEL_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_HEEL_PACKAGE_DEPENDS "systemd")
+set(CPACK_DEBIAN_HEEL_PACKAGE_DEPENDS "systemd, libjs-dygraphs")
 set(CPACK_DEBIAN_HEEL_PACKAGE_RECOMMENDS "python3-matplotlib, udev, v4l-utils")
 set(packaging ${CMAKE_SOURCE_DIR}/systemd/debian)
 set(CPACK_DEBIAN_HEEL_PACKAGE_CONTROL_EXTRA

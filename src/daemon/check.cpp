@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <string>
+
 #include "config/config_load.h"
 #include "config/config_text.h"
 #include "daemon/inputs.h"
+#include "operator/web/exposure.h"
 
 namespace heel {
 
@@ -15,6 +18,8 @@ void check_configuration(const std::string& path) {
   fmt::print("{}: {}×{} pixels, fx {:.1f}, fy {:.1f}\n", loaded.config.camera.info, inputs.camera.width_px,
              inputs.camera.height_px, inputs.camera.fx, inputs.camera.fy);
   for (const std::string& line : template_lines(loaded.config, inputs)) fmt::print("{}\n", line);
+  const std::string exposure = page_exposure(loaded.config.view);
+  if (!exposure.empty()) fmt::print("{}\n", exposure);
   fmt::print("{}: valid\n", path);
 }
 

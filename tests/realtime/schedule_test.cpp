@@ -39,6 +39,7 @@ TEST(Schedule, RowsFollowTheConfiguration) {
   EXPECT_EQ(plan_of(schedule, ThreadRole::Telemetry).priority, 0)
       << "telemetry writes to disk and formats text";
   EXPECT_EQ(plan_of(schedule, ThreadRole::Operator).priority, 0) << "its load comes from outside";
+  EXPECT_EQ(plan_of(schedule, ThreadRole::View).priority, 0) << "its load comes from the network";
   EXPECT_EQ(plan_of(schedule, ThreadRole::Settings).priority, 0) << "it waits for the disk";
 }
 

@@ -148,7 +148,7 @@ void HttpSession::become_websocket(const PageRequest& request) {
 void HttpSession::stop_robot() {
   const TimeNs now_ns = monotonic_now_ns();
   const OperatorRequest asked = context_.port.request(OperatorCommand::EStop, now_ns);
-  spdlog::info("operator (page, {}): estop", presence_->address());
+  if (context_.logged_stops.take(now_ns)) spdlog::info("operator (page, {}): estop", presence_->address());
   stream_.expires_never();
   await_stop(asked.number, now_ns);
 }

@@ -28,7 +28,8 @@ struct PageContext {
   AddressLimits limits{};
   std::size_t page_operators = 0;
   std::vector<Presence*> present{};  // every connection
-  Allowance warnings{1.0, 10.0};     // in the log: a client must not fill it
+  // In the log: a client must not fill it.
+  Allowance warnings{1.0, 10.0}, logged_stops{1.0, 10.0};
   // Destroyed first: what its handlers hold uses the rest.
   boost::asio::io_context io{1};
 

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "heel/error.h"
+#include "operator/web/exposure.h"
 #include "operator/web/http_session.h"
 #include "operator/web/limits.h"
 #include "operator/web/page_context.h"
@@ -41,6 +42,7 @@ tcp::endpoint endpoint_of(const std::string& address) {
 struct ViewServer::Impl {
   Impl(const ViewConfig& config, const ViewParts& parts, PageFiles files)
       : address(config.address),
+        exposure(page_exposure(config)),
         context{
             parts.port,
             parts.operators,
@@ -62,7 +64,7 @@ struct ViewServer::Impl {
   void accept();
   void look();
 
-  const std::string address;
+  const std::string address, exposure;
   PageContext context;
   LiveFeed& feed;
   tcp::acceptor acceptor;
@@ -121,8 +123,8 @@ ViewServer::~ViewServer() {
 
 void ViewServer::run() {
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
-  spdlog::info("the page is served at {}, port {}{}", impl_->address, port(),
-               impl_->context.token.set() ? "" : "; without a token: nothing can be changed there");
+  spdlog::info("the page is served at {}, port {}", impl_->address, port());
+  spdlog::info("{}", impl_->exposure);
   impl_->accept();
   impl_->look();
   for (bool ended = false; !ended;) {

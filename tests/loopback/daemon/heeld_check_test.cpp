@@ -24,6 +24,7 @@ using test::write_text;
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Outcome heeld(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), HEELD_PROGRAM);
@@ -49,6 +50,26 @@ TEST(HeeldCheck, AGoodConfigurationIsListedWithOriginsAndVerdict) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("gate.v_max_m_s"), HasSubstr(place_of(config, "v_max_m_s") + "\n"),
                                  HasSubstr("# default\n"), HasSubstr("taken at 2.00 m")));
+}
+
+TEST(HeeldCheck, WhoCanReachThePageIsSaid) {
+  const Scene scene(1);
+  const auto said = [&](const std::string& view) {
+    const Outcome outcome =
+        heeld({"--config", scene.write_config({.sections = "[view]\n" + view}), "--check"});
+    return outcome.out.substr(outcome.out.rfind("view.address: ") + 1) + outcome.err;
+  };
+  EXPECT_THAT(heeld({"--config", scene.write_config(), "--check"}).out, Not(HasSubstr("the page")));
+  EXPECT_THAT(said("address = \"127.0.0.1:8080\"\n"),
+              AllOf(HasSubstr("for this computer alone"), HasSubstr("there is no token (view.token_file)")));
+  EXPECT_THAT(said("address = \"0.0.0.0:8080\"\n"),
+              AllOf(HasSubstr("open to the network"), HasSubstr("there is no token (view.token_file)")));
+  std::filesystem::permissions(write_text(scene.path("token"), "0123456789abcdef"),
+                               std::filesystem::perms::owner_read);
+  EXPECT_THAT(said("address = \"0.0.0.0:8080\"\ntoken_file = \"token\"\n"),
+              AllOf(HasSubstr("open to the network"), HasSubstr("who knows the token can")));
+  EXPECT_THAT(said("address = \"0.0.0.0:8080\"\ntoken_file = \"none\"\n"),
+              HasSubstr("none: cannot be read: No such file or directory"));
 }
 
 TEST(HeeldCheck, AllErrorsOfAFileAreReported) {
