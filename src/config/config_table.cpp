@@ -204,7 +204,7 @@ const ConfigKey kKeys[] = {
 
     listen_address(HEEL_KEY(view, address), "Where the page is served: 127.0.0.1:8080 for this computer alone (or a reverse proxy on it), 0.0.0.0:8080 for its networks; port 0 takes a free one, which the log names. With an empty text nothing is served."),
     path(HEEL_KEY(view, token_file), "File with the token, at least 16 characters, that a browser must know to change anything; with an empty name the systemd credential view-token, when there is one. Without a token nothing can be changed over the network; an emergency stop needs none."),
-    names(HEEL_KEY(view, hosts), 16, "Names by which browsers may reach the page, besides IP addresses and localhost; a page under another name is refused."),
+    names(HEEL_KEY(view, hosts), 16, "Names by which browsers may reach the page, besides IP addresses and localhost; a page under another name is refused. A viewer for Foxglove that is loaded from another site needs that site's name here."),
     number(HEEL_KEY(view, picture_hz), "Hz", {0.1, 30}, No, "Largest rate of the pictures that the page shows. None is made while nobody looks."),
     number(HEEL_KEY(view, picture_quality), "", {10, 95}, No, "Quality of these JPEG pictures."),
 

@@ -125,10 +125,10 @@ std::string PageClient::message() {
   return "";
 }
 
-nlohmann::json PageClient::message_of(const std::string& type) {
+nlohmann::json PageClient::message_of(const std::string& type, const std::string& field) {
   for (std::string text = message(); !text.empty(); text = message()) {
     const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-    if (json.is_object() && json.value("type", "") == type) return json;
+    if (json.is_object() && json.value(field, "") == type) return json;
   }
   return nullptr;
 }

@@ -39,8 +39,8 @@ class PageClient {
   bool send_text(const std::string& text) const { return send_frame(0x81, text); }
   /// The next message; empty: the server has closed, or said that it closes.
   std::string message();
-  /// The next message of this "type", or any for an empty one.
-  nlohmann::json message_of(const std::string& type);
+  /// The next JSON message with this value of the field; null: the server has closed.
+  nlohmann::json message_of(const std::string& type, const std::string& field = "type");
   /// Sends a text and returns the next one.
   nlohmann::json ask_json(const std::string& text) {
     send_text(text);

@@ -5,16 +5,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "config/config_table.h"
 #include "config/config_value.h"
 
 namespace heel {
 namespace {
-
-ViewJson value_of(const ConfigKey& key, const Config& config) {
-  // The accessors are shared with the parser and take a Config that can be written; this only reads.
-  return std::visit([&](auto field) { return ViewJson(*field(const_cast<Config&>(config))); }, key.field);
-}
 
 const char* json_type(const ConfigKey& key) {
   switch (key.field.index()) {
@@ -47,6 +41,11 @@ ViewJson limit_of(const ConfigKey& key) {
 
 }  // namespace
 
+ViewJson config_value_json(const ConfigKey& key, const Config& config) {
+  // The accessors are shared with the parser and take a Config that can be written; this only reads.
+  return std::visit([&](auto field) { return ViewJson(*field(const_cast<Config&>(config))); }, key.field);
+}
+
 ViewJson config_json(const std::string& file, const SettingsView& settings) {
   static const Config defaults;
   ViewJson keys = ViewJson::array();
@@ -54,9 +53,9 @@ ViewJson config_json(const std::string& file, const SettingsView& settings) {
     const std::string_view type = json_type(key);
     const bool has_range = type == "number" || type == "integer";
     ViewJson row = {{"key", key.full_name()}, {"section", key.section}, {"type", type}};
-    row["value"] = value_of(key, settings.in_use);
-    row["file_value"] = value_of(key, settings.file);
-    row["default"] = value_of(key, defaults);
+    row["value"] = config_value_json(key, settings.in_use);
+    row["file_value"] = config_value_json(key, settings.file);
+    row["default"] = config_value_json(key, defaults);
     row["min"] = has_range ? ViewJson(key.min) : ViewJson();
     row["max"] = has_range ? ViewJson(key.max) : ViewJson();
     row["unit"] = key.unit;

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "operator/web/foxglove_messages.h"
 #include "operator/web/limits.h"
 #include "operator/web/view_json.h"
 #include "operator/web/websocket_sessions.h"
@@ -124,10 +125,14 @@ void HttpSession::serve() {
 void HttpSession::become_websocket(const PageRequest& request) {
   const std::string_view path = request.target.substr(0, request.target.find('?'));
   PageAnswer refused;
-  if (path != "/live" && path != "/operator") {
-    refused = page_error(404, "no WebSocket of this name (expected /live or /operator)");
-  } else if (path == "/live" && context_.hub.viewers() >= kMaxViewers) {
+  const bool looks = path == "/live" || path == "/foxglove";
+  const std::string protocol = foxglove_protocol(text_of_header(parser_->get(), "Sec-WebSocket-Protocol"));
+  if (!looks && path != "/operator") {
+    refused = page_error(404, "no WebSocket of this name (expected /live, /operator or /foxglove)");
+  } else if (looks && context_.hub.viewers() >= kMaxViewers) {
     refused = page_error(503, fmt::format("{} browsers look already", kMaxViewers));
+  } else if (path == "/foxglove" && protocol.empty()) {
+    refused = page_error(400, "Sec-WebSocket-Protocol: expected foxglove.sdk.v1 or foxglove.websocket.v1");
   } else if (path == "/operator" && context_.operators == nullptr) {
     refused = page_error(503, "operators are not served (operator.socket is empty)");
   } else if (path == "/operator" && context_.page_operators >= kMaxPageOperators) {
@@ -135,8 +140,12 @@ void HttpSession::become_websocket(const PageRequest& request) {
   } else {
     presence_->close = nullptr;
     stream_.expires_never();
-    const auto open = path == "/live" ? open_live_session : open_operator_session;
-    open(std::move(stream_), context_, std::move(presence_), parser_->release());
+    if (path == "/foxglove") {
+      open_foxglove_session(std::move(stream_), context_, std::move(presence_), parser_->release(), protocol);
+    } else {
+      const auto open = path == "/live" ? open_live_session : open_operator_session;
+      open(std::move(stream_), context_, std::move(presence_), parser_->release());
+    }
     return;
   }
   keeps_alive_ = false;

@@ -13,21 +13,41 @@ namespace {
 
 constexpr std::size_t kMaxLines = 50;  // of the log, at once
 
+bool can_take_picture(const LiveViewer* viewer) {
+  return viewer->wants_pictures && !viewer->picture_on_its_way;
+}
+
 }  // namespace
 
 bool LiveHub::add(LiveViewer& viewer) {
-  if (viewers_.size() >= kMaxViewers) return false;
-  if (viewers_.empty()) {  // what was logged before is not news
-    const std::vector<LoggedLine> newest = log_.after(0, 1);
-    lines_sent_ = newest.empty() ? 0 : newest.front().number;
-  }
+  if (viewers() >= kMaxViewers) return false;
+  if (viewers() == 0) forget_lines();
   viewers_.push_back(&viewer);
   tell_feed();
   return true;
 }
 
+bool LiveHub::add(RecordViewer& viewer) {
+  if (viewers() >= kMaxViewers) return false;
+  if (viewers() == 0) forget_lines();
+  record_viewers_.push_back(&viewer);
+  tell_feed();
+  return true;
+}
+
+/// What was logged before somebody looks is not news.
+void LiveHub::forget_lines() {
+  const std::vector<LoggedLine> newest = log_.after(0, 1);
+  lines_sent_ = newest.empty() ? 0 : newest.front().number;
+}
+
 void LiveHub::remove(LiveViewer& viewer) {
   std::erase(viewers_, &viewer);
+  tell_feed();
+}
+
+void LiveHub::remove(RecordViewer& viewer) {
+  std::erase(record_viewers_, &viewer);
   tell_feed();
 }
 
@@ -46,13 +66,19 @@ bool LiveHub::heard(LiveViewer& viewer, const std::string& text) {
   return true;
 }
 
+bool LiveHub::picture_awaited() const {
+  return std::any_of(viewers_.begin(), viewers_.end(), can_take_picture) ||
+         std::any_of(record_viewers_.begin(), record_viewers_.end(),
+                     [](const RecordViewer* viewer) { return viewer->ready_for_picture(); });
+}
+
 void LiveHub::tell_feed() {
-  const auto wants = [](const LiveViewer* viewer) { return viewer->wants_pictures; };
-  const auto ready = [](const LiveViewer* viewer) {
-    return viewer->wants_pictures && !viewer->picture_on_its_way;
-  };
-  feed_.set_watched(!viewers_.empty(), std::any_of(viewers_.begin(), viewers_.end(), wants));
-  feed_.set_picture_wanted(std::any_of(viewers_.begin(), viewers_.end(), ready));
+  const bool pictures = std::any_of(viewers_.begin(), viewers_.end(),
+                                    [](const LiveViewer* viewer) { return viewer->wants_pictures; }) ||
+                        std::any_of(record_viewers_.begin(), record_viewers_.end(),
+                                    [](const RecordViewer* viewer) { return viewer->wants_pictures(); });
+  feed_.set_watched(viewers() > 0, pictures);
+  feed_.set_picture_wanted(picture_awaited());
 }
 
 void LiveHub::send_to_all(std::string text) {
@@ -63,36 +89,32 @@ void LiveHub::send_to_all(std::string text) {
 
 void LiveHub::send_news() {
   const LiveNews news = feed_.take();
-  if (viewers_.empty()) return;
+  if (viewers() == 0) return;
   const TimeNs wall_minus_monotonic_ns = wall_now_ns() - monotonic_now_ns();
   if (news.tick) {
     const RobotGeometry& robot = shown_robot(news.tick->input.robot, robot_model_).geometry;
     send_to_all(tick_message(*news.tick, robot, wall_minus_monotonic_ns));
   }
   for (const PoseNews& one : news.poses) send_to_all(pose_message(one.pose, one.to_command_ns, facts_));
-  if (news.picture) send_picture(*news.picture);
-  for (const LoggedLine& line : log_.after(lines_sent_, kMaxLines)) {
-    lines_sent_ = line.number;
-    send_to_all(event_message(line, wall_minus_monotonic_ns));
-  }
+  std::string jpeg;
+  if (news.picture && picture_awaited()) jpeg = jpeg_of(*news.picture, quality_);
+  if (!jpeg.empty()) send_picture(news.picture->header, jpeg);
+  const std::vector<LoggedLine> lines = log_.after(lines_sent_, kMaxLines);
+  if (!lines.empty()) lines_sent_ = lines.back().number;
+  for (const LoggedLine& line : lines) send_to_all(event_message(line, wall_minus_monotonic_ns));
+  for (RecordViewer* viewer : std::vector(record_viewers_)) viewer->see(news, jpeg, lines);
+  if (!jpeg.empty()) tell_feed();
 }
 
-void LiveHub::send_picture(const KeptFrame& frame) {
-  const auto ready = [](const LiveViewer* viewer) {
-    return viewer->wants_pictures && !viewer->picture_on_its_way;
-  };
-  if (std::none_of(viewers_.begin(), viewers_.end(), ready)) return;
-  const std::string jpeg = jpeg_of(frame, quality_);
-  if (jpeg.empty()) return;
+void LiveHub::send_picture(const FrameHeader& header, const std::string& jpeg) {
   ++pictures_;
   const auto message = std::make_shared<const LiveMessage>(
-      LiveMessage{true, picture_message(frame.header, jpeg, monotonic_now_ns())});
+      LiveMessage{true, picture_message(header, jpeg, monotonic_now_ns())});
   for (LiveViewer* viewer : std::vector(viewers_)) {
-    if (!ready(viewer)) continue;
+    if (!can_take_picture(viewer)) continue;
     viewer->picture_on_its_way = true;
     viewer->send(message);
   }
-  tell_feed();
 }
 
 }  // namespace heel

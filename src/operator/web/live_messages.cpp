@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <ctime>

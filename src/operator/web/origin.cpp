@@ -45,4 +45,14 @@ bool origin_is_ours(std::string_view origin, std::string_view host) {
   return false;
 }
 
+bool origin_is_named(std::string_view origin, std::span<const std::string> names) {
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (!origin.starts_with(scheme)) continue;
+    const std::string_view name = without_port(origin.substr(scheme.size()));
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& ours) { return equal_letters(ours, name); });
+  }
+  return false;
+}
+
 }  // namespace heel

@@ -16,4 +16,7 @@ bool host_is_ours(std::string_view host, std::span<const std::string> names);
 /// browser, or a page that the user opens) is none of another site.
 bool origin_is_ours(std::string_view origin, std::string_view host);
 
+/// The page that asks was loaded from a host of this name, whatever the port: a viewer that stands elsewhere.
+bool origin_is_named(std::string_view origin, std::span<const std::string> names);
+
 }  // namespace heel

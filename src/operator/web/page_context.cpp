@@ -30,6 +30,24 @@ void Presence::active() {
   t_active_ns = monotonic_now_ns();
 }
 
+std::string try_token(PageContext& context, const std::string& address, const std::string& token) {
+  if (!context.token.set())
+    return "heeld has no token (view.token_file): nothing can be changed over the network";
+  const std::string counted = counted_address(address);
+  const TimeNs now_ns = monotonic_now_ns();
+  if (!context.limits.may_try_token(counted, now_ns)) {
+    context.warn(address + ": too many tokens were tried; more are refused for a minute");
+    return "too many tokens were tried (expected at most 5 a minute)";
+  }
+  if (!context.token.equals(token)) {
+    context.warn(address + ": a wrong token was tried");
+    return "not the token of this heeld";
+  }
+  context.limits.token_was_right(counted, now_ns);
+  spdlog::info("page: {} has said the token", address);
+  return "";
+}
+
 bool make_room(PageContext& context) {
   const auto open = std::count_if(context.present.begin(), context.present.end(),
                                   [](const Presence* one) { return !one->closing; });

@@ -21,6 +21,7 @@ class Presence;
 struct PageContext {
   OperatorPort& port;
   OperatorServer* operators;  // null: none
+  const Settings& settings;
   const Telemetry& telemetry;
   const Token token;
   LiveHub hub;
@@ -59,6 +60,9 @@ class Presence {
   const std::string address_;
   bool limited_ = false;
 };
+
+/// What is wrong with the token that somebody at `address` says; empty: it is the right one. Logged.
+std::string try_token(PageContext& context, const std::string& address, const std::string& token);
 
 /// Before another connection is accepted: closes the one that has asked for nothing for longest, when there
 /// are too many. False: all that there are must stay.

@@ -46,6 +46,7 @@ struct ViewServer::Impl {
         context{
             parts.port,
             parts.operators,
+            parts.settings,
             parts.telemetry,
             Token::read(config.token_file),
             LiveHub(parts.feed, parts.log, parts.facts, parts.settings.view().file.robot.model,

@@ -32,9 +32,14 @@ WebSocketSession::WebSocketSession(beast::tcp_stream&& stream, PageContext& cont
   times.keep_alive_pings = true;
   stream_.set_option(times);
   stream_.read_message_max(kMaxMessageBytes);
+  stream_.auto_fragment(false);  // a picture is one frame, and one write
 }
 
-void WebSocketSession::start(UpgradeRequest request) {
+void WebSocketSession::start(UpgradeRequest request, const std::string& protocol) {
+  if (!protocol.empty())
+    stream_.set_option(websocket::stream_base::decorator([protocol](websocket::response_type& response) {
+      response.set(beast::http::field::sec_websocket_protocol, protocol);
+    }));
   const auto kept = std::make_shared<UpgradeRequest>(std::move(request));
   stream_.async_accept(*kept, [self = shared_from_this(), kept](beast::error_code error) {
     if (error) return;

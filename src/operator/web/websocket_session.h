@@ -21,7 +21,8 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
   WebSocketSession(boost::beast::tcp_stream&& stream, PageContext& context,
                    std::unique_ptr<Presence> presence);
   virtual ~WebSocketSession() = default;
-  void start(UpgradeRequest request);
+  /// `protocol`: of those that the browser offers, the one that is spoken; empty: none.
+  void start(UpgradeRequest request, const std::string& protocol = "");
 
  protected:
   /// The connection stands.
@@ -33,6 +34,8 @@ class WebSocketSession : public std::enable_shared_from_this<WebSocketSession> {
 
   void send_message(SharedMessage message);
   void drop();
+  /// Bytes that the browser has not taken yet.
+  std::size_t waiting_bytes() const { return waiting_bytes_; }
   PageContext& context() { return context_; }
   const std::string& address() const { return presence_->address(); }
 

@@ -1,26 +1,19 @@
 #include "operator/web/websocket_sessions.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <atomic>
-#include <boost/asio/buffer.hpp>
-#include <boost/asio/local/stream_protocol.hpp>
-#include <boost/asio/read_until.hpp>
-#include <boost/asio/write.hpp>
 #include <utility>
 
 #include "heel/error.h"
-#include "operator/web/limits.h"
+#include "operator/web/operator_link.h"
 #include "operator/web/view_json.h"
 #include "operator/web/websocket_session.h"
-#include "realtime/clock.h"
 
 namespace heel {
 namespace {
 
-namespace asio = boost::asio;
 namespace beast = boost::beast;
 
 SharedMessage text_message(std::string text) {
@@ -52,37 +45,25 @@ class OperatorSession final : public WebSocketSession {
   ~OperatorSession() override { --context().page_operators; }
 
  private:
-  static constexpr std::size_t kMaxLineBytes = 256 * 1024;  // a status has a few thousand
-
   void opened() override;
   bool heard(const std::string& text) override;
-  void ended() override {
-    beast::error_code ignored;
-    operators_.close(ignored);
-  }
-  std::shared_ptr<OperatorSession> self() {
-    return std::static_pointer_cast<OperatorSession>(shared_from_this());
-  }
-  void read_answers();
-  void write_requests();
+  void ended() override { operators_.close(); }
   std::string login(const ViewJson& request);
 
-  asio::local::stream_protocol::socket operators_;
+  OperatorLink operators_;
   const std::shared_ptr<std::atomic<bool>> may_write_ = std::make_shared<std::atomic<bool>>(false);
-  std::string answers_;           // bytes from the operator thread
-  std::string requests_, going_;  // bytes to it: those that wait, and those on their way
 };
 
 void OperatorSession::opened() {
   try {
-    const int fd = context().operators->invite("page, " + address(), may_write_);
-    operators_.assign(asio::local::stream_protocol(), fd);
+    operators_.open(
+        context().operators->invite("page, " + address(), may_write_),
+        {shared_from_this(), [this](const std::string& line) { send_message(text_message(line)); },
+         [this] { drop(); }});
   } catch (const Error& error) {
     context().warn(error.what());
     drop();
-    return;
   }
-  read_answers();
 }
 
 bool OperatorSession::heard(const std::string& text) {
@@ -91,35 +72,9 @@ bool OperatorSession::heard(const std::string& text) {
   std::replace_if(
       line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   const ViewJson request = ViewJson::parse(line, nullptr, /*allow_exceptions=*/false);
-  if (request.is_object() && request.value("do", ViewJson()) == "login") {
-    send_message(text_message(login(request)));
-    return true;
-  }
-  if (requests_.size() > kMaxLineBytes) return false;
-  requests_ += line + '\n';
-  if (going_.empty()) write_requests();
+  if (!request.is_object() || request.value("do", ViewJson()) != "login") return operators_.send(line);
+  send_message(text_message(login(request)));
   return true;
-}
-
-void OperatorSession::write_requests() {
-  going_.swap(requests_);
-  asio::async_write(operators_, asio::buffer(going_), [self = self()](beast::error_code error, std::size_t) {
-    self->going_.clear();
-    if (!error && !self->requests_.empty()) self->write_requests();
-  });
-}
-
-void OperatorSession::read_answers() {
-  asio::async_read_until(operators_, asio::dynamic_buffer(answers_, kMaxLineBytes), '\n',
-                         [self = self()](beast::error_code error, std::size_t count) {
-                           if (error) {
-                             self->drop();
-                             return;
-                           }
-                           self->send_message(text_message(self->answers_.substr(0, count - 1)));
-                           self->answers_.erase(0, count);
-                           self->read_answers();
-                         });
 }
 
 std::string OperatorSession::login(const ViewJson& request) {
@@ -130,22 +85,10 @@ std::string OperatorSession::login(const ViewJson& request) {
     out[name] = value;
     return text_of(out);
   };
-  if (!context().token.set())
-    return answer("error", "heeld has no token (view.token_file): nothing can be changed over the network",
-                  false);
-  const std::string counted = counted_address(address());
-  const TimeNs now_ns = monotonic_now_ns();
-  if (!context().limits.may_try_token(counted, now_ns)) {
-    context().warn(address() + ": too many tokens were tried; it is refused for a minute");
-    return answer("error", "too many tokens were tried (expected at most 5 a minute)", false);
-  }
   const ViewJson token = request.value("token", ViewJson());
-  if (!token.is_string() || !context().token.equals(token.get_ref<const std::string&>())) {
-    context().warn(address() + ": a wrong token was tried");
-    return answer("error", "not the token of this heeld", false);
-  }
-  context().limits.token_was_right(counted, now_ns);
-  spdlog::info("page: {} has said the token", address());
+  const std::string error =
+      try_token(context(), address(), token.is_string() ? token.get<std::string>() : "");
+  if (!error.empty()) return answer("error", error, false);
   may_write_->store(true, std::memory_order_release);
   return answer("may_write", true, true);
 }

@@ -5,6 +5,7 @@
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <memory>
+#include <string>
 
 #include "operator/web/page_context.h"
 
@@ -17,5 +18,10 @@ void open_live_session(boost::beast::tcp_stream&& stream, PageContext& context,
                        std::unique_ptr<Presence> presence, UpgradeRequest request);
 void open_operator_session(boost::beast::tcp_stream&& stream, PageContext& context,
                            std::unique_ptr<Presence> presence, UpgradeRequest request);
+
+/// `protocol`: one that foxglove_protocol() has chosen.
+void open_foxglove_session(boost::beast::tcp_stream&& stream, PageContext& context,
+                           std::unique_ptr<Presence> presence, UpgradeRequest request,
+                           const std::string& protocol);
 
 }  // namespace heel

@@ -79,6 +79,15 @@ TEST(PageOrigin, OriginsAreOfTheHostThatIsAsked) {
     EXPECT_FALSE(origin_is_ours(other, "robot:80")) << other;
 }
 
+TEST(PageOrigin, ViewersOfOtherSitesAreNamed) {
+  const std::vector<std::string> names = {"viewer.example"};
+  EXPECT_TRUE(origin_is_named("https://viewer.example", names));
+  EXPECT_TRUE(origin_is_named("http://viewer.example:3000", names));
+  for (const char* other : {"", "null", "https://evil.example", "https://127.0.0.1", "viewer.example",
+                            "https://viewer.example.evil.example"})
+    EXPECT_FALSE(origin_is_named(other, names)) << other;
+}
+
 TEST(PageLimits, AnAllowanceComesBackWithTime) {
   Allowance allowance(2.0, 3.0);
   TimeNs now_ns = kNsPerS;
