@@ -11,6 +11,7 @@ export class StatusView {
   #frames = 0;
   #framesSince_ms = performance.now();
   #pose_ms = 0;
+  #spoken = "";
 
   /** @param {import("./bus.js").Bus} bus */
   constructor(bus) {
@@ -18,7 +19,7 @@ export class StatusView {
     bus.on("tick", (tick) => this.#showTick(tick));
     bus.on("old", (old) => {
       const tick = bus.newest("tick");
-      if (old) this.#showSentence(describeOld(tick));
+      if (old) this.#showSentence(describeOld(tick), "old");
       else if (tick) this.#showTick(tick);
     });
     bus.on("pose", () => {
@@ -33,16 +34,23 @@ export class StatusView {
     this.#showChips();
   }
 
-  /** @param {ReturnType<typeof describe>} description */
-  #showSentence({ sentence, advice, level }) {
+  /**
+   * Screen readers hear it when `what` changes, and not each time when a distance in the sentence does.
+   * @param {ReturnType<typeof describe>} description
+   * @param {string} what
+   */
+  #showSentence({ sentence, advice, level }, what) {
     setText(byId("sentence"), sentence);
     setText(byId("advice"), advice);
     document.body.dataset.level = level;
+    if (what === this.#spoken) return;
+    this.#spoken = what;
+    setText(byId("spoken"), `${sentence}. ${advice}`);
   }
 
   /** @param {import("./messages.js").Tick} tick */
   #showTick(tick) {
-    this.#showSentence(describe(tick));
+    this.#showSentence(describe(tick), `${tick.state}, ${tick.reason}, ${tick.hold}`);
     document.body.dataset.state = tick.state;
     document.title = `${tick.state} – heel`;
     setText(byId("figure-speed"), `${signed(tick.robot.v_m_s, 2)} m/s`);
