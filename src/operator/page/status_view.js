@@ -4,6 +4,8 @@ import { byId, setText, signed } from "./dom.js";
 import { describe, describeOld } from "./sentence.js";
 
 const kChips_ms = 500;
+/** A sentence with more letters is written smaller. */
+const kLong = 44;
 /** So long without a pose, and the camera counts as silent. */
 const kCameraSilent_ms = 1000;
 
@@ -41,6 +43,7 @@ export class StatusView {
    */
   #showSentence({ sentence, advice, level }, what) {
     setText(byId("sentence"), sentence);
+    byId("sentence").dataset.long = String(sentence.length > kLong);
     setText(byId("advice"), advice);
     document.body.dataset.level = level;
     if (what === this.#spoken) return;
