@@ -90,6 +90,16 @@ struct PoseEstimate {
   bool found() const { return reason == PoseReason::Found; }
 };
 
+/// Places in a frame that show people how its pose came about. Nothing is decided by them.
+struct PoseMarks {
+  static constexpr std::size_t kMostInliers = 200;
+  std::uint64_t frame_sequence = 0;
+  bool has_region = false;  ///< the last pose predicted the shirt, and this region was searched first
+  std::array<std::int32_t, 4> region_px{};  ///< left, top, right, bottom; pixels of the frame, and beyond it
+  std::uint32_t inliers = 0;  ///< entries of `inlier_px`: of more pairs than it holds, every n-th
+  std::array<std::array<float, 2>, kMostInliers> inlier_px{};  ///< x, y; undistorted
+};
+
 // ── robot → control ─────────────────────────────────────────────────────────────────────────────
 
 /// The phase of the session with the robot's controller.
@@ -334,9 +344,9 @@ struct WireBytes {
 /// These structs are copied between threads byte by byte.
 template <typename... T>
 inline constexpr bool kAllTriviallyCopyable = (std::is_trivially_copyable_v<T> && ...);
-static_assert(
-    kAllTriviallyCopyable<FrameHeader, FrameView, PoseEstimate, RobotState, TargetState, VelocityCommand,
-                          OperatorRequest, ControlInput, TickRecord, Event, CaptureCounters, WireBytes>);
+static_assert(kAllTriviallyCopyable<FrameHeader, FrameView, PoseEstimate, PoseMarks, RobotState, TargetState,
+                                    VelocityCommand, OperatorRequest, ControlInput, TickRecord, Event,
+                                    CaptureCounters, WireBytes>);
 
 /// The texts of reasons and phases in logs, records and status lines.
 const char* to_string(PoseReason reason);

@@ -64,6 +64,10 @@ class PoseEstimator {
   /// search, of the enlarged region where they are, may find the shirt, or find it more precisely.
   bool needs_upsampled_pass(const PoseEstimate& pose) const;
 
+  /// Of the last estimate: the pairs that support its homography; none where it is not found, or a view of
+  /// the template found it. Without frame and region, which the caller knows.
+  const PoseMarks& marks() const;
+
   /// From now on the end of each step is reported to `times`, which must outlive this; null: no reports.
   void measure(StageTimes* times);
 

@@ -34,6 +34,9 @@ class PoseTracker {
 
   PoseEstimate estimate(const FrameView& frame);
 
+  /// Of the last estimate.
+  PoseMarks marks() const;
+
   /// As PoseEstimator.
   void measure(StageTimes* times) { estimator_.measure(times); }
 
@@ -51,6 +54,7 @@ class PoseTracker {
   std::unique_ptr<YawFilter> yaw_filter_;
   VisionConfig config_;
   PoseEstimate last_found_;
+  PoseMarks expected_;  // of the last frame: without inliers
   bool part_is_next_ = false;
   int next_part_ = 0;
   int frames_continued_ = 0;  // in a row, up to last_found_

@@ -146,7 +146,7 @@ Daemon::Daemon(LoadedConfig loaded, Signals& signals, std::shared_ptr<RecentLog>
       templates_(inputs_.shirts, inputs_.camera, loaded_.config.vision),
       capture_(*source_, frames_, queues_.captures, queues_.capture_events,
                {.restart_at_end = loaded_.config.camera.at_end == "loop"}),
-      vision_(frames_, templates_, poses_, queues_.poses, pictures_.get()),
+      vision_(frames_, templates_, poses_, queues_, pictures_.get()),
       control_(loaded_.config, poses_, queues_),
       telemetry_(queues_, loaded_.config.telemetry, pictures_.get()),
       settings_(loaded_, {[this](const Config& config) { check_against_camera(config, inputs_.camera); },

@@ -10,7 +10,7 @@ constexpr TimeNs kLongestWait_ns = 100 * kNsPerMs;  // stop() takes effect withi
 }
 
 VisionLoop::VisionLoop(FrameTripleBuffer& frames, TemplateSelector& templates,
-                       Mailbox<PoseEstimate>& to_control, SpscQueue<PoseEstimate>& to_telemetry,
+                       Mailbox<PoseEstimate>& to_control, TelemetryQueues& to_telemetry,
                        PictureQueue* pictures)
     : frames_(frames),
       templates_(templates),
@@ -27,7 +27,8 @@ void VisionLoop::run() {
     PoseEstimate pose = templates_.estimate(*frame);
     pose.t_done_ns = monotonic_now_ns();
     to_control_.post(pose);
-    to_telemetry_.push(pose);
+    to_telemetry_.marks.push(templates_.marks(pose.template_index));  // before the pose that they belong to
+    to_telemetry_.poses.push(pose);
     if (pictures_ != nullptr) pictures_->push(*frame);
   }
 }

@@ -8,7 +8,7 @@
 #include "realtime/frame_triple_buffer.h"
 #include "realtime/mailbox.h"
 #include "realtime/picture_queue.h"
-#include "realtime/spsc_queue.h"
+#include "telemetry/telemetry_queues.h"
 #include "vision/pose/template_selector.h"
 
 namespace heel {
@@ -18,7 +18,7 @@ class VisionLoop {
   /// Everything is borrowed and must outlive run(). `pictures`, where given, gets a copy of every frame after
   /// its pose has gone out.
   VisionLoop(FrameTripleBuffer& frames, TemplateSelector& templates, Mailbox<PoseEstimate>& to_control,
-             SpscQueue<PoseEstimate>& to_telemetry, PictureQueue* pictures = nullptr);
+             TelemetryQueues& to_telemetry, PictureQueue* pictures = nullptr);
 
   /// Runs until stop(). Does not allocate, lock or format.
   void run();
@@ -29,7 +29,7 @@ class VisionLoop {
   FrameTripleBuffer& frames_;
   TemplateSelector& templates_;
   Mailbox<PoseEstimate>& to_control_;
-  SpscQueue<PoseEstimate>& to_telemetry_;
+  TelemetryQueues& to_telemetry_;
   PictureQueue* const pictures_;
   std::atomic<bool> stop_{false};
 };

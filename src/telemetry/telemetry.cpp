@@ -79,6 +79,9 @@ void Telemetry::drain(TimeNs now_ns) {
   for (PoseEstimate pose; queues_.poses.pop(pose);) {
     ++newest_.poses;
     newest_.pose = pose;
+    // Marks go out before their pose, so those of this one are here.
+    for (PoseMarks marks; queues_.marks.pop(marks);)
+      if (listener_ != nullptr) listener_->marks(marks);
     if (listener_ != nullptr) listener_->pose(pose);
     if (recorder_) recorder_->record(pose);
     if (black_box_) black_box_->add(pose);

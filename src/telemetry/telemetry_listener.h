@@ -11,6 +11,8 @@ class TelemetryListener {
   virtual ~TelemetryListener() = default;
   virtual void tick(const TickRecord& tick) = 0;
   virtual void pose(const PoseEstimate& pose) = 0;
+  /// Before the pose of the same frame.
+  virtual void marks(const PoseMarks&) {}
   virtual void event(const Event& event) = 0;
   /// False: frames are not even copied for it.
   virtual bool wants_pictures() = 0;

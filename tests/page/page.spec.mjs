@@ -5,6 +5,7 @@ import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { HangingProxy } from "./hanging_proxy.mjs";
 import { expect, Operator, test } from "./page_fixture.mjs";
+import { eventually } from "./walk.mjs";
 
 const kDesktop = { width: 1440, height: 900 };
 const kPhone = { width: 390, height: 844 };
@@ -70,6 +71,13 @@ test.describe("desktop, walking", () => {
     expect((lower - upper) / ((height_px * 1.5) / position_m[2])).toBeGreaterThan(0.85);
     expect((lower - upper) / ((height_px * 1.5) / position_m[2])).toBeLessThan(1.15);
     expect(Math.abs((quad[0][0] + quad[1][0]) / 2 - 320)).toBeLessThan(120);
+    const { predicted, inlier_px } = await eventually(async () => {
+      const pose = await operator.newest("pose");
+      return pose.inlier_px?.length > 20 && pose.predicted ? pose : undefined;
+    }, "inliers and predicted region");
+    const within = (x, y, [x0, y0, x1, y1]) => x >= x0 && x <= x1 && y >= y0 && y <= y1;
+    expect(inlier_px.every(([x, y]) => within(x, y, predicted))).toBe(true);
+    expect(within(quad[0][0], quad[0][1], predicted)).toBe(true);
     // Soon after they are taken.
     const ages_ms = await page.evaluate(() => new Promise((done) => {
       const { bus } = window.heel;
@@ -238,6 +246,35 @@ test.describe("desktop, at rest", () => {
     const known = await page.evaluate(async () => Object.keys((await import("/sentence.js")).kAdvice));
     expect(known.sort()).toEqual(reasons.sort());
     expect(operator).toBeTruthy();
+  });
+
+  test("has room for the longest sentence at every size", async ({ operator, page }) => {
+    await operator.signedIn();
+    for (const [width, height] of [[1440, 900], [1180, 760], [820, 1180], [390, 844], [844, 390]]) {
+      await page.setViewportSize({ width, height });
+      // Measured at once, before the next news.
+      const places = await page.evaluate(() => {
+        const { bus } = window.heel;
+        const config = bus.newest("config");
+        bus.emit("config", { ...config, keys: config.keys.map((one) => (one.key === "supervisor.operator_timeout_s" ? { ...one, value: 2 } : one)) });
+        const reason = "turning towards the person makes their bearing grow";
+        bus.emit("tick", { ...bus.newest("tick"), state: "stopped", reason, sentence: `at rest: ${reason}; then \`heel reset\`` });
+        const places = ["sentence", "advice", "estop", "start", "stop", "reset", "alive"].map((id) => {
+          const { left, top, right, bottom } = document.getElementById(id).getBoundingClientRect();
+          return { id, left, top, right, bottom };
+        });
+        bus.emit("config", config);
+        return places;
+      });
+      for (const { id, left, top, right, bottom } of places) {
+        const name = `${id} at ${width} x ${height}`;
+        expect(right - left, name).toBeGreaterThan(id === "sentence" ? Math.min(320, width - 60) : 60);
+        expect(left, name).toBeGreaterThanOrEqual(0);
+        expect(top, name).toBeGreaterThanOrEqual(0);
+        expect(right, name).toBeLessThanOrEqual(width);
+        expect(bottom, name).toBeLessThanOrEqual(height);
+      }
+    }
   });
 
   test("has a name for every control, and enough contrast in light and dark", async ({ operator, page }) => {

@@ -33,11 +33,23 @@ std::optional<TimeNs> LiveFeed::to_command_ns(std::uint64_t frame_sequence) cons
   return found == used_.end() ? std::nullopt : std::optional(found->to_command_ns);
 }
 
+void LiveFeed::marks(const PoseMarks& marks) {
+  if (watched_.load(std::memory_order_relaxed)) marks_[marks_count_++ % marks_.size()] = marks;
+}
+
+const PoseMarks& LiveFeed::marks_of(std::uint64_t frame_sequence) const {
+  static const PoseMarks kUnknown;
+  const auto found = std::find_if(marks_.begin(), marks_.end(),
+                                  [=](const PoseMarks& one) { return one.frame_sequence == frame_sequence; });
+  return found == marks_.end() ? kUnknown : *found;
+}
+
 void LiveFeed::pose(const PoseEstimate& pose) {
   if (!watched_.load(std::memory_order_relaxed)) return;
   {
     const std::lock_guard lock(mutex_);
-    if (news_.poses.size() < kMaxPoses) news_.poses.push_back({pose, to_command_ns(pose.frame_sequence)});
+    if (news_.poses.size() < kMaxPoses)
+      news_.poses.push_back({pose, to_command_ns(pose.frame_sequence), marks_of(pose.frame_sequence)});
   }
   tell();
 }

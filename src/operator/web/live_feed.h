@@ -20,6 +20,7 @@ namespace heel {
 struct PoseNews {
   PoseEstimate pose;
   std::optional<TimeNs> to_command_ns;  ///< from its exposure to the tick that used it; empty: not known
+  PoseMarks marks;                      ///< of another frame: not known
 };
 
 /// What has come since the last time.
@@ -41,6 +42,7 @@ class LiveFeed final : public TelemetryListener {
   // The telemetry thread:
   void tick(const TickRecord& tick) override;
   void pose(const PoseEstimate& pose) override;
+  void marks(const PoseMarks& marks) override;
   void event(const Event& event) override {
     if (event.kind == EventKind::Overrun)
       missed_periods_.store(static_cast<std::uint64_t>(event.a), std::memory_order_relaxed);
@@ -64,6 +66,7 @@ class LiveFeed final : public TelemetryListener {
     TimeNs to_command_ns = 0;
   };
   std::optional<TimeNs> to_command_ns(std::uint64_t frame_sequence) const;
+  const PoseMarks& marks_of(std::uint64_t frame_sequence) const;
   void tell();
 
   const TimeNs picture_period_ns_;
@@ -77,6 +80,8 @@ class LiveFeed final : public TelemetryListener {
   std::array<Used, 8> used_{};
   std::size_t uses_ = 0;
   std::uint64_t newest_used_ = 0;
+  std::array<PoseMarks, 16> marks_{};  // the newest, as many as the queue holds
+  std::size_t marks_count_ = 0;
   TimeNs t_picture_ns_ = 0;  // exposure of the last one that was kept
 
   std::mutex mutex_;

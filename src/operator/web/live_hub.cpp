@@ -95,7 +95,8 @@ void LiveHub::send_news() {
     const RobotGeometry& robot = shown_robot(news.tick->input.robot, robot_model_).geometry;
     send_to_all(tick_message(*news.tick, robot, wall_minus_monotonic_ns));
   }
-  for (const PoseNews& one : news.poses) send_to_all(pose_message(one.pose, one.to_command_ns, facts_));
+  for (const PoseNews& one : news.poses)
+    send_to_all(pose_message(one.pose, one.marks, one.to_command_ns, facts_));
   std::string jpeg;
   if (news.picture && picture_awaited()) jpeg = jpeg_of(*news.picture, quality_);
   if (!jpeg.empty()) send_picture(news.picture->header, jpeg);

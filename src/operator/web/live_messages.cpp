@@ -98,6 +98,17 @@ ViewJson quad_of(const PoseEstimate& pose, const ViewFacts& facts) {
   return quad;
 }
 
+/// In the picture as the camera shows it.
+ViewJson inliers_of(const PoseMarks& marks, const ViewFacts& facts) {
+  ViewJson places = ViewJson::array();
+  for (std::uint32_t i = 0; i < marks.inliers; ++i) {
+    const auto& [x_px, y_px] = marks.inlier_px[i];
+    const Eigen::Vector2d px = facts.camera.distort_px({double{x_px}, double{y_px}});
+    places.push_back({json_number(px.x(), 10), json_number(px.y(), 10)});
+  }
+  return places;
+}
+
 ViewJson milliseconds(TimeNs time_ns) {
   return json_number(static_cast<double>(time_ns) * 1e-6, 100);
 }
@@ -132,8 +143,8 @@ std::string tick_message(const TickRecord& tick, const RobotGeometry& robot, Tim
   return text_of(out);
 }
 
-std::string pose_message(const PoseEstimate& pose, std::optional<TimeNs> to_command_ns,
-                         const ViewFacts& facts) {
+std::string pose_message(const PoseEstimate& pose, const PoseMarks& marks,
+                         std::optional<TimeNs> to_command_ns, const ViewFacts& facts) {
   ViewJson out = {{"type", "pose"}, {"frame", pose.frame_sequence}};
   out["t_s"] = json_number(seconds_from_ns(pose.t_capture_ns));
   out["found"] = pose.found();
@@ -148,8 +159,9 @@ std::string pose_message(const PoseEstimate& pose, std::optional<TimeNs> to_comm
                                      json_number(pose.position_m[2])}
                           : ViewJson();
   out["quad"] = quad_of(pose, facts);
-  out["predicted"] = nullptr;
-  out["inlier_px"] = nullptr;
+  const bool has_marks = marks.frame_sequence == pose.frame_sequence;
+  out["predicted"] = has_marks && marks.has_region ? ViewJson(marks.region_px) : ViewJson();
+  out["inlier_px"] = has_marks && pose.found() ? inliers_of(marks, facts) : ViewJson();
   out["latency_ms"] = {{"capture_to_vision", milliseconds(pose.t_done_ns - pose.t_capture_ns)},
                        {"vision", nullptr},
                        {"to_command", to_command_ns ? milliseconds(*to_command_ns) : ViewJson()}};

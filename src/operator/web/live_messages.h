@@ -15,8 +15,8 @@ namespace heel {
 
 /// `wall_minus_monotonic_ns`: from the times of records to those of the clock on the wall.
 std::string tick_message(const TickRecord& tick, const RobotGeometry& robot, TimeNs wall_minus_monotonic_ns);
-std::string pose_message(const PoseEstimate& pose, std::optional<TimeNs> to_command_ns,
-                         const ViewFacts& facts);
+std::string pose_message(const PoseEstimate& pose, const PoseMarks& marks,
+                         std::optional<TimeNs> to_command_ns, const ViewFacts& facts);
 std::string event_message(const LoggedLine& line, TimeNs wall_minus_monotonic_ns);
 /// Without "type", as in /api/log.
 ViewJson event_json(const LoggedLine& line, TimeNs wall_minus_monotonic_ns);

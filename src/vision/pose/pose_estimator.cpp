@@ -51,6 +51,16 @@ PoseEstimate with_reason(PoseEstimate pose, PoseReason reason) {
   return pose;
 }
 
+/// Every n-th of the pairs, so that they fit.
+void mark_inliers(std::span<const PointPair> inliers, PoseMarks& marks) {
+  const std::size_t step = (inliers.size() + PoseMarks::kMostInliers - 1) / PoseMarks::kMostInliers;
+  marks.inliers = 0;
+  for (std::size_t i = 0; i < inliers.size(); i += step) {
+    const Eigen::Vector2f px = inliers[i].cur_px.cast<float>();
+    marks.inlier_px[marks.inliers++] = {px.x(), px.y()};
+  }
+}
+
 PoseEstimate with_homography(PoseEstimate pose, const PlaneFit& fit) {
   pose.reason = fit.reason;
   if (fit.inliers.empty()) return pose;
@@ -131,6 +141,7 @@ struct PoseEstimator::Impl {
   ViewSearch view_search;
   SecondPlaceSearch second_place_search;
   PoseWorkspace workspace;
+  PoseMarks marks;
   bool whole_frame_is_searched = false;  // the features of the last frame, not those of an earlier one
 };
 
@@ -162,6 +173,7 @@ PoseEstimate PoseEstimator::Impl::not_found_yet(const FrameView& frame) const {
 
 PoseEstimate PoseEstimator::Impl::estimate_part(const FrameView& frame, int part) {
   PoseEstimate pose = not_found_yet(frame);
+  marks.inliers = 0;
   if (!fits_camera(frame)) return with_reason(pose, PoseReason::WrongFrameSize);
   const FeatureGrid& features =
       frame_features.find(frame, view_predictor.part(part), FrameFeatures::Search::ExpectedView);
@@ -177,13 +189,17 @@ PoseEstimate PoseEstimator::Impl::estimate_part(const FrameView& frame, int part
 PoseEstimate PoseEstimator::Impl::estimate(const FrameView& frame, const ExpectedView& search,
                                            FrameFeatures::Search kind) {
   PoseEstimate pose = not_found_yet(frame);
+  marks.inliers = 0;
   if (!fits_camera(frame)) return with_reason(pose, PoseReason::WrongFrameSize);
   const FeatureGrid& features = frame_features.find(frame, search, kind);
   pose.frame_features = static_cast<std::uint32_t>(features.features().features.size());
   if (pose.frame_features < kHomographyPairs) return with_reason(pose, PoseReason::TooFewFeatures);
 
   pose = steps(pose, frame, features, search, workspace);
-  if (!pose.found()) pose = with_view(pose, view_search.search(frame, features), reference);
+  if (!pose.found()) {
+    marks.inliers = 0;
+    pose = with_view(pose, view_search.search(frame, features), reference);
+  }
   mark(workspace.times, VisionStage::Motion);
   return pose;
 }
@@ -210,6 +226,7 @@ PoseEstimate PoseEstimator::Impl::steps(PoseEstimate pose, const FrameView& fram
   if (fit.found()) fit = plane_fitter.fit_guided(fit, matcher, frame_grid, work);
   pose = with_homography(pose, fit);  // and the certainty
   if (!fit.found()) return pose;
+  mark_inliers(fit.inliers, marks);
 
   const PlaneMotions motions = decompose(fit);
   const std::optional<PlaneMotion> motion = choose(motions, fit, work);
@@ -265,6 +282,10 @@ bool PoseEstimator::shows_second_place(const FrameView& frame, const PoseEstimat
 PoseEstimate PoseEstimator::estimate_part(const FrameView& frame, int part) {
   impl_->whole_frame_is_searched = false;
   return impl_->estimate_part(frame, part);
+}
+
+const PoseMarks& PoseEstimator::marks() const {
+  return impl_->marks;
 }
 
 int PoseEstimator::parts() {

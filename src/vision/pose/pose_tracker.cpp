@@ -102,11 +102,24 @@ PoseEstimate PoseTracker::estimate(const FrameView& frame) {
   return pose;
 }
 
+PoseMarks PoseTracker::marks() const {
+  PoseMarks marks = estimator_.marks();
+  marks.frame_sequence = expected_.frame_sequence;
+  marks.has_region = expected_.has_region;
+  marks.region_px = expected_.region_px;
+  return marks;
+}
+
 PoseEstimate PoseTracker::estimate_frame(const FrameView& frame) {
   PoseEstimate pose;
-  if (predicts_view_in(frame)) {
+  expected_.frame_sequence = frame.header.sequence;
+  expected_.has_region = predicts_view_in(frame);
+  if (expected_.has_region) {
     ExpectedView expected = estimator_.expected_view(last_found_, frame.header.t_capture_ns);
     expected.tracking = true;
+    const Region& region = expected.region;
+    expected_.region_px = {region.x_px, region.y_px, region.x_px + region.width_px,
+                           region.y_px + region.height_px};
     pose = estimator_.estimate(frame, expected);
     pose.tracked = pose.found();
   }

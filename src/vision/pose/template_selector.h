@@ -36,6 +36,9 @@ class TemplateSelector {
 
   PoseEstimate estimate(const FrameView& frame);
 
+  /// Of the last estimate, by the template that it names.
+  PoseMarks marks(std::size_t template_index) const { return trackers_[template_index].marks(); }
+
   /// As PoseEstimator.
   void measure(StageTimes* times);
 

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -36,6 +39,13 @@ Eigen::Matrix3d homography_of(const PoseEstimate& pose) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(pose.H_cur_from_ref.data());
 }
 
+Eigen::Vector2d seen_centre_px(const PoseEstimate& pose, const ShirtTemplate& taught) {
+  const Region& roi = taught.roi;
+  return (homography_of(pose) *
+          Eigen::Vector3d(roi.x_px + 0.5 * roi.width_px, roi.y_px + 0.5 * roi.height_px, 1.0))
+      .hnormalized();
+}
+
 TEST(PoseTracker, TracksTheBackAcrossTheViewAsWellAsASearchOfTheWholeFrame) {
   const ShirtTemplate taught = shirt();
   PoseTracker tracker(taught, robot_camera(), flat_shirt_config());
@@ -66,6 +76,39 @@ TEST(PoseTracker, TracksTheBackAcrossTheViewAsWellAsASearchOfTheWholeFrame) {
 }
 
 // At three times the template's distance, where few of its features are as large as the smallest filter.
+TEST(PoseTracker, MarksTheRegionThatItSearchedAndTheInliersInIt) {
+  const ShirtTemplate taught = shirt();
+  PoseTracker tracker(taught, robot_camera(), flat_shirt_config());
+  const cv::Mat image = seen(taught, 0.2, 0.05, 1.1);
+  for (int frame = 0; frame < 3; ++frame) {
+    const PoseEstimate pose = tracker.estimate(frame_at(image, frame));
+    ASSERT_TRUE(pose.found());
+    const PoseMarks marks = tracker.marks();
+    EXPECT_EQ(marks.frame_sequence, pose.frame_sequence);
+    ASSERT_EQ(marks.has_region, frame > 0);
+    ASSERT_GT(marks.inliers, 20U);
+    ASSERT_LE(marks.inliers, std::min<std::size_t>(pose.inliers, PoseMarks::kMostInliers));
+    const Eigen::Matrix3d H_ref_from_cur = homography_of(pose).inverse();
+    for (std::uint32_t i = 0; i < marks.inliers; ++i) {
+      const auto& [x_px, y_px] = marks.inlier_px[i];
+      const Eigen::Vector2d ref_px =
+          (H_ref_from_cur * Eigen::Vector3d(double{x_px}, double{y_px}, 1.0)).hnormalized();
+      EXPECT_TRUE(ref_px.x() > taught.roi.x_px - 5 &&
+                  ref_px.x() < taught.roi.x_px + taught.roi.width_px + 5 &&
+                  ref_px.y() > taught.roi.y_px - 5 && ref_px.y() < taught.roi.y_px + taught.roi.height_px + 5)
+          << ref_px.transpose();
+    }
+    if (!marks.has_region) continue;
+    const Eigen::Vector2d centre_px = seen_centre_px(pose, taught);
+    EXPECT_TRUE(centre_px.x() > marks.region_px[0] && centre_px.x() < marks.region_px[2]);
+    EXPECT_TRUE(centre_px.y() > marks.region_px[1] && centre_px.y() < marks.region_px[3]);
+  }
+  const PoseEstimate lost = tracker.estimate(frame_at(cv::Mat(image.size(), CV_8U, cv::Scalar(90)), 3));
+  EXPECT_FALSE(lost.found());
+  EXPECT_TRUE(tracker.marks().has_region);
+  EXPECT_EQ(tracker.marks().inliers, 0U);
+}
+
 TEST(PoseTracker, UpsamplesAShirtFarAway) {
   ShirtTemplate taught = shirt();
   taught.distance_m = 1.5;
