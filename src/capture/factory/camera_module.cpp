@@ -3,14 +3,17 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "heel/error.h"
 
 namespace heel {
 
 std::unique_ptr<FrameSource> source_of_module(const std::string& kind, const std::string& rest,
                                               const CameraConfig& config) {
-  // The loader puts the program's folder for $ORIGIN.
-  const std::string file = "$ORIGIN/" HEEL_MODULES_FROM_PROGRAMS "/camera-" + kind + ".so";
+  // Not by $ORIGIN, which the loader does not follow in a program with file capabilities.
+  const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  const std::string file = programs / HEEL_MODULES_FROM_PROGRAMS / ("camera-" + kind + ".so");
   // Never unloaded: a source may have left threads and handlers of its libraries.
   void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const entry = module == nullptr ? nullptr : dlsym(module, kCameraModuleEntry);

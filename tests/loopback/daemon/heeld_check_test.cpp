@@ -91,6 +91,16 @@ TEST(HeeldCheck, FilesItRefersToAreLoaded) {
   EXPECT_THAT(outcome.err, HasSubstr(scene.path("shirt.heel")));
 }
 
+TEST(HeeldCheck, ACameraWhoseModuleIsNotInstalledIsNamedWithTheFile) {
+  const Scene scene(1);
+  const std::string alone = scene.path("heeld");
+  std::filesystem::copy_file(HEELD_PROGRAM, alone);
+  const Outcome outcome = run_program({alone, "--config", scene.write_config()});
+  EXPECT_EQ(outcome.status, kExitConfiguration);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("camera address 'file:"), HasSubstr("camera-file.so"),
+                                 HasSubstr("install the package again")));
+}
+
 TEST(HeeldCheck, ATemplateNeedsADistance) {
   const Scene scene(1);
   ShirtTemplate shirt = read_template(scene.path("shirt.heel"));
