@@ -30,6 +30,7 @@ struct FrameHeader {
   TimeNs t_capture_ns = 0;     ///< time of the exposure, as far as the driver reports it
   std::uint32_t width_px = 0;
   std::uint32_t height_px = 0;
+  TimeNs t_dequeued_ns = 0;  ///< when the capture thread had it from the driver; 0: not known
 };
 
 /// A frame that does not own its pixels: valid only during the call that it is passed to.
@@ -333,9 +334,19 @@ struct CaptureCounters {
   bool operator==(const CaptureCounters&) const = default;
 };
 
+/// When a frame reached each stage; with the tick that uses its pose and the bytes written then, its whole
+/// way.
+struct FrameTiming {
+  std::uint64_t frame_sequence = 0;
+  TimeNs t_capture_ns = 0;   ///< FrameHeader::t_capture_ns
+  TimeNs t_dequeued_ns = 0;  ///< FrameHeader::t_dequeued_ns
+  TimeNs t_vision_ns = 0;    ///< when vision began with it
+  TimeNs t_done_ns = 0;      ///< when vision had finished
+};
+
 /// Bytes on the robot's line as they were read or written; several when there were more.
 struct WireBytes {
-  TimeNs t_ns = 0;
+  TimeNs t_ns = 0;        ///< when they had been read or written
   bool to_robot = false;  ///< false: from it
   std::uint8_t count = 0;
   std::array<std::uint8_t, 118> bytes{};
@@ -346,7 +357,7 @@ template <typename... T>
 inline constexpr bool kAllTriviallyCopyable = (std::is_trivially_copyable_v<T> && ...);
 static_assert(kAllTriviallyCopyable<FrameHeader, FrameView, PoseEstimate, PoseMarks, RobotState, TargetState,
                                     VelocityCommand, OperatorRequest, ControlInput, TickRecord, Event,
-                                    CaptureCounters, WireBytes>);
+                                    CaptureCounters, FrameTiming, WireBytes>);
 
 /// The texts of reasons and phases in logs, records and status lines.
 const char* to_string(PoseReason reason);

@@ -66,7 +66,9 @@ void CaptureLoop::pause() {
 /// Opening and closing may allocate; a frame may not.
 FrameResult CaptureLoop::wait_frame(FrameView& frame) {
   const HotSection hot;
-  return source_.wait_frame(settings_.wait_ns, frame);
+  const FrameResult result = source_.wait_frame(settings_.wait_ns, frame);
+  frame.header.t_dequeued_ns = monotonic_now_ns();
+  return result;
 }
 
 void CaptureLoop::take_frame() {

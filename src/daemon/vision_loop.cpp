@@ -24,11 +24,15 @@ void VisionLoop::run() {
     if (!frames_.wait(kLongestWait_ns)) continue;
     const FrameView* frame = frames_.take();
     if (frame == nullptr) continue;
+    const TimeNs t_vision_ns = monotonic_now_ns();
     PoseEstimate pose = templates_.estimate(*frame);
     pose.t_done_ns = monotonic_now_ns();
     to_control_.post(pose);
     to_telemetry_.marks.push(templates_.marks(pose.template_index));  // before the pose that they belong to
     to_telemetry_.poses.push(pose);
+    const FrameHeader& header = frame->header;
+    to_telemetry_.timings.push(
+        {header.sequence, header.t_capture_ns, header.t_dequeued_ns, t_vision_ns, pose.t_done_ns});
     if (pictures_ != nullptr) pictures_->push(*frame);
   }
 }

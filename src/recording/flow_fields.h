@@ -190,6 +190,15 @@ constexpr void fields(V& v, IsFlow<CaptureCounters> auto& c) {
 }
 
 template <typename V>
+constexpr void fields(V& v, IsFlow<FrameTiming> auto& f) {
+  v("frame_sequence", f.frame_sequence);
+  v("t_capture_ns", f.t_capture_ns);
+  v("t_dequeued_ns", f.t_dequeued_ns);
+  v("t_vision_ns", f.t_vision_ns);
+  v("t_done_ns", f.t_done_ns);
+}
+
+template <typename V>
 constexpr void fields(V& v, IsFlow<Event> auto& e) {
   v("t_ns", e.t_ns);
   v("kind", e.kind);

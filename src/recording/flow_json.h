@@ -15,7 +15,7 @@
 
 namespace heel {
 
-// For Flow = TickRecord, PoseEstimate, CaptureCounters, Event, WireBytes.
+// For Flow = TickRecord, PoseEstimate, CaptureCounters, Event, WireBytes, FrameTiming.
 
 template <typename Flow>
 void append_flow_json(std::string& json, const Flow& record);

@@ -169,5 +169,6 @@ template PoseEstimate flow_from_json(std::string_view, std::set<std::string>&);
 template CaptureCounters flow_from_json(std::string_view, std::set<std::string>&);
 template Event flow_from_json(std::string_view, std::set<std::string>&);
 template WireBytes flow_from_json(std::string_view, std::set<std::string>&);
+template FrameTiming flow_from_json(std::string_view, std::set<std::string>&);
 
 }  // namespace heel

@@ -72,5 +72,6 @@ template std::string flow_json_schema<PoseEstimate>(const std::string&);
 template std::string flow_json_schema<CaptureCounters>(const std::string&);
 template std::string flow_json_schema<Event>(const std::string&);
 template std::string flow_json_schema<WireBytes>(const std::string&);
+template std::string flow_json_schema<FrameTiming>(const std::string&);
 
 }  // namespace heel

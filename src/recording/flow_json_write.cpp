@@ -44,6 +44,7 @@ static_assert(table_is_complete<TickRecord>());
 static_assert(table_is_complete<CaptureCounters>());
 static_assert(table_is_complete<Event>());
 static_assert(table_is_complete<WireBytes>());
+static_assert(table_is_complete<FrameTiming>());
 
 template <typename Number>
 void append_number(std::string& json, Number value) {
@@ -155,5 +156,6 @@ template void append_flow_json(std::string&, const PoseEstimate&);
 template void append_flow_json(std::string&, const CaptureCounters&);
 template void append_flow_json(std::string&, const Event&);
 template void append_flow_json(std::string&, const WireBytes&);
+template void append_flow_json(std::string&, const FrameTiming&);
 
 }  // namespace heel

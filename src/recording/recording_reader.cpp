@@ -36,6 +36,8 @@ class Dispatcher {
         return visitor_.on_event(flow<Event>(row, message));
       case Topic::Wire:
         return visitor_.on_wire(flow<WireBytes>(row, message));
+      case Topic::Timing:
+        return visitor_.on_timing(flow<FrameTiming>(row, message));
       case Topic::Log:
         return visitor_.on_log(decoded(row, message, log_from_json));
       case Topic::Configuration:

@@ -24,6 +24,7 @@ class RecordingVisitor {
   virtual void on_capture(const CaptureCounters& /*counters*/) {}
   virtual void on_event(const Event& /*event*/) {}
   virtual void on_wire(const WireBytes& /*bytes*/) {}
+  virtual void on_timing(const FrameTiming& /*timing*/) {}
   virtual void on_log(const LogLine& /*line*/) {}
   virtual void on_configuration(const ConfigurationText& /*configuration*/) {}
   virtual void on_operator(const OperatorLine& /*line*/) {}

@@ -116,6 +116,8 @@ const std::array<TopicRow, kTopics>& topic_table() {
        [] { return flow_json_schema<CaptureCounters>("heel.Capture"); }},
       {Topic::Event, "/heel/event", "heel.Event", [] { return flow_json_schema<Event>("heel.Event"); }},
       {Topic::Wire, "/heel/wire", "heel.Wire", [] { return flow_json_schema<WireBytes>("heel.Wire"); }},
+      {Topic::Timing, "/heel/timing", "heel.Timing",
+       [] { return flow_json_schema<FrameTiming>("heel.Timing"); }},
       {Topic::Log, "/log", "foxglove.Log", log_schema},
       {Topic::Configuration, "/heel/configuration", "heel.Configuration",
        [] {

@@ -15,6 +15,7 @@ enum class Topic : std::uint8_t {
   Capture,        ///< CaptureCounters
   Event,          ///< Event
   Wire,           ///< WireBytes
+  Timing,         ///< FrameTiming
   Log,            ///< LogLine
   Configuration,  ///< ConfigurationText
   Operator,       ///< OperatorLine
@@ -23,7 +24,7 @@ enum class Topic : std::uint8_t {
   Transform,      ///< for viewers: where the robot is
   Person,         ///< for viewers: where the person is
 };
-inline constexpr std::size_t kTopics = 12;
+inline constexpr std::size_t kTopics = 13;
 
 struct TopicRow {
   Topic topic;

@@ -75,7 +75,7 @@ void RobotLink::write_pending(TimeNs now_ns) {
   if (line == nullptr) return;
   const auto waiting = std::span(pending_).subspan(pending_begin_, pending_end_ - pending_begin_);
   const SerialLine::Transfer put = line->write(waiting);
-  report(waiting.first(put.count), /*to_robot=*/true, now_ns);
+  report(waiting.first(put.count), /*to_robot=*/true, monotonic_now_ns());
   pending_begin_ += put.count;
   if (put.status == SerialLine::Status::Lost) lose_line(now_ns);
 }

@@ -89,6 +89,10 @@ void Recorder::record(const WireBytes& bytes) {
   write_flow(Topic::Wire, bytes.t_ns, bytes);
 }
 
+void Recorder::record(const FrameTiming& timing) {
+  write_flow(Topic::Timing, timing.t_done_ns, timing);
+}
+
 void Recorder::record_wire(std::span<const std::uint8_t> bytes, bool to_robot, TimeNs t_ns) {
   for_each_wire_piece(bytes, to_robot, t_ns, [this](const WireBytes& piece) { record(piece); });
 }

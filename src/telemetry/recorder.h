@@ -42,6 +42,7 @@ class Recorder {
   void record(const CaptureCounters& capture);
   void record(const Event& event);
   void record(const WireBytes& bytes);
+  void record(const FrameTiming& timing);
   void record(const ConfigurationText& configuration);
   void record(const OperatorLine& line);
   void record(const RecordingNote& note);

@@ -86,6 +86,9 @@ void Telemetry::drain(TimeNs now_ns) {
     if (recorder_) recorder_->record(pose);
     if (black_box_) black_box_->add(pose);
   }
+  for (FrameTiming timing; queues_.timings.pop(timing);) {
+    if (recorder_) recorder_->record(timing);
+  }
   for (CaptureCounters capture; queues_.captures.pop(capture);) {
     newest_.capture = capture;
     if (recorder_) recorder_->record(capture);
@@ -214,8 +217,9 @@ void Telemetry::take(const Event& event) {
 void Telemetry::log_losses(TimeNs now_ns) {
   if (recorder_) recorder_lost_ = recorder_->records_lost();
   newest_.records_lost = queues_.ticks.dropped() + queues_.poses.dropped() + queues_.captures.dropped() +
-                         queues_.capture_events.dropped() + queues_.control_events.dropped() +
-                         queues_.wire.dropped() + texts_lost_ + pictures_.lost() + recorder_lost_;
+                         queues_.timings.dropped() + queues_.capture_events.dropped() +
+                         queues_.control_events.dropped() + queues_.wire.dropped() + texts_lost_ +
+                         pictures_.lost() + recorder_lost_;
   if (newest_.records_lost == losses_logged_ || now_ns - t_losses_logged_ns_ < kRepeatedEventPeriod_ns)
     return;
   spdlog::warn("telemetry is too slow: {} records lost so far", newest_.records_lost);

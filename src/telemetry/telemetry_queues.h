@@ -11,6 +11,7 @@ struct TelemetryQueues {
   SpscQueue<TickRecord> ticks{256};          ///< control thread
   SpscQueue<PoseEstimate> poses{256};        ///< vision thread
   SpscQueue<PoseMarks> marks{16};            ///< vision thread; only for who looks: it may lose some
+  SpscQueue<FrameTiming> timings{256};       ///< vision thread
   SpscQueue<CaptureCounters> captures{256};  ///< capture thread
   SpscQueue<Event> capture_events{64};       ///< capture thread
   SpscQueue<Event> control_events{64};       ///< control thread

@@ -95,7 +95,7 @@ std::string json_of(const Flow& record) {
 
 template <typename Flow>
 class FlowJson : public testing::Test {};
-using Flows = testing::Types<TickRecord, PoseEstimate, CaptureCounters, Event, WireBytes>;
+using Flows = testing::Types<TickRecord, PoseEstimate, CaptureCounters, Event, WireBytes, FrameTiming>;
 TYPED_TEST_SUITE(FlowJson, Flows);
 
 TYPED_TEST(FlowJson, AnyValueComesBackToTheBit) {

@@ -41,6 +41,7 @@ void add_experiment_command(CLI::App& app);
 void add_fit_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_bench_vision_command(CLI::App& bench);
+void add_bench_control_command(CLI::App& bench);
 void add_bench_daemon_command(CLI::App& bench);
 void add_status_command(CLI::App& app);
 void add_start_command(CLI::App& app);
@@ -54,5 +55,6 @@ void add_bundle_command(CLI::App& app);
 void add_mark_command(CLI::App& app);
 void add_replay_command(CLI::App& app);
 void add_export_command(CLI::App& app);
+void add_latency_command(CLI::App& app);
 
 }  // namespace heel::cli

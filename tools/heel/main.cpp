@@ -27,6 +27,7 @@ void add_commands(CLI::App& app) {
   add_mark_command(app);
   add_replay_command(app);
   add_export_command(app);
+  add_latency_command(app);
   add_bundle_command(app);
   add_bench_command(app);
   add_status_command(app);

@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 import style
-from tables import BadInput, read_json
+from tables import BadInput
 
 YARDSTICK = "orb_1000"
 ROWS = (
@@ -114,13 +114,12 @@ def subtitle_of(report):
     )
 
 
-def draw(path, picture):
-    """`path` is the JSON file; `picture` names the picture to write, an SVG goes beside it."""
+def draw(report, picture):
+    """`report` is the JSON object; `picture` names the picture to write, an SVG goes beside it."""
     name, kind = os.path.splitext(picture)
     kind = kind.lstrip(".").lower()
     if kind not in style.SAVE_OPTIONS:
         raise BadInput(f"{picture}: unknown kind of picture (expected a name ending in .png, .jpg or .svg)")
-    report = read_json(path)
     figure = style.plt.figure(figsize=(8.8, 6.0))
     figure.text(0.5, 0.965, "From frame to pose, beside what OpenCV takes to find features", **style.TITLE)
     figure.text(0.5, 0.93, subtitle_of(report), ha="center", fontsize=9)

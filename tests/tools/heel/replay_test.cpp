@@ -186,6 +186,8 @@ TEST_F(Replay, RefusesWhatItCannotUse) {
       {{"replay", recording_, "--set", "gate.v_max_m_s=fast"}, begins, "configuration 0:"},
       {{"export", recording_}, "heel export: ", "nothing to export (expected --csv)"},
       {{"export", text, "--csv", "-o", folder_.file("csv")}, "heel export: ", "text.mcap: not an MCAP file"},
+      {{"latency", text}, "heel latency: ", "text.mcap: not an MCAP file"},
+      {{"latency", recording_}, "heel latency: ", "no stamps of frames"},
   });
   EXPECT_FALSE(std::filesystem::exists(folder_.file("csv")));
 }

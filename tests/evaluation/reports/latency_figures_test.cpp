@@ -1,0 +1,78 @@
+// The hops of frames whose stamps are given.
+#include "evaluation/reports/latency_figures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/complaint.h"
+#include "support/temporary_folder.h"
+#include "telemetry/recorder.h"
+
+namespace heel::evaluation {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr TimeNs kBegin_ns = 1000 * kNsPerS;
+constexpr int kFrames = 100;
+constexpr TimeNs kFramePeriod_ns = 40 * kNsPerMs;
+
+/// Frame k is had 5 ms after its exposure, begun at 6 ms and done at 16 ms, the last frame at 26 ms; ticks
+/// come every 20 ms, of which the one at 20 ms uses the frame (the last frame: the one at 40 ms) and writes
+/// 0.5 ms later.
+void record_frames(Recorder& recorder, bool with_timings) {
+  for (int k = 0; k < kFrames; ++k) {
+    const TimeNs t_ns = kBegin_ns + k * kFramePeriod_ns;
+    const bool slow = k == kFrames - 1;
+    const auto frame = static_cast<std::uint64_t>(k);
+    if (with_timings)
+      recorder.record(FrameTiming{frame, t_ns, t_ns + 5 * kNsPerMs, t_ns + 6 * kNsPerMs,
+                                  t_ns + (slow ? 26 : 16) * kNsPerMs});
+    for (const TimeNs after_ns : {20 * kNsPerMs, 40 * kNsPerMs}) {
+      TickRecord tick;
+      tick.input.now_ns = t_ns + after_ns;
+      tick.input.has_pose = k > 0 || !slow;
+      tick.input.pose.frame_sequence = slow && after_ns < 40 * kNsPerMs ? frame - 1 : frame;
+      recorder.record(tick);
+      recorder.record(WireBytes{.t_ns = t_ns + after_ns + kNsPerMs / 2, .to_robot = true, .count = 7});
+      recorder.record(WireBytes{.t_ns = t_ns + after_ns + kNsPerMs / 4, .to_robot = false, .count = 7});
+    }
+  }
+}
+
+std::string recorded(const test::TemporaryFolder& folder, bool with_timings) {
+  const std::string path = folder.file("run.mcap");
+  Recorder recorder(path, RecordingClock{});
+  record_frames(recorder, with_timings);
+  return path;
+}
+
+TEST(LatencyFigures, EachHopHasItsMedianItsPercentileAndItsLongest) {
+  const test::TemporaryFolder folder;
+  const LatencyFigures figures = latency_of(recorded(folder, true));
+  EXPECT_EQ(figures.frames, static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(figures.commands, static_cast<std::size_t>(kFrames));
+  EXPECT_DOUBLE_EQ(figures.period_ms, 20.0);
+  ASSERT_EQ(figures.hops.size(), 5u);
+  const double p50[]{5.0, 1.0, 10.0, 4.0, 0.5}, longest[]{5.0, 1.0, 20.0, 14.0, 0.5};
+  for (std::size_t i = 0; i < figures.hops.size(); ++i) {
+    EXPECT_NEAR(figures.hops[i].p50_ms, p50[i], 1e-9) << figures.hops[i].name;
+    EXPECT_NEAR(figures.hops[i].p99_ms, p50[i], 1e-9) << figures.hops[i].name << ": one of 100 is slow";
+    EXPECT_NEAR(figures.hops[i].max_ms, longest[i], 1e-9) << figures.hops[i].name;
+    EXPECT_EQ(figures.hops[i].count, static_cast<std::size_t>(kFrames));
+  }
+  EXPECT_NEAR(figures.total.p50_ms, 20.5, 1e-9);
+  EXPECT_NEAR(figures.total.max_ms, 40.5, 1e-9);
+  EXPECT_NEAR(figures.dequeued_to_last.max_ms, 35.5, 1e-9);
+  ASSERT_EQ(figures.slowest_ms.size(), 6u);
+  EXPECT_NEAR(figures.slowest_ms[3], 26.0, 1e-9) << "the slow frame, done";
+}
+
+TEST(LatencyFigures, ARecordingWithoutStampsIsRefused) {
+  const test::TemporaryFolder folder;
+  const std::string path = recorded(folder, false);
+  EXPECT_THAT(test::complaint_of([&] { latency_of(path); }), HasSubstr(path + ": no stamps of frames"));
+}
+
+}  // namespace
+}  // namespace heel::evaluation
