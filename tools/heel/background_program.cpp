@@ -66,6 +66,20 @@ void BackgroundProgram::wait_for(const std::string& text, double timeout_s) {
   }
 }
 
+void BackgroundProgram::wait_for_end(double timeout_s) {
+  int status = 0;
+  for (const TimeNs end_ns = monotonic_now_ns() + ns_from_seconds(timeout_s); monotonic_now_ns() < end_ns;) {
+    if (waitpid(pid_, &status, WNOHANG) != pid_) {
+      sleep_until_ns(monotonic_now_ns() + kPoll_ns);
+      continue;
+    }
+    ended_ = true;
+    if (status != 0) fail("has failed");
+    return;
+  }
+  fail("has not ended in time");
+}
+
 void BackgroundProgram::require_running() {
   ended_ = ended_ || waitpid(pid_, nullptr, WNOHANG) == pid_;
   if (ended_) fail("has ended early");

@@ -23,6 +23,8 @@ class BackgroundProgram {
   /// Waits until it has printed `text`. Throws heel::Error with the end of its output when it has not in
   /// time, or ends.
   void wait_for(const std::string& text, double timeout_s);
+  /// Waits until it has ended with status 0. Throws heel::Error, likewise, when it has not in time.
+  void wait_for_end(double timeout_s);
   /// Throws heel::Error, likewise, when it has ended.
   void require_running();
 

@@ -21,7 +21,7 @@ using evaluation::MemoryFigures;
 using evaluation::ThreadFigures;
 using BenchJson = nlohmann::ordered_json;
 
-constexpr double kSettle_s = 3.0;
+constexpr double kDaemonSettle_s = 3.0;
 constexpr double kGoalCore = 0.08;  // of one core
 constexpr double kGoalResident_mb = 80.0;
 constexpr std::size_t kLargestMappings = 10;
@@ -63,8 +63,8 @@ std::vector<ThreadCost> between(const std::vector<ThreadFigures>& before,
 }
 
 DaemonCost measure(const BenchDaemonOptions& options) {
-  SimulatedWalk walk({.pictures = options.pictures, .more_config = ""});
-  walk.wait_until_following(kSettle_s);
+  SimulatedWalk walk({.pictures = options.pictures});
+  walk.wait_until_following(kDaemonSettle_s);
   const pid_t heeld = walk.daemon().pid();
   DaemonCost cost;
   const TimeNs begin_ns = monotonic_now_ns();

@@ -68,8 +68,9 @@ SimulatedWalk::SimulatedWalk(const WalkOptions& options) {
   write_file_atomically(file("circle.toml"), kScenario);
   world_ = std::make_unique<BackgroundProgram>(
       std::vector<std::string>{program("heel-sim"), "--scenario", file("circle.toml"), "--robot",
-                               "pty:" + file("robot"), "--camera", camera_, "--still", file("shirt.png"),
-                               "--distance", kTeachDistance_m, "--camera-info-out", file("camera.yaml")},
+                               "pty:" + file("robot"), "--camera", options.camera ? camera_ : "none",
+                               "--still", file("shirt.png"), "--distance", kTeachDistance_m,
+                               "--camera-info-out", file("camera.yaml")},
       file("heel-sim.log"));
   world_->wait_for("ready at", kStartTimeout_s);
   teach();
@@ -78,9 +79,13 @@ SimulatedWalk::SimulatedWalk(const WalkOptions& options) {
       std::vector<std::string>{program("heeld"), "--config", file("heel.toml")}, file("heeld.log"));
 }
 
-SimulatedWalk::~SimulatedWalk() {
+void SimulatedWalk::end() {
   daemon_.reset();
   world_.reset();
+}
+
+SimulatedWalk::~SimulatedWalk() {
+  end();
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
 }
@@ -120,6 +125,10 @@ black_box = "black-box"
 void SimulatedWalk::wait_until_following(double and_then_s) {
   daemon_->wait_for("following (following: target good)", kStartTimeout_s);
   sleep_until_ns(monotonic_now_ns() + ns_from_seconds(and_then_s));
+}
+
+void SimulatedWalk::wait_until_linked() {
+  daemon_->wait_for("link to the robot: running", kStartTimeout_s);
 }
 
 bool SimulatedWalk::follows() {

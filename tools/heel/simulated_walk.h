@@ -12,7 +12,8 @@ namespace heel::cli {
 
 struct WalkOptions {
   std::string pictures = "none";  ///< telemetry.pictures
-  std::string more_config;        ///< sections at the end of the configuration
+  std::string more_config{};      ///< sections at the end of the configuration
+  bool camera = true;             ///< false: no picture ever comes, and the robot rests
 };
 
 class SimulatedWalk {
@@ -23,6 +24,10 @@ class SimulatedWalk {
   SimulatedWalk(const SimulatedWalk&) = delete;
   SimulatedWalk& operator=(const SimulatedWalk&) = delete;
 
+  /// Ends both; the files stay until this object ends.
+  void end();
+  /// Waits until the robot is linked, for a walk without a camera. Throws heel::Error.
+  void wait_until_linked();
   /// Waits until the robot follows the person, and then so long. Throws heel::Error.
   void wait_until_following(double and_then_s);
   /// True: it follows now. Throws heel::Error when one of the programs has ended.
