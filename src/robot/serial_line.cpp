@@ -12,6 +12,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -19,6 +20,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "realtime/clock.h"
 #include "robot/device_holder.h"
 #include "robot/serial_hints.h"
 #include "robot/tcp_connect.h"
@@ -26,6 +28,7 @@
 namespace heel {
 namespace {
 
+constexpr TimeNs kLookPeriod_ns = 2 * kNsPerMs;  // for bytes of a terminal; each look costs 10 µs
 constexpr TimeNs kHangUp_ns = 2 * kNsPerS;  // from the first error of a port to its hang-up by the kernel
 
 /// ppoll for one descriptor. True: one of `events`, an error or a hang-up has occurred.
@@ -184,17 +187,39 @@ void SerialLine::close() {
 }
 
 bool SerialLine::wait_readable(TimeNs timeout_ns) const {
-  return fd_ >= 0 && poll_one(fd_, POLLIN, timeout_ns);
+  if (fd_ < 0) return false;
+  if (kind_ == RobotAddress::Kind::Tcp) return poll_one(fd_, POLLIN, timeout_ns);
+  for (const TimeNs end_ns = monotonic_now_ns() + timeout_ns;;) {
+    if (bytes_in_terminal() != 0) return true;
+    const TimeNs now_ns = monotonic_now_ns();
+    if (now_ns >= end_ns) return false;
+    sleep_until_ns(std::min(now_ns + kLookPeriod_ns, end_ns));
+  }
+}
+
+/// A negative number: the terminal has hung up. poll() and a read() that finds nothing would wait in the
+/// kernel for a work queue thread of ordinary priority (n_tty_poll, __flush_work), which busy programs hold
+/// up for tens of milliseconds; this does not.
+int SerialLine::bytes_in_terminal() const {
+  int count = 0;
+  return ::ioctl(fd_, FIONREAD, &count) == 0 ? count : -1;
 }
 
 SerialLine::Transfer SerialLine::read(std::span<std::uint8_t> into) {
   if (fd_ < 0) return {0, Status::Lost};
-  // A terminal may return 0 for "nothing yet"; after poll has reported input, 0 means that the line has
-  // ended.
-  short seen = 0;
-  if (!poll_one(fd_, POLLIN, 0, &seen)) return {};
-  if ((seen & POLLIN) == 0) return {0, Status::Lost};
-  const ssize_t count = ::read(fd_, into.data(), into.size());
+  std::size_t size = into.size();
+  if (kind_ == RobotAddress::Kind::Tcp) {
+    // After poll has reported input, 0 bytes mean that the line has ended.
+    short seen = 0;
+    if (!poll_one(fd_, POLLIN, 0, &seen)) return {};
+    if ((seen & POLLIN) == 0) return {0, Status::Lost};
+  } else {
+    const int there = bytes_in_terminal();
+    if (there == 0) return {};
+    if (there < 0) return {0, Status::Lost};
+    size = std::min(size, static_cast<std::size_t>(there));
+  }
+  const ssize_t count = ::read(fd_, into.data(), size);
   if (count > 0) return {static_cast<std::size_t>(count), Status::Ok};
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return {};
   return {0, Status::Lost};

@@ -43,7 +43,8 @@ class SerialLine {
   /// nothing.
   const std::string& note() const { return note_; }
 
-  /// Waits for input, at most `timeout_ns`. True: read() will return some, or Lost.
+  /// Waits for input, at most `timeout_ns`. True: read() will return some, or Lost. A terminal is looked at
+  /// every 2 ms, so the answer may come so much later than the input.
   bool wait_readable(TimeNs timeout_ns) const;
   /// Reads what has arrived, which may be nothing.
   Transfer read(std::span<std::uint8_t> into);
@@ -55,6 +56,7 @@ class SerialLine {
   bool drain(TimeNs timeout_ns) const;
 
  private:
+  int bytes_in_terminal() const;
   bool open_serial(const RobotAddress& address, int baud);
   std::string find_device(const std::string& path);
   bool open_pty(const RobotAddress& address, int baud);
