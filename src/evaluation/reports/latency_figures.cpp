@@ -24,15 +24,15 @@ class StampCollector final : public RecordingVisitor {
  public:
   void on_timing(const FrameTiming& timing) override {
     ++frames;
-    stamps_[timing.frame_sequence] = {timing.t_capture_ns, timing.t_dequeued_ns, timing.t_vision_ns,
-                                      timing.t_done_ns};
+    stamps_[timing.t_capture_ns] = {timing.t_capture_ns, timing.t_dequeued_ns, timing.t_vision_ns,
+                                    timing.t_done_ns};
   }
   void on_tick(const TickRecord& tick) override {
     if (t_tick_ns_ != 0) periods_ms.push_back(1e-6 * static_cast<double>(tick.input.now_ns - t_tick_ns_));
     t_tick_ns_ = tick.input.now_ns;
-    if (!tick.input.has_pose || tick.input.pose.frame_sequence == used_) return;
-    used_ = tick.input.pose.frame_sequence;
-    ticks_[tick.input.now_ns] = used_;
+    if (!tick.input.has_pose || tick.input.pose.t_capture_ns == t_used_ns_) return;
+    t_used_ns_ = tick.input.pose.t_capture_ns;
+    ticks_[tick.input.now_ns] = t_used_ns_;
   }
   void on_wire(const WireBytes& bytes) override {
     if (bytes.to_robot) written_.push_back(bytes.t_ns);
@@ -65,11 +65,12 @@ class StampCollector final : public RecordingVisitor {
  private:
   static constexpr TimeNs kLongestTick_ns = 10 * kNsPerMs;
 
-  std::map<std::uint64_t, Stamps> stamps_;
-  std::map<TimeNs, std::uint64_t> ticks_;  // first tick with a frame, and the frame
+  // By the time of capture: a camera that is opened again may count its frames from 0 again.
+  std::map<TimeNs, Stamps> stamps_;
+  std::map<TimeNs, TimeNs> ticks_;  // first tick with a frame, and the time of its capture
   std::vector<TimeNs> written_;
   TimeNs t_tick_ns_ = 0;
-  std::uint64_t used_ = ~std::uint64_t{0};
+  TimeNs t_used_ns_ = 0;
 };
 
 /// Of sorted values: the smallest that so great a share of them does not exceed.

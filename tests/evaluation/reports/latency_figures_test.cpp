@@ -24,15 +24,16 @@ void record_frames(Recorder& recorder, bool with_timings) {
   for (int k = 0; k < kFrames; ++k) {
     const TimeNs t_ns = kBegin_ns + k * kFramePeriod_ns;
     const bool slow = k == kFrames - 1;
-    const auto frame = static_cast<std::uint64_t>(k);
+    // The camera is opened again in the middle, and counts from 0 again.
+    const auto frame = static_cast<std::uint64_t>(k % (kFrames / 2));
     if (with_timings)
       recorder.record(FrameTiming{frame, t_ns, t_ns + 5 * kNsPerMs, t_ns + 6 * kNsPerMs,
                                   t_ns + (slow ? 26 : 16) * kNsPerMs});
     for (const TimeNs after_ns : {20 * kNsPerMs, 40 * kNsPerMs}) {
       TickRecord tick;
       tick.input.now_ns = t_ns + after_ns;
-      tick.input.has_pose = k > 0 || !slow;
-      tick.input.pose.frame_sequence = slow && after_ns < 40 * kNsPerMs ? frame - 1 : frame;
+      tick.input.has_pose = true;
+      tick.input.pose.t_capture_ns = slow && after_ns < 40 * kNsPerMs ? t_ns - kFramePeriod_ns : t_ns;
       recorder.record(tick);
       recorder.record(WireBytes{.t_ns = t_ns + after_ns + kNsPerMs / 2, .to_robot = true, .count = 7});
       recorder.record(WireBytes{.t_ns = t_ns + after_ns + kNsPerMs / 4, .to_robot = false, .count = 7});
