@@ -3,7 +3,7 @@ function(heel_compile_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# heel_test(NAME [SOURCES …] DEPENDS … [PROGRAMS …] [COUNTS_ALLOCATIONS] [REAL_TIME] [SERIAL] [THREADS] [AS_ONE ENTRY]): a
+# heel_test(NAME [SOURCES …] DEPENDS … [PROGRAMS …] [COUNTS_ALLOCATIONS] [REAL_TIME] [SERIAL] [THREADS] [MEASURES] [AS_ONE ENTRY]): a
 # GoogleTest program of every .cpp in the current folder, or of SOURCES; each of its tests is a ctest entry.
 # PROGRAMS: heel, heeld, heel-sim: the built programs it runs; their paths are HEEL_PROGRAM, HEELD_PROGRAM,
 # HEEL_SIM_PROGRAM.
@@ -12,12 +12,14 @@ endfunction()
 # SERIAL: its tests must not be late at all: they do not share the machine with any other.
 # THREADS: what it tests runs in several threads. The thread sanitizer's preset leaves the others out
 # (HEEL_ONLY_THREADED_TESTS): one thread races with nobody, at fifty times the price.
+# MEASURES: tests of the drawn world and of what measures in it. The sanitizers' presets leave these out, and with them
+# the golden results (HEEL_MEASURING_TESTS): nothing of that runs on the robot.
 # AS_ONE: all its tests are one entry of that name, because they share what took long to make.
 # A test ends itself when what it waits for does not come (support/process.h); ctest ends one that hangs, long after
 # a machine under load would be done: after 600 s, or TIMEOUT.
 # Tests that need real images or video say so by HEEL_NEEDS_TEST_DATA (support/test_data.h).
 function(heel_test name)
-  cmake_parse_arguments(ARG "REAL_TIME;SERIAL;THREADS;COUNTS_ALLOCATIONS" "TIMEOUT;AS_ONE" "SOURCES;DEPENDS;LABELS;PROGRAMS" ${ARGN})
+  cmake_parse_arguments(ARG "REAL_TIME;SERIAL;THREADS;MEASURES;COUNTS_ALLOCATIONS" "TIMEOUT;AS_ONE" "SOURCES;DEPENDS;LABELS;PROGRAMS" ${ARGN})
   if(NOT HEEL_BUILD_TESTS)
     return()
   endif()
@@ -50,6 +52,10 @@ function(heel_test name)
   if(HEEL_SANITIZE MATCHES undefined)
     # With the address sanitizer alone GCC 12 warns of std::regex (GCC bug 105562).
     target_compile_options(${name} PRIVATE -fno-sanitize=undefined $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  endif()
+  if(NOT HEEL_MEASURING_TESTS AND (ARG_MEASURES OR "golden" IN_LIST ARG_LABELS))
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+    return()
   endif()
   if(HEEL_ONLY_THREADED_TESTS AND NOT ARG_THREADS)
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)

@@ -39,7 +39,7 @@ cv::Size parse_corners(const std::string& text) {
 }
 
 Pattern parse_pattern(const std::string& name) {
-  // Which marker is which is not needed, because the whole board is searched for.
+  // Which marker is which is not needed: a part of a board calibrates wherever on the board it is.
   if (name == "chessboard" || name == "charuco") return Pattern::Chessboard;
   if (name == "circles") return Pattern::Circles;
   if (name == "asymmetric-circles") return Pattern::AsymmetricCircles;
@@ -47,7 +47,10 @@ Pattern parse_pattern(const std::string& name) {
 }
 
 void print_progress(const SearchedImage& searched) {
-  fmt::print("{:<40} {}  ({} of {}{})\n", searched.image, searched.found ? "found" : "no board",
+  fmt::print("{:<40} {}  ({} of {}{})\n", searched.image,
+             searched.is_part ? "found in part"
+             : searched.found ? "found"
+                              : "no board",
              searched.done, searched.images,
              searched.left_s >= 1.0 ? fmt::format(", about {:.0f} s left", searched.left_s) : "");
   std::fflush(stdout);
@@ -109,7 +112,8 @@ void add_calibrate_command(CLI::App& app) {
       "calibrate",
       "Camera calibration from photographs of a board; writes ROS camera_info YAML.\n"
       "Take ten to twenty views at the resolution that heel will use, with fixed focus. The board\n"
-      "should fill much of the image, reach its corners, and be tilted up to 45 degrees each way.");
+      "should fill much of the image, reach its corners, and be tilted up to 45 degrees each way. A\n"
+      "chessboard may be cut by the edge of the image, where two images or more show it as a whole.");
   command->add_option("images", options->images, "photographs of the board, or folders of them")
       ->required()
       ->type_name("IMAGES");
@@ -131,9 +135,7 @@ void add_calibrate_command(CLI::App& app) {
       ->type_name("CAM.yaml");
   command
       ->add_option("--pattern", options->pattern,
-                   "chessboard (default), charuco (a chessboard with markers; the whole of it must be seen), "
-                   "circles or\n"
-                   "asymmetric-circles")
+                   "chessboard (default), charuco (a chessboard with markers), circles or asymmetric-circles")
       ->type_name("KIND");
   command->add_flag("--k3", options->with_k3,
                     "also estimate the third radial coefficient (wide-angle lenses)");

@@ -33,11 +33,11 @@ Eigen::MatrixXd derivatives(const CameraModel& camera, const std::vector<cv::Poi
 /// The inverse of the intrinsics' covariance for σ = 1 px: the normal equations without the boards' poses
 /// (Schur complement).
 Eigen::MatrixXd information(const CameraModel& camera, int intrinsics,
-                            const std::vector<cv::Point3f>& points_m, const std::vector<cv::Mat>& rotations,
-                            const std::vector<cv::Mat>& translations) {
+                            const std::vector<std::vector<cv::Point3f>>& points_m,
+                            const std::vector<cv::Mat>& rotations, const std::vector<cv::Mat>& translations) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(intrinsics, intrinsics);
   for (std::size_t view = 0; view < rotations.size(); ++view) {
-    const Eigen::MatrixXd J = derivatives(camera, points_m, rotations[view], translations[view]);
+    const Eigen::MatrixXd J = derivatives(camera, points_m[view], rotations[view], translations[view]);
     const Eigen::MatrixXd pose = J.middleCols(kPoseColumn, 6),
                           own = J.middleCols(kIntrinsicColumn, intrinsics);
     const Eigen::MatrixXd mixed = own.transpose() * pose;
@@ -64,7 +64,7 @@ Eigen::Vector2d direction_at(const CameraModel& camera, const Eigen::Vector2d& p
 // direction is computed again: the derivative at the solution alone would be too good where a coefficient is
 // hardly determined.
 std::vector<CameraModel> cameras_within_95(const CameraModel& camera, bool with_k3, double sigma_px,
-                                           const std::vector<cv::Point3f>& points_m,
+                                           const std::vector<std::vector<cv::Point3f>>& points_m,
                                            const std::vector<cv::Mat>& rotations,
                                            const std::vector<cv::Mat>& translations) {
   const Eigen::MatrixXd inverse =

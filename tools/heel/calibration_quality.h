@@ -19,10 +19,10 @@ struct EdgeErrors {
 };
 
 /// The camera moved by two standard deviations along each axis of the intrinsics' covariance, both ways.
-/// `points_m`: of the board; `rotations` and `translations`: its pose in each view. `sigma_px`: of one
-/// coordinate of a corner.
+/// `points_m`: of the board, those of each view; `rotations` and `translations`: its pose in each view.
+/// `sigma_px`: of one coordinate of a corner.
 std::vector<CameraModel> cameras_within_95(const CameraModel& camera, bool with_k3, double sigma_px,
-                                           const std::vector<cv::Point3f>& points_m,
+                                           const std::vector<std::vector<cv::Point3f>>& points_m,
                                            const std::vector<cv::Mat>& rotations,
                                            const std::vector<cv::Mat>& translations);
 

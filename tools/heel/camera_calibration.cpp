@@ -107,20 +107,23 @@ void require_determined_edges(const Calibration& result) {
 namespace {
 
 /// Calibrations each without one of at most kMaxParts parts of the views, from the whole one's result.
-std::vector<CameraModel> calibrations_without_a_part(const std::vector<cv::Point3f>& points_m,
+std::vector<CameraModel> calibrations_without_a_part(const std::vector<std::vector<cv::Point3f>>& points_m,
                                                      const std::vector<std::vector<cv::Point2f>>& corners_px,
                                                      cv::Size image_size, const cv::Mat& K,
                                                      const cv::Mat& distortion, bool with_k3) {
   const std::size_t parts = std::min(kMaxParts, corners_px.size());
   std::vector<CameraModel> cameras;
   for (std::size_t part = 0; part < parts; ++part) {
+    std::vector<std::vector<cv::Point3f>> others_m;
     std::vector<std::vector<cv::Point2f>> others_px;
-    for (std::size_t view = 0; view < corners_px.size(); ++view)
-      if (view % parts != part) others_px.push_back(corners_px[view]);
+    for (std::size_t view = 0; view < corners_px.size(); ++view) {
+      if (view % parts == part) continue;
+      others_m.push_back(points_m[view]);
+      others_px.push_back(corners_px[view]);
+    }
     cv::Mat K_part = K.clone(), distortion_part = distortion.clone();
     std::vector<cv::Mat> rotations, translations;
-    cv::calibrateCamera(std::vector<std::vector<cv::Point3f>>(others_px.size(), points_m), others_px,
-                        image_size, K_part, distortion_part, rotations, translations,
+    cv::calibrateCamera(others_m, others_px, image_size, K_part, distortion_part, rotations, translations,
                         cv::CALIB_USE_INTRINSIC_GUESS | (with_k3 ? 0 : cv::CALIB_FIX_K3));
     cameras.push_back(camera_model(image_size, K_part, distortion_part));
   }
@@ -146,9 +149,11 @@ std::optional<CameraModel> simpler_camera(const std::vector<std::vector<cv::Poin
 Calibration calibrate_camera(const Board& board, cv::Size image_size, bool with_k3,
                              std::vector<BoardView>& views) {
   std::vector<std::vector<cv::Point2f>> corners_px;
-  corners_px.reserve(views.size());
-  for (const BoardView& view : views) corners_px.push_back(view.corners_px);
-  const std::vector<std::vector<cv::Point3f>> points_m(views.size(), board_points(board));
+  std::vector<std::vector<cv::Point3f>> points_m;
+  for (const BoardView& view : views) {
+    corners_px.push_back(view.corners_px);
+    points_m.push_back(board_points(board, view));
+  }
 
   cv::Mat K, distortion, intrinsic_sigmas, extrinsic_sigmas, view_rms_px;
   std::vector<cv::Mat> rotations, translations;
@@ -164,9 +169,8 @@ Calibration calibrate_camera(const Board& board, cv::Size image_size, bool with_
   result.camera = camera_model(image_size, K, distortion);
   const double sigma_px = std::max(result.rms_px, kMinCornerSigma_px);
   result.edges = edge_errors(
-      result.camera,
-      cameras_within_95(result.camera, with_k3, sigma_px, points_m.front(), rotations, translations),
-      calibrations_without_a_part(points_m.front(), corners_px, image_size, K, distortion, with_k3),
+      result.camera, cameras_within_95(result.camera, with_k3, sigma_px, points_m, rotations, translations),
+      calibrations_without_a_part(points_m, corners_px, image_size, K, distortion, with_k3),
       simpler_camera(points_m, corners_px, image_size, with_k3, result.rms_px));
   result.not_shown = parts_not_shown(image_size, corners_px);
   for (std::size_t i = 0; i < 3; ++i)

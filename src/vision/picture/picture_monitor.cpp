@@ -10,11 +10,11 @@ namespace {
 constexpr TimeNs kOff_ns = 500 * kNsPerMs;
 constexpr TimeNs kLongestGap_ns = kNsPerS;
 
-// A covered lens lets some light through; a dark room has lamps in it.
-constexpr double kDarkMean = 16.0, kDarkBrightest = 28.0;
+// A covered lens lets some light through; a dark room may have a lamp in it, but hardly any detail.
+constexpr double kDarkMean = 16.0, kDarkDetail = 0.05;
 constexpr double kBrightMean = 235.0, kBrightDarkest = 200.0;
 constexpr double kLeastDetail = 0.015;
-constexpr double kLargestBlur_px = 3.0;
+constexpr double kLargestBlur_px = 2.5;
 constexpr double kLeastComb = 0.12;
 
 constexpr double kLeastFlicker = 0.03;     // amplitude, of the brightness
@@ -133,7 +133,7 @@ PictureFault PictureMonitor::update(const FrameView& frame) {
   last_ = header;
 
   const PictureStatistics now = picture_statistics(frame);
-  const bool is_dark = now.mean < kDarkMean && now.brightest < kDarkBrightest;
+  const bool is_dark = now.mean < kDarkMean && now.detail < kDarkDetail;
   const bool is_too_bright = now.mean > kBrightMean && now.darkest > kBrightDarkest;
   flickering_ = flickering_ << 1 | static_cast<std::uint32_t>(flicker_detector_.update(now));
   combed_ = combed_ << 1 | static_cast<std::uint32_t>(now.comb > kLeastComb);

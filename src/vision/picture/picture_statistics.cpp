@@ -117,7 +117,6 @@ void measure_brightness(const FrameView& frame, int width, int height, PictureSt
     return static_cast<double>(grey);
   };
   out.darkest = quantile(0.02);
-  out.brightest = quantile(0.98);
   double sum = 0.0;
   for (std::size_t grey = 0; grey < counts.size(); ++grey) sum += static_cast<double>(grey) * counts[grey];
   out.mean = sum / total;

@@ -16,8 +16,8 @@ struct PictureStatistics {
   static constexpr std::size_t kBands = 96;
 
   double mean = 0.0;
-  double darkest = 0.0, brightest = 0.0;  ///< 2 % of the pixels are darker, 2 % are brighter
-  double detail = 0.0;  ///< share of the places where the brightness changes within a few pixels
+  double darkest = 0.0;  ///< 2 % of the pixels are darker
+  double detail = 0.0;   ///< share of the places where the brightness changes within a few pixels
   /// Standard deviation of the Gaussian blur of the sharpest tenth of the edges, in the direction in which
   /// they are sharper; 0: too few edges to say.
   double edge_blur_px = 0.0;

@@ -202,7 +202,7 @@ TEST_F(Calibrate, SaysWhatCountsWhenSquaresAreGivenForCorners) {
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("only 0 of 5"), HasSubstr("counts inner corners"),
                                  HasSubstr("9x6 is seen in 5 of 5")));
   EXPECT_THAT(outcome.out,
-              AllOf(HasSubstr("picture0.png"), HasSubstr("no board  (1 of 5"), HasSubstr("(5 of 5)")));
+              AllOf(HasSubstr("picture0.png"), HasSubstr("found in part  (1 of 5"), HasSubstr("(5 of 5)")));
 }
 
 TEST_F(Calibrate, TakesGridsOfCircles) {
@@ -228,6 +228,25 @@ TEST_F(Calibrate, TakesChessboardsWithMarkers) {
   const CameraModel camera = read_camera_model(output);
   EXPECT_NEAR(camera.fx, kTrueK(0, 0), 3.0);
   EXPECT_NEAR(camera.cx, kTrueK(0, 2), 4.0) << "the markers are 4 px from the corners";
+}
+
+TEST_F(Calibrate, TakesBoardsThatTheEdgeOfThePictureCuts) {
+  for (const bool markers : {false, true}) {
+    std::vector<BoardPose> poses(kGoodPoses.begin(), kGoodPoses.begin() + 3);
+    for (const double side : {-1.0, 1.0})
+      for (const double end : {-1.0, 1.0})
+        poses.push_back({end * 24, side * 20, 4, side * 0.13, end * 0.08, 0.42});
+    write_pictures(drawn_chessboard(markers), poses);
+    const Outcome outcome =
+        run_heel({"calibrate", folder.path().string(), "--pattern", markers ? "charuco" : "chessboard",
+                  "--board", "9x6", "--square", "0.03", "-o", output});
+    ASSERT_EQ(outcome.status, 0) << outcome.err << outcome.out;
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("found in part"), HasSubstr("over 7 views")));
+    const CameraModel camera = read_camera_model(output);
+    EXPECT_NEAR(camera.fx, kTrueK(0, 0), 3.0) << markers;
+    EXPECT_NEAR(camera.cx, kTrueK(0, 2), 4.0) << markers;
+    std::filesystem::remove(output);
+  }
 }
 
 TEST_F(Calibrate, RefusesViewsThatDoNotShowTheEdges) {

@@ -121,7 +121,7 @@ class Camera {
   }
   /// About normal, and fast.
   double noise() {
-    const std::uint32_t bits = random_();
+    const auto bits = static_cast<std::uint32_t>(random_());
     return (static_cast<double>(bits & 0xff) + (bits >> 8 & 0xff) + (bits >> 16 & 0xff) + (bits >> 24) -
             510.0) /
            148.0;
@@ -159,12 +159,15 @@ TEST(PictureMonitor, ACapOnTheLensIsDarkWithinASecondAndGoneAfterOne) {
   EXPECT_EQ(camera.after(room.light(), 0.8), PictureFault::None);
 }
 
-TEST(PictureMonitor, ADarkRoomWithALampIsNotDark) {
+TEST(PictureMonitor, ADarkRoomWithALampIsDarkButNotARoomOfWhichMuchIsSeen) {
   const Room room(2);
-  const Light night = [&](double x, double y, int picture) {
-    return x > 250 && x < 290 && y < 30 ? 200.0 : 0.06 * room.grey(x, y, picture);
+  const auto darker = [&](double factor) {
+    return [&room, factor](double x, double y, int picture) {
+      return x > 250 && x < 290 && y < 30 ? 200.0 : factor * room.grey(x, y, picture);
+    };
   };
-  EXPECT_EQ(Camera().after(night, 1.5), PictureFault::None);
+  EXPECT_EQ(Camera().after(darker(0.06), 1.5), PictureFault::Dark);
+  EXPECT_EQ(Camera().after(darker(0.15), 1.5), PictureFault::None);
 }
 
 TEST(PictureMonitor, LightIntoTheLensIsTooBright) {
@@ -182,7 +185,7 @@ TEST(PictureMonitor, AHandOnTheLensShowsNoDetail) {
 
 TEST(PictureMonitor, ALensOutOfFocusIsNamedAfterThreeSeconds) {
   Room room(4);
-  room.blur(5);
+  room.blur(6);
   Camera camera;
   EXPECT_EQ(camera.after(room.light(), 2.5), PictureFault::None);
   EXPECT_EQ(camera.after(room.light(), 1.0), PictureFault::OutOfFocus);
@@ -243,7 +246,9 @@ TEST(PictureMonitor, StartsAgainAfterAGapAndAllocatesNothing) {
   EXPECT_EQ(monitor.update(frame), PictureFault::None) << "half a second of dark is counted from here on";
   frame.header.t_capture_ns += 600 * kNsPerMs;
   EXPECT_EQ(monitor.update(frame), PictureFault::Dark);
-  if (test::counts_allocations()) EXPECT_EQ(test::allocations_of_this_thread(), allocations);
+  if (test::counts_allocations()) {
+    EXPECT_EQ(test::allocations_of_this_thread(), allocations);
+  }
 }
 
 TEST(PictureMonitor, AFilmOfACameraShowsNoFault) {
