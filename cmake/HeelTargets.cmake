@@ -12,8 +12,8 @@ endfunction()
 # SERIAL: its tests must not be late at all: they do not share the machine with any other.
 # THREADS: what it tests runs in several threads. The thread sanitizer's preset leaves the others out
 # (HEEL_ONLY_THREADED_TESTS): one thread races with nobody, at fifty times the price.
-# MEASURES: tests of the drawn world and of what measures in it. The sanitizers' presets leave these out, and with them
-# the golden results (HEEL_MEASURING_TESTS): nothing of that runs on the robot.
+# MEASURES: tests of the drawn world and of what measures in it. The sanitizers' presets leave these out, and what runs
+# the command heel (HEEL_COMMAND_TESTS): they see what drives the robot, and the libraries.
 # AS_ONE: all its tests are one entry of that name, because they share what took long to make.
 # A test ends itself when what it waits for does not come (support/process.h); ctest ends one that hangs, long after
 # a machine under load would be done: after 600 s, or TIMEOUT.
@@ -53,7 +53,7 @@ function(heel_test name)
     # With the address sanitizer alone GCC 12 warns of std::regex (GCC bug 105562).
     target_compile_options(${name} PRIVATE -fno-sanitize=undefined $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   endif()
-  if(NOT HEEL_MEASURING_TESTS AND (ARG_MEASURES OR "golden" IN_LIST ARG_LABELS))
+  if(NOT HEEL_COMMAND_TESTS AND (ARG_MEASURES OR "heel" IN_LIST ARG_PROGRAMS))
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
     return()
   endif()

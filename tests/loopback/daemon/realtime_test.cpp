@@ -7,13 +7,11 @@
 #include <csignal>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
 #include "evaluation/metrics/process_figures.h"
-#include "loopback/daemon/heeld_fixture.h"
-#include "loopback/daemon/live_camera.h"
+#include "loopback/daemon/live_heeld.h"
 #include "realtime/schedule.h"
 #include "support/priorities.h"
 #include "support/sanitized.h"
@@ -28,32 +26,7 @@ using test::read_text;
 
 using ::testing::HasSubstr;
 
-class RealTimeHeeld : public test::HeeldFixture {
- protected:
-  RealTimeHeeld() : HeeldFixture(1) {}
-
-  /// Later keys replace earlier ones only in another table, so the scene's source is replaced in the text.
-  std::string live_config(bool realtime, const std::string& runtime = "", const std::string& sections = "") {
-    const std::string path = scene_.write_config({.sections = sections, .runtime = runtime});
-    std::string text = read_text(path);
-    const auto replace = [&](const std::string& from, const std::string& to) {
-      const std::size_t at = text.find(from);
-      ASSERT_NE(at, std::string::npos) << from;
-      text.replace(at, from.size(), to);
-    };
-    replace("file:frames", camera_.address());
-    if (realtime) replace("realtime = false", "realtime = true");
-    return test::write_text(path, text);
-  }
-
-  void start_following(const std::string& config) {
-    start_robot();
-    start_heeld(config);
-    ASSERT_TRUE(starts_to_drive()) << logs();
-  }
-
-  test::LiveCamera camera_{scene_};
-};
+using RealTimeHeeld = test::LiveHeeld;
 
 Config as_configured() {
   Config config;
@@ -135,50 +108,6 @@ TEST_F(RealTimeHeeld, ATickThatIsTooLateIsAFaultThatStopsTheRobot) {
   test::sleep_s(2.0 * lateness_max_s);
   daemon_->signal(SIGCONT);
   EXPECT_TRUE(daemon_->says("at rest: control too late")) << logs();
-}
-
-TEST_F(RealTimeHeeld, RecordsTheWayOfEachFrameToItsCommand) {
-  start_following(live_config(false, "", "[telemetry]\ndirectory = \"" + scene_.path("") + "\"\n"));
-  test::sleep_s(1.0);
-  daemon_->signal(SIGTERM);
-  ASSERT_EQ(daemon_->wait(), 0) << logs();
-  const test::Outcome outcome = test::run_program({HEEL_PROGRAM, "latency", scene_.path(""), "--json"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const auto told = nlohmann::json::parse(outcome.out);
-  EXPECT_GT(told["commands"], test::kSanitized ? 1 : 15);
-  EXPECT_LE(told["commands"], told["frames"]);
-  ASSERT_EQ(told["hops"].size(), 5u);
-  double sum_ms = 0.0;
-  for (const auto& hop : told["hops"]) {
-    EXPECT_EQ(hop["count"], told["commands"]) << hop;
-    EXPECT_GE(hop["p50_ms"], 0.0) << hop;
-    EXPECT_LE(hop["p50_ms"], hop["p99_ms"]) << hop;
-    EXPECT_LE(hop["p99_ms"], hop["max_ms"]) << hop;
-    sum_ms += hop["max_ms"].get<double>();
-  }
-  EXPECT_GT(told["hops"][2]["p50_ms"], 0.1) << "vision takes time";
-  EXPECT_LE(told["total"]["max_ms"], sum_ms + 1e-6);
-  EXPECT_EQ(told["slowest_ms"].size(), 6u);
-}
-
-TEST(BenchDaemon, MeasuresAHeeldThatFollows) {
-  const test::Outcome outcome =
-      test::run_program({HEEL_PROGRAM, "bench", "daemon", "--seconds", "1", "--json"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const auto told = nlohmann::json::parse(outcome.out);
-  double sum = 0.0;
-  std::set<std::string> names;
-  for (const auto& thread : told["threads"]) {
-    names.insert(thread["name"]);
-    sum += thread["core_share"].get<double>();
-  }
-  for (const ThreadPlan& plan : make_schedule({}))
-    EXPECT_EQ(names.contains(plan.name), plan.role != ThreadRole::View)
-        << plan.name << ": no page is served here";
-  EXPECT_NEAR(told["core_share"]["all"], sum, 1e-9);
-  EXPECT_GT(sum, 0.001) << "vision works";
-  EXPECT_GT(told["memory"]["resident_mb"], 5.0);
-  EXPECT_EQ(told["memory"]["largest"].size(), 10u);
 }
 
 #ifdef HEEL_HOT_TRAP
