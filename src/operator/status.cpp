@@ -124,7 +124,8 @@ json status_json(const StatusInput& input, const SettingsView& settings) {
 }
 
 bool differs_to_a_watcher(const TickRecord& a, const TickRecord& b) {
-  return a.state != b.state || a.stop_reason != b.stop_reason || a.hold != b.hold || a.input.pose.picture != b.input.pose.picture || a.cause != b.cause ||
+  return a.state != b.state || a.stop_reason != b.stop_reason || a.hold != b.hold ||
+         a.input.pose.picture != b.input.pose.picture || a.cause != b.cause ||
          a.input.robot.phase != b.input.robot.phase;
 }
 

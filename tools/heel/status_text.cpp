@@ -28,9 +28,9 @@ std::string robot_text(const Json& robot) {
 }
 
 std::string camera_text(const Json& camera) {
-  std::string out = fmt::format("{} frames, {} dropped; the frame in use is {} old",
-                                number(camera, "frames", "{:.0f}"), number(camera, "dropped", "{:.0f}"),
-                                number(camera, "frame_age_s", "{:.2f} s"));
+  std::string out =
+      fmt::format("{} frames, {} dropped; the frame in use is {} old", number(camera, "frames", "{:.0f}"),
+                  number(camera, "dropped", "{:.0f}"), number(camera, "frame_age_s", "{:.2f} s"));
   const std::string fault = text(camera, "picture");
   if (fault != "none" && fault != "unknown") out += "; the picture: " + fault;
   return out;
