@@ -17,6 +17,13 @@ namespace heel {
 
 namespace {
 
+// Sanitizers make frames of functions several times as large.
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+constexpr std::size_t kStackBytes = 8 * kThreadStackBytes;
+#else
+constexpr std::size_t kStackBytes = kThreadStackBytes;
+#endif
+
 constexpr double kTelemetryRate_Hz = 20.0;
 // Written on entry; more than any stage uses.
 constexpr std::size_t kPrefaultedStackBytes = 256 * 1024;
@@ -135,7 +142,7 @@ void name_thread(ThreadRole role) {
 void prepare_process_memory() {
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
-  pthread_attr_setstacksize(&attributes, kThreadStackBytes);
+  pthread_attr_setstacksize(&attributes, kStackBytes);
   pthread_setattr_default_np(&attributes);
   pthread_attr_destroy(&attributes);
   mallopt(M_ARENA_MAX, 1);
