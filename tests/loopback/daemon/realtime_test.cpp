@@ -51,6 +51,8 @@ void expect_row(const ThreadPlan& plan, const ThreadFigures& thread) {
 }
 
 TEST_F(RealTimeHeeld, KeepsToItsTableOfThreads) {
+  if (test::kThreadSanitizer)
+    GTEST_SKIP() << "this sanitizer has a thread of its own, and makes vision too slow";
   if (test::answer_to_fifo_request(1) != 0) GTEST_SKIP() << "real-time priorities are not granted here";
   start_following(live_config(true, "core_vision = 0\n", "[view]\naddress = \"127.0.0.1:0\"\n"));
   const std::map<std::string, ThreadFigures> before = by_name(threads_of(daemon_->pid()));
