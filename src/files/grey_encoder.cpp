@@ -123,13 +123,4 @@ std::string jpeg_of_grey(const FrameView& grey, int quality) {
   return bytes;
 }
 
-FrameView packed_grey(const std::uint8_t* grey, int width_px, int height_px) {
-  FrameView view;
-  view.header.width_px = static_cast<std::uint32_t>(width_px);
-  view.header.height_px = static_cast<std::uint32_t>(height_px);
-  view.grey = grey;
-  view.stride_bytes = static_cast<std::uint32_t>(width_px);
-  return view;
-}
-
 }  // namespace heel

@@ -2,7 +2,6 @@
 // without OpenCV, whose reader of pictures brings a hundred libraries.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "heel/flow.h"
@@ -13,8 +12,5 @@ namespace heel {
 std::string png_of_grey(const FrameView& grey);
 /// `quality`: 1…100.
 std::string jpeg_of_grey(const FrameView& grey, int quality);
-
-/// A view of pixels without gaps between rows.
-FrameView packed_grey(const std::uint8_t* grey, int width_px, int height_px);
 
 }  // namespace heel

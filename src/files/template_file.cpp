@@ -26,6 +26,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/frame_view.h"
 #include "files/atomic_file.h"
 #include "files/grey_encoder.h"
 #include "files/png_picture.h"
@@ -105,7 +106,7 @@ void validate(const ShirtTemplate& shirt, const std::string& path) {
 }
 
 std::string png_of(const std::vector<std::uint8_t>& image, const CameraModel& camera) {
-  return png_of_grey(packed_grey(image.data(), camera.width_px, camera.height_px));
+  return png_of_grey(packed_frame(image.data(), camera.width_px, camera.height_px));
 }
 
 std::vector<std::uint8_t> pixels_of(std::string_view png, const std::string& path,

@@ -12,10 +12,15 @@
 #include <vector>
 
 #include "operator/web/lateness_counts.h"
-#include "operator/web/picture_encoder.h"
 #include "telemetry/telemetry_listener.h"
 
 namespace heel {
+
+/// A frame that owns its pixels, without gaps.
+struct KeptFrame {
+  FrameHeader header;
+  std::vector<std::uint8_t> grey;
+};
 
 struct PoseNews {
   PoseEstimate pose;

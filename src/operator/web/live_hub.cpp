@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/frame_view.h"
+#include "files/grey_encoder.h"
 #include "operator/web/limits.h"
 #include "operator/web/live_messages.h"
 #include "operator/web/wall_clock.h"
@@ -12,6 +14,11 @@ namespace heel {
 namespace {
 
 constexpr std::size_t kMaxLines = 50;  // of the log, at once
+
+FrameView frame_of(const KeptFrame& kept) {
+  return packed_frame(kept.grey.data(), static_cast<int>(kept.header.width_px),
+                      static_cast<int>(kept.header.height_px));
+}
 
 bool can_take_picture(const LiveViewer* viewer) {
   return viewer->wants_pictures && !viewer->picture_on_its_way;
@@ -98,7 +105,7 @@ void LiveHub::send_news() {
   for (const PoseNews& one : news.poses)
     send_to_all(pose_message(one.pose, one.marks, one.to_command_ns, facts_));
   std::string jpeg;
-  if (news.picture && picture_awaited()) jpeg = jpeg_of(*news.picture, quality_);
+  if (news.picture && picture_awaited()) jpeg = jpeg_of_grey(frame_of(*news.picture), quality_);
   if (!jpeg.empty()) send_picture(news.picture->header, jpeg);
   const std::vector<LoggedLine> lines = log_.after(lines_sent_, kMaxLines);
   if (!lines.empty()) lines_sent_ = lines.back().number;

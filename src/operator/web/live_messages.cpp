@@ -163,7 +163,6 @@ std::string pose_message(const PoseEstimate& pose, const PoseMarks& marks,
   out["predicted"] = has_marks && marks.has_region ? ViewJson(marks.region_px) : ViewJson();
   out["inlier_px"] = has_marks && pose.found() ? inliers_of(marks, facts) : ViewJson();
   out["latency_ms"] = {{"capture_to_vision", milliseconds(pose.t_done_ns - pose.t_capture_ns)},
-                       {"vision", nullptr},
                        {"to_command", to_command_ns ? milliseconds(*to_command_ns) : ViewJson()}};
   return text_of(out);
 }

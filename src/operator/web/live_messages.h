@@ -7,7 +7,6 @@
 #include "core/robot_geometry.h"
 #include "heel/flow.h"
 #include "logging/recent_log.h"
-#include "operator/web/picture_encoder.h"
 #include "operator/web/view_facts.h"
 #include "operator/web/view_json.h"
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/frame_view.h"
 #include "heel/motion.h"
 
 namespace heel {
@@ -100,11 +101,7 @@ Region searched_region(const Eigen::AlignedBox2d& box, const CameraModel& camera
 
 FeatureSet features_in(const ShirtTemplate& shirt, const FurtherView& further, const Eigen::AlignedBox2d& box,
                        int max_features) {
-  FrameView picture;
-  picture.header.width_px = static_cast<std::uint32_t>(shirt.camera.width_px);
-  picture.header.height_px = static_cast<std::uint32_t>(shirt.camera.height_px);
-  picture.grey = further.grey.data();
-  picture.stride_bytes = picture.header.width_px;
+  const FrameView picture = packed_frame(further.grey.data(), shirt.camera.width_px, shirt.camera.height_px);
   FeatureSet found;
   FeatureExtractor(shirt.camera.width_px, shirt.camera.height_px,
                    view_feature_settings(shirt, box.sizes(), max_features))

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/frame_view.h"
 #include "heel/flow.h"
 #include "heel/shirt_template.h"
 #include "vision/pose/view_geometry.h"
@@ -26,14 +27,7 @@ struct RenderedView {
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x);
   }
-  FrameView frame() const {
-    FrameView frame;
-    frame.header.width_px = static_cast<std::uint32_t>(width_px);
-    frame.header.height_px = static_cast<std::uint32_t>(height_px);
-    frame.grey = grey.data();
-    frame.stride_bytes = frame.header.width_px;
-    return frame;
-  }
+  FrameView frame() const { return packed_frame(grey.data(), width_px, height_px); }
 };
 
 /// `scale`: of the view's middle, view to reference. Beside the back each row has the level of the back's

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/angles.h"
+#include "core/frame_view.h"
 #include "heel/error.h"
 #include "heel/pose_tracker.h"
 #include "vision/pose/average_back.h"
@@ -70,12 +71,7 @@ class ReachScene {
     const ClothFolds folds = some_folds(random);
     back_.draw(motion_to(place, random), folds, frame_);
     expose(random);
-    FrameView view;
-    view.header.width_px = static_cast<std::uint32_t>(camera_.width_px);
-    view.header.height_px = static_cast<std::uint32_t>(camera_.height_px);
-    view.grey = grey_.data();
-    view.stride_bytes = view.header.width_px;
-    return view;
+    return packed_frame(grey_.data(), camera_.width_px, camera_.height_px);
   }
 
  private:

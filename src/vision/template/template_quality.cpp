@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/frame_view.h"
 #include "heel/matching.h"
 #include "heel/shirt_template.h"
 #include "vision/template/half_size.h"
@@ -47,15 +48,6 @@ FeatureSettings template_settings(const ShirtTemplate& shirt) {
     ++settings.octaves;
   }
   return settings;
-}
-
-FrameView view_of(const std::uint8_t* grey, int width_px, int height_px) {
-  FrameView view;
-  view.header.width_px = static_cast<std::uint32_t>(width_px);
-  view.header.height_px = static_cast<std::uint32_t>(height_px);
-  view.grey = grey;
-  view.stride_bytes = view.header.width_px;
-  return view;
 }
 
 /// Share of the cells of a 4 × 4 grid over the region that hold a feature.
@@ -111,7 +103,7 @@ int correct_matches_at_half_size(const ShirtTemplate& shirt, const FeatureSet& t
   settings.max_features = kTrialFeatures;
   FeatureSet seen;
   FeatureExtractor(half.width_px, half.height_px, settings)
-      .extract(view_of(half.grey.data(), half.width_px, half.height_px), region, seen);
+      .extract(packed_frame(half.grey.data(), half.width_px, half.height_px), region, seen);
 
   const auto same = [&](const Feature& ref, const Feature& cur) {
     const double dx_px = (ref.x_px + 0.5) * kFarScale - 0.5 - cur.x_px;
@@ -179,7 +171,8 @@ std::string reason_against(const ShirtTemplate& shirt, const TemplateVerdict& ve
 FeatureSet template_features(const ShirtTemplate& shirt) {
   FeatureSet set;
   FeatureExtractor(shirt.camera.width_px, shirt.camera.height_px, template_settings(shirt))
-      .extract(view_of(shirt.grey.data(), shirt.camera.width_px, shirt.camera.height_px), shirt.roi, set);
+      .extract(packed_frame(shirt.grey.data(), shirt.camera.width_px, shirt.camera.height_px), shirt.roi,
+               set);
   return set;
 }
 
