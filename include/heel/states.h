@@ -127,6 +127,7 @@ enum class PictureFault : std::uint8_t {
   Flicker,          ///< bands of light that move over the picture
   ExposureHunting,  ///< the brightness goes up and down
 };
+inline constexpr std::size_t kPictureFaults = 8;
 
 /// The gate's limits that changed a command, as bits of VelocityCommand::limited_by.
 enum GateLimit : std::uint8_t {

@@ -51,10 +51,12 @@ std::optional<LocalSocket> make_socket(const std::string& path) {
 }
 
 std::unique_ptr<PictureQueue> make_picture_queue(const Config& config, const CameraModel& camera) {
-  constexpr std::size_t kFrames = 48;  // more than a second, for a disk that is slow to sync
+  constexpr std::size_t kRecordedFrames = 48;  // more than a second, for a disk that is slow to sync
+  constexpr std::size_t kShownFrames = 4;      // more than telemetry's period
   const bool recorded = !config.telemetry.directory.empty() && config.telemetry.pictures != "none";
   if (!recorded && config.view.address.empty()) return nullptr;
-  return std::make_unique<PictureQueue>(kFrames, static_cast<std::uint32_t>(camera.width_px),
+  return std::make_unique<PictureQueue>(recorded ? kRecordedFrames : kShownFrames,
+                                        static_cast<std::uint32_t>(camera.width_px),
                                         static_cast<std::uint32_t>(camera.height_px));
 }
 

@@ -7,20 +7,15 @@
 #include "config/config_table.h"
 #include "config/config_value.h"
 #include "core/state_sentence.h"
+#include "operator/json_number.h"
 
 namespace heel {
 namespace {
 
 using json = nlohmann::ordered_json;
 
-/// Four decimals are enough for people and plots; what is not finite is null.
-json number(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::round(value * 1e4) / 1e4;
-}
-
 json seconds_since(TimeNs t_ns, TimeNs now_ns) {
-  return t_ns == 0 ? json(nullptr) : number(seconds_from_ns(now_ns - t_ns));
+  return t_ns == 0 ? json(nullptr) : json_number(seconds_from_ns(now_ns - t_ns));
 }
 
 json robot_json(const RobotState& robot, TimeNs now_ns) {
@@ -33,12 +28,12 @@ json robot_json(const RobotState& robot, TimeNs now_ns) {
   out["stop_button"] = robot.stop_button;
   out["bumpers"] = robot.bumpers_front != 0 || robot.bumpers_rear != 0;
   out["stall"] = robot.stall_left || robot.stall_right || robot.e_stall;
-  out["battery_v"] = number(robot.battery_v);
-  out["x_m"] = number(robot.odometry.x_m);
-  out["y_m"] = number(robot.odometry.y_m);
-  out["heading_rad"] = number(robot.odometry.heading_rad);
-  out["v_m_s"] = number(robot.odometry.v_m_s);
-  out["yaw_rate_rad_s"] = number(robot.odometry.yaw_rate_rad_s);
+  out["battery_v"] = json_number(robot.battery_v);
+  out["x_m"] = json_number(robot.odometry.x_m);
+  out["y_m"] = json_number(robot.odometry.y_m);
+  out["heading_rad"] = json_number(robot.odometry.heading_rad);
+  out["v_m_s"] = json_number(robot.odometry.v_m_s);
+  out["yaw_rate_rad_s"] = json_number(robot.odometry.yaw_rate_rad_s);
   out["reconnects"] = robot.reconnects;
   return out;
 }
@@ -58,23 +53,23 @@ json target_json(const TickRecord& tick) {
   const TargetState& target = tick.target;
   json out = {{"found", tick.input.has_pose && pose.found()}};
   out["reason"] = tick.input.has_pose ? json(to_string(pose.reason)) : json(nullptr);
-  out["certainty"] = number(pose.certainty);
+  out["certainty"] = json_number(pose.certainty);
   out["template"] = pose.template_index;
   out["known"] = target.known;
   if (!target.known) return out;
-  out["distance_m"] = number(tick.person_m);
-  out["x_m"] = number(target.x_m);
-  out["y_m"] = number(target.y_m);
-  out["yaw_rad"] = number(target.yaw_rad);
-  out["travel_yaw_rad"] = number(target.travel_yaw_rad);
+  out["distance_m"] = json_number(tick.person_m);
+  out["x_m"] = json_number(target.x_m);
+  out["y_m"] = json_number(target.y_m);
+  out["yaw_rad"] = json_number(target.yaw_rad);
+  out["travel_yaw_rad"] = json_number(target.travel_yaw_rad);
   return out;
 }
 
 json command_json(const TickRecord& tick) {
-  return {{"v_m_s", number(tick.command.v_m_s)},
-          {"yaw_rate_rad_s", number(tick.command.yaw_rate_rad_s)},
+  return {{"v_m_s", json_number(tick.command.v_m_s)},
+          {"yaw_rate_rad_s", json_number(tick.command.yaw_rate_rad_s)},
           {"hold", to_string(tick.hold)},
-          {"free_distance_m", number(tick.free_distance_m)}};
+          {"free_distance_m", json_number(tick.free_distance_m)}};
 }
 
 /// The limits in force: every number of the table that has a safer direction.
@@ -84,7 +79,7 @@ json limits_json(const Config& config) {
     if (key.tighter == Tighter::None) continue;
     const std::string_view type = type_name(key);
     out[key.full_name()] =
-        type == "bool" ? json(number_value(key, config) != 0.0) : number(number_value(key, config));
+        type == "bool" ? json(number_value(key, config) != 0.0) : json_number(number_value(key, config));
   }
   return out;
 }

@@ -159,19 +159,16 @@ void run_bench_control(const BenchControlOptions& options) {
                              loaded_to_idle, kGoalLoadedRatio, yardstick);
     return;
   }
-  const evaluation::Machine machine = evaluation::this_machine();
-  std::cout
-      << ControlJson{{"machine",
-                      {{"cpu", machine.cpu}, {"cores", machine.cores}, {"load_1min", machine.load_1min}}},
-                     {"seconds", options.seconds},
-                     {"idle", json_of(idle)},
-                     {"loaded", json_of(loaded)},
-                     {"p99_9_loaded_to_idle", loaded_to_idle},
-                     {"cyclictest_p99_9_loaded_to_idle", yardstick},
-                     {"goal_ratio", kGoalRatio},
-                     {"goal_loaded_to_idle", kGoalLoadedRatio}}
-             .dump(2)
-      << '\n';
+  std::cout << ControlJson{{"machine", json_of(evaluation::this_machine())},
+                           {"seconds", options.seconds},
+                           {"idle", json_of(idle)},
+                           {"loaded", json_of(loaded)},
+                           {"p99_9_loaded_to_idle", loaded_to_idle},
+                           {"cyclictest_p99_9_loaded_to_idle", yardstick},
+                           {"goal_ratio", kGoalRatio},
+                           {"goal_loaded_to_idle", kGoalLoadedRatio}}
+                   .dump(2)
+            << '\n';
 }
 
 }  // namespace

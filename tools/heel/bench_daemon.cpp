@@ -80,12 +80,10 @@ DaemonCost measure(const BenchDaemonOptions& options) {
 }
 
 BenchJson json_of(const DaemonCost& cost, const BenchDaemonOptions& options) {
-  const evaluation::Machine machine = evaluation::this_machine();
-  BenchJson json{
-      {"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}, {"load_1min", machine.load_1min}}},
-      {"seconds", cost.seconds},
-      {"pictures", options.pictures},
-      {"followed_to_the_end", cost.followed}};
+  BenchJson json{{"machine", json_of(evaluation::this_machine())},
+                 {"seconds", cost.seconds},
+                 {"pictures", options.pictures},
+                 {"followed_to_the_end", cost.followed}};
   json["core_share"] = {
       {"all", cost.core_share}, {"goal", kGoalCore}, {"reached", cost.core_share <= kGoalCore}};
   for (const ThreadCost& thread : cost.threads) {

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 #include <thread>
 
@@ -34,6 +35,14 @@ Machine this_machine() {
   double load = 0.0;
   if (getloadavg(&load, 1) == 1) machine.load_1min = load;
   return machine;
+}
+
+nlohmann::ordered_json json_of(const Machine& machine) {
+  return {{"cpu", machine.cpu},
+          {"cores", machine.cores},
+          {"highway_target", machine.simd},
+          {"opencv", machine.opencv},
+          {"load_1min", machine.load_1min}};
 }
 
 }  // namespace heel::evaluation

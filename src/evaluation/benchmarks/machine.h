@@ -1,6 +1,7 @@
 // The machine a benchmark ran on, as far as it bears on the times.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace heel::evaluation {
@@ -14,5 +15,6 @@ struct Machine {
 };
 
 Machine this_machine();
+nlohmann::ordered_json json_of(const Machine& machine);
 
 }  // namespace heel::evaluation

@@ -1,8 +1,10 @@
+#include <span>
+#include <type_traits>
 #include <utility>
 
 #include "evaluation/benchmarks/subjects.h"
 #include "heel/pose_estimator.h"
-#include "heel/pose_tracker.h"
+#include "vision/pose/template_selector.h"
 
 namespace heel::evaluation {
 namespace {
@@ -11,12 +13,22 @@ constexpr double kSearchGoal = 1.3, kTrackingGoal = 0.4;  // × cv::ORB(1000)
 constexpr double kFarShirtGoal = 1.3;                     // × cv::ORB(3000)
 constexpr int kFarShirtOrbFeatures = 3000;
 
-/// The daemon's vision stage with the daemon's default settings.
+/// With the daemon's default settings.
+template <typename Vision>
+Vision made_of(const BenchInput& input) {
+  if constexpr (std::is_same_v<Vision, TemplateSelector>) {
+    return Vision(std::span(&input.shirt, 1), input.camera, VisionConfig{});
+  } else {
+    return Vision(input.shirt, input.camera, VisionConfig{});
+  }
+}
+
+/// The daemon's vision stage is TemplateSelector; PoseEstimator searches each frame by itself.
 template <typename Vision>
 class HeelVision : public PipelineSubject {
  public:
   HeelVision(const BenchInput& input, Figure what)
-      : PipelineSubject(std::move(what)), input_(input), vision_(input.shirt, input.camera, VisionConfig{}) {
+      : PipelineSubject(std::move(what)), input_(input), vision_(made_of<Vision>(input)) {
     vision_.measure(stage_times());
   }
 
@@ -50,7 +62,7 @@ class HeelVision : public PipelineSubject {
 };
 
 /// Only the frames count in which it had not to search everywhere.
-class Tracking : public HeelVision<PoseTracker> {
+class Tracking : public HeelVision<TemplateSelector> {
  public:
   using HeelVision::HeelVision;
 
@@ -62,7 +74,7 @@ class Tracking : public HeelVision<PoseTracker> {
 };
 
 /// As the daemon searches while it has no shirt to track: what it finds may come after several frames.
-class FarShirtSearch : public HeelVision<PoseTracker> {
+class FarShirtSearch : public HeelVision<TemplateSelector> {
  public:
   using HeelVision::HeelVision;
 

@@ -77,12 +77,8 @@ const StageName& name_of(VisionStage stage) {
 nlohmann::ordered_json to_json(const VisionReport& report) {
   const VisionBench& bench = report.bench;
   Json json;
-  json["machine"] = {{"cpu", report.machine.cpu},
-                     {"cores", report.machine.cores},
-                     {"highway_target", report.machine.simd},
-                     {"opencv", report.machine.opencv},
-                     {"load_1min", report.machine.load_1min},
-                     {"cpu_share", bench.cpu_share}};
+  json["machine"] = json_of(report.machine);
+  json["machine"]["cpu_share"] = bench.cpu_share;
   json["settings"] = {{"source", report.source},
                       {"width_px", report.size.width},
                       {"height_px", report.size.height},

@@ -44,7 +44,7 @@
  * @property {[number, number][] | null} quad
  * @property {[number, number, number, number] | null} predicted
  * @property {[number, number][] | null} inlier_px
- * @property {{capture_to_vision: Known, vision: Known, to_command: Known}} latency_ms from the exposure to the pose, of that vision
+ * @property {{capture_to_vision: Known, to_command: Known}} latency_ms from the exposure to the pose
  *   alone, and from the exposure to the command
  */
 
