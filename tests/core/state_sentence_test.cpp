@@ -82,6 +82,31 @@ TEST(StateSentence, SaysWhyARobotIsNotDriven) {
             "at rest: the robot is not driven: it does not say what it is; set robot.model");
 }
 
+TEST(StateSentence, SaysWhatIsWrongWithThePicturesWhileNobodyIsFound) {
+  TickRecord tick = record_of(SupervisorState::Waiting, StopReason::TargetLost);
+  tick.input.has_pose = true;
+  tick.input.pose.reason = PoseReason::TooFewFeatures;
+  EXPECT_EQ(state_sentence(tick), "at rest: target lost (too few features)");
+  tick.input.pose.picture = PictureFault::Dark;
+  EXPECT_EQ(state_sentence(tick),
+            "at rest: target lost (too few features); the picture is dark: is the lens "
+            "covered, or the light off?");
+  tick.input.pose.reason = PoseReason::Found;
+  EXPECT_EQ(state_sentence(tick), "at rest: target lost");
+  tick = record_of(SupervisorState::Stopped, StopReason::Bumper);
+  tick.input.has_pose = true;
+  tick.input.pose.picture = PictureFault::Dark;
+  EXPECT_EQ(state_sentence(tick).find("dark"), std::string::npos) << "that is not why it rests";
+}
+
+TEST(PictureSentence, EachFaultHasItsOwn) {
+  std::set<std::string> sentences;
+  for (std::size_t i = 0; i < kPictureFaults; ++i)
+    sentences.insert(picture_sentence(static_cast<PictureFault>(i)));
+  EXPECT_EQ(sentences.size(), kPictureFaults) << "none: the empty one";
+  EXPECT_EQ(picture_sentence(PictureFault::None), "");
+}
+
 /// All values of an enumeration have names, each its own, and the next value has none.
 template <typename Enum>
 void expect_names(std::size_t count) {
@@ -98,6 +123,7 @@ TEST(FlowNames, EachValueHasAName) {
   expect_names<OperatorCommand>(5);
   expect_names<OperatorOutcome>(4);
   expect_names<Hold>(3);
+  expect_names<PictureFault>(kPictureFaults);
   expect_names<LinkPhase>(static_cast<std::size_t>(LinkPhase::Refused) + 1);
   expect_names<ModelChoice>(static_cast<std::size_t>(ModelChoice::Nameless) + 1);
   expect_names<StopReason>(static_cast<std::size_t>(StopReason::EmergencyStop) + 1);

@@ -53,6 +53,12 @@ class PlayedLoop final : public OperatorPort {
     out = tick_;
     return true;
   }
+  /// The newest frame, from the next tick on.
+  void see(const PoseEstimate& pose) {
+    const std::lock_guard lock(mutex_);
+    tick_.input.has_pose = true;
+    tick_.input.pose = pose;
+  }
   CaptureCounters camera() override { return {.captured = 42}; }
   void answered(const std::string& who, const std::string& request, const std::string& answer) override {
     const std::lock_guard lock(mutex_);

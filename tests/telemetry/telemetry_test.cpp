@@ -139,6 +139,20 @@ TEST_F(TelemetryTest, ARefusalIsLoggedWithItsGateWhenItChanges) {
   EXPECT_EQ(log_.count("pose not used: outlier"), 1);
 }
 
+TEST_F(TelemetryTest, WhatThePicturesShowWrongIsLoggedWhenItChanges) {
+  Telemetry telemetry(queues_, kNothingRecorded);
+  TickRecord tick;
+  for (const PictureFault fault : {PictureFault::None, PictureFault::Dark, PictureFault::Dark,
+                                   PictureFault::Flicker, PictureFault::None, PictureFault::None}) {
+    tick.input.pose.picture = fault;
+    queues_.ticks.push(tick);
+  }
+  telemetry.drain(kNsPerS);
+  EXPECT_EQ(log_.count("the picture is dark"), 1);
+  EXPECT_EQ(log_.count("the light flickers"), 1);
+  EXPECT_EQ(log_.count("the pictures are good again"), 1);
+}
+
 TEST_F(TelemetryTest, AnotherTemplateIsLogged) {
   Telemetry telemetry(queues_, kNothingRecorded);
   TickRecord tick;
