@@ -38,7 +38,9 @@ using test::sleep_s;
 using test::Truth;
 using test::write_text;
 
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
+using ::testing::Matcher;
 
 /// systemd received these messages in this order, with any STATUS between.
 bool reloaded_and_ready(const std::vector<std::string>& messages) {
@@ -278,7 +280,11 @@ TEST_F(HeeldWithAShortCameraFile, ComesToRestAtTheEndAndKeepsTheRecording) {
   start_heeld(scene_.write_config({.sections = "[telemetry]\ndirectory = \"run\"\n"}));
   ASSERT_TRUE(starts_to_drive()) << logs();
   EXPECT_EQ(daemon_->wait(), 0) << logs();
-  EXPECT_THAT(daemon_->output(), HasSubstr("at rest: camera silent"));
+  // Where vision takes longer than the time-outs, what was seen last is too old before the silence is.
+  EXPECT_THAT(daemon_->output(), test::kThreadSanitizer
+                                     ? Matcher<std::string>(AnyOf(HasSubstr("at rest: camera silent"),
+                                                                  HasSubstr("at rest: target lost")))
+                                     : Matcher<std::string>(HasSubstr("at rest: camera silent")));
   EXPECT_TRUE(robot_->says("closed")) << logs();
   EXPECT_TRUE(comes_to_rest());
   EXPECT_THAT(robot_->output(), Not(HasSubstr("watchdog")));
