@@ -3,8 +3,8 @@ function(heel_compile_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# heel_test(NAME [SOURCES …] DEPENDS … [PROGRAMS …] [COUNTS_ALLOCATIONS] [REAL_TIME] [SERIAL] [THREADS] [MEASURES] [AS_ONE ENTRY]): a
-# GoogleTest program of every .cpp in the current folder, or of SOURCES; each of its tests is a ctest entry.
+# heel_test(NAME [SOURCES …] DEPENDS … [PROGRAMS …] [COUNTS_ALLOCATIONS] [REAL_TIME] [SERIAL] [THREADS] [MEASURES]
+# [MEASURING_TESTS …] [AS_ONE ENTRY]): a GoogleTest program of every .cpp in the current folder, or of SOURCES; each of its tests is a ctest entry.
 # PROGRAMS: heel, heeld, heel-sim: the built programs it runs; their paths are HEEL_PROGRAM, HEELD_PROGRAM,
 # HEEL_SIM_PROGRAM.
 # COUNTS_ALLOCATIONS: links support/allocation_count.cpp, which takes the place of the C library's malloc.
@@ -14,12 +14,13 @@ endfunction()
 # (HEEL_ONLY_THREADED_TESTS): one thread races with nobody, at fifty times the price.
 # MEASURES: tests of the drawn world and of what measures in it. The sanitizers' presets leave these out, and what runs
 # the command heel (HEEL_COMMAND_TESTS): they see what drives the robot, and the libraries.
+# MEASURING_TESTS: the same for single tests of a program that is kept, names with * between colons.
 # AS_ONE: all its tests are one entry of that name, because they share what took long to make.
 # A test ends itself when what it waits for does not come (support/process.h); ctest ends one that hangs, long after
 # a machine under load would be done: after 600 s, or TIMEOUT.
 # Tests that need real images or video say so by HEEL_NEEDS_TEST_DATA (support/test_data.h).
 function(heel_test name)
-  cmake_parse_arguments(ARG "REAL_TIME;SERIAL;THREADS;MEASURES;COUNTS_ALLOCATIONS" "TIMEOUT;AS_ONE" "SOURCES;DEPENDS;LABELS;PROGRAMS" ${ARGN})
+  cmake_parse_arguments(ARG "REAL_TIME;SERIAL;THREADS;MEASURES;COUNTS_ALLOCATIONS" "TIMEOUT;AS_ONE;MEASURING_TESTS" "SOURCES;DEPENDS;LABELS;PROGRAMS" ${ARGN})
   if(NOT HEEL_BUILD_TESTS)
     return()
   endif()
@@ -80,7 +81,11 @@ function(heel_test name)
     # ctest ignores the exit status of a test that it takes for skipped, but after failures GoogleTest lists these last.
     set_tests_properties(${ARG_AS_ONE} PROPERTIES ${properties} SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\][^[]*$")
   else()
-    gtest_discover_tests(${name} PROPERTIES ${properties} DISCOVERY_TIMEOUT 300)
+    set(filter)
+    if(NOT HEEL_COMMAND_TESTS AND ARG_MEASURING_TESTS)
+      set(filter TEST_FILTER -${ARG_MEASURING_TESTS})
+    endif()
+    gtest_discover_tests(${name} ${filter} PROPERTIES ${properties} DISCOVERY_TIMEOUT 300)
   endif()
 endfunction()
 

@@ -60,7 +60,7 @@ test.describe("desktop, walking", () => {
     const at = (share) => Math.round(ages_ms[Math.floor(share * (ages_ms.length - 1))]);
     console.log(`picture from exposure to drawn: p50 ${at(0.5)} ms, p95 ${at(0.95)} ms, most ${at(1)} ms`);
     expect(at(0.5)).toBeGreaterThan(0);
-    expect(at(0.5)).toBeLessThan(500);
+    expect(at(0.5)).toBeLessThan(5 * (await operator.bound_ms()));
     await operator.screenshot("following", screenshots());
   });
 
@@ -71,8 +71,9 @@ test.describe("desktop, walking", () => {
     await page.getByLabel("control.gain_yaw_1_s", { exact: true }).focus();
     const space_ms = await operator.stoppedAfter_ms(() => page.keyboard.press("Space"));
     console.log(`zero on the wire after the button: ${button_ms.toFixed(0)} ms, after the space bar: ${space_ms.toFixed(0)} ms`);
-    expect(button_ms).toBeLessThan(100);
-    expect(space_ms).toBeLessThan(100);
+    const bound_ms = await operator.bound_ms();
+    expect(button_ms).toBeLessThan(bound_ms);
+    expect(space_ms).toBeLessThan(bound_ms);
     await operator.screenshot("emergency", screenshots());
     await page.locator("#reset").click();
     await expect(page.locator("#sentence")).toHaveText("At rest: not started");
@@ -97,10 +98,12 @@ test.describe("desktop, walking", () => {
     const proxy = new HangingProxy();
     await proxy.begin(walk.port);
     let best_ms = Infinity;
-    for (let attempt = 0; attempt < 3 && best_ms > 100; ++attempt) {
+    let bound_ms = 100;
+    for (let attempt = 0; attempt < 3 && best_ms > bound_ms; ++attempt) {
       const operator = await Operator.open(page, walk, proxy.address);
       if (attempt === 0) await operator.signedIn();
       await operator.follow();
+      bound_ms = await operator.bound_ms();
       proxy.hangs = true;
       // More than the browser has connections.
       await page.evaluate(() => {
@@ -114,7 +117,7 @@ test.describe("desktop, walking", () => {
     }
     proxy.end();
     console.log(`zero on the wire while all else hangs: ${best_ms.toFixed(0)} ms`);
-    expect(best_ms).toBeLessThan(100);
+    expect(best_ms).toBeLessThan(bound_ms);
     const operator = await Operator.open(page, walk, walk.address);
     await operator.signedIn();
     await page.locator("#reset").click();
@@ -152,7 +155,7 @@ test.describe("phone", () => {
     await expectAccessible(page);
     const stopped_ms = await operator.stoppedAfter_ms(() => page.locator("#estop").tap());
     console.log(`zero on the wire after a finger: ${stopped_ms.toFixed(0)} ms`);
-    expect(stopped_ms).toBeLessThan(100);
+    expect(stopped_ms).toBeLessThan(await operator.bound_ms());
     await page.locator("#reset").tap();
     await expect(page.locator("#sentence")).toHaveText("At rest: not started");
   });

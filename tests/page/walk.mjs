@@ -43,7 +43,7 @@ function freePort() {
   });
 }
 
-export async function eventually(condition, what, wait_ms = 30_000) {
+export async function eventually(condition, what, wait_ms = 120_000) {
   const end = Date.now() + wait_ms;
   for (;;) {
     const value = await condition();
