@@ -34,19 +34,6 @@ constexpr std::string_view kManualIntroduction = R"(# Configuration
 This page is generated: change `src/config/config_table.cpp`, then run `heeld --print-config-manual > docs/configuration.md`.
 )";
 
-/// The values that `heel set` may give the key of a running daemon.
-std::string_view settable_values(const ConfigKey& key) {
-  if (!key.can_be_set()) return "no";
-  switch (key.tighter) {
-    case Tighter::Smaller:
-      return "smaller";
-    case Tighter::Larger:
-      return "larger";
-    default:
-      return "yes";
-  }
-}
-
 }  // namespace
 
 std::string default_config_text() {

@@ -124,4 +124,16 @@ std::vector<std::string_view> split_choices(std::string_view choices) {
   return parts;
 }
 
+std::string_view settable_values(const ConfigKey& key) {
+  if (!key.can_be_set()) return "no";
+  switch (key.tighter) {
+    case Tighter::Smaller:
+      return "smaller";
+    case Tighter::Larger:
+      return "larger";
+    default:
+      return "yes";
+  }
+}
+
 }  // namespace heel

@@ -23,6 +23,10 @@ std::string expected_value(const ConfigKey& key);
 /// The same without words and unit, for a table: "0…10", "64…4096, whole", "true, false", "path".
 std::string value_range(const ConfigKey& key);
 
+/// The values that `heel set` may give the key of a running daemon: "no", "yes", or the direction from the
+/// file's value, "smaller" or "larger".
+std::string_view settable_values(const ConfigKey& key);
+
 /// "bool", "int", "real", "choice", "path", "address", "listen", "paths", "names".
 std::string_view type_name(const ConfigKey& key);
 

@@ -4,6 +4,8 @@
 #include <exception>
 #include <string>
 
+#include "commandline/config_man_page.h"
+#include "commandline/program_text.h"
 #include "config/config_load.h"
 #include "config/config_text.h"
 #include "control/state_manual.h"
@@ -27,7 +29,35 @@ struct Options {
   bool print_config_manual = false;
   bool print_state_manual = false;
   bool print_threads = false;
+  bool print_config_man = false;
 };
+
+heel::commandline::ProgramText manual_text() {
+  heel::commandline::ProgramText text;
+  text.name = "heeld";
+  text.section = 8;
+  text.summary = "makes a Pioneer P3-AT follow a person by the back of their shirt";
+  text.description =
+      "The daemon: it reads the camera, finds the taught shirt, and drives the robot. The robot stands still "
+      "until "
+      "`heel start`. SIGTERM and SIGINT stop the robot and end the daemon; SIGHUP reads the configuration "
+      "file "
+      "again. It runs as the service heeld of systemd, or by itself.";
+  text.exit_statuses = {
+      {0, "done, or stopped by a signal"},
+      {1, "an error while running"},
+      {kExitUsage, "the command line cannot be used"},
+      {kExitConfiguration, "the configuration or a file that it names cannot be used, or none is given"}};
+  text.commands[""] = {{{"heeld --config /etc/heel/heel.toml --check", "every value and where it comes from"},
+                        {"heeld --config heel.toml", "runs until SIGINT or SIGTERM"},
+                        {"heeld --print-default-config > heel.toml", "a file to begin with"}},
+                       {}};
+  text.files = {{"/etc/heel/heel.toml", "The configuration of the service, heel.toml(5)."},
+                {"/run/heel/control.sock", "The socket of the operators, for heel(1)."},
+                {"/var/lib/heel", "The recordings of the service."}};
+  text.see_also = {"heel(1)", "heel-sim(1)", "heel.toml(5)", "systemctl(1)"};
+  return text;
+}
 
 /// A command line that cannot be used, in one line on standard error.
 int refuse(const std::string& what) {
@@ -58,6 +88,10 @@ int run(const Options& options) {
     std::fputs(heel::thread_table_text({}).c_str(), stdout);
     return 0;
   }
+  if (options.print_config_man) {
+    std::fputs(heel::commandline::config_man_page().c_str(), stdout);
+    return 0;
+  }
   if (options.check) {
     heel::check_configuration(options.config);
     return 0;
@@ -70,7 +104,7 @@ int run(int argc, char** argv) {
     return file.empty() ? "an empty name (expected a file; is a variable of the shell not set?)" : "";
   };
   Options options;
-  CLI::App app("heeld: makes a Pioneer P3-AT follow a person by the back of their shirt", "heeld");
+  CLI::App app;
   auto* config =
       app.add_option("--config", options.config, "Configuration file (TOML); see docs/configuration.md")
           ->type_name("FILE")
@@ -87,19 +121,22 @@ int run(int argc, char** argv) {
                               "Print the tables of the supervisor (in docs/safety.md), and exit");
   auto* threads = app.add_flag("--print-threads", options.print_threads,
                                "Print the table of threads (in docs/real-time.md), and exit");
-  app.footer(
-      "Exit status: 0 done, or stopped by a signal; 1 an error while running; 64 the command line cannot\n"
-      "be used; 78 the configuration or a file that it names cannot be used, or none is given.");
+  auto* config_man = app.add_flag("--print-config-man", options.print_config_man,
+                                  "Print the man page of the configuration file, and exit");
+  const heel::commandline::ProgramText text = manual_text();
+  heel::commandline::add_program_text(app, text);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& request) {
+  } catch (const CLI::Success& request) {  // --help, --version
     return app.exit(request);
   } catch (const CLI::ExtrasError& error) {
     return refuse_unexpected(app.remaining().front());
   } catch (const CLI::ParseError& error) {
     return refuse(error.what());
   }
-  if (config->count() + print->count() + manual->count() + states->count() + threads->count() == 0) {
+  if (config->count() + print->count() + manual->count() + states->count() + threads->count() +
+          config_man->count() ==
+      0) {
     std::fputs(
         "heeld: no configuration; expected --config FILE (heeld --print-default-config prints an example)\n",
         stderr);

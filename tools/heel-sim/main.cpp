@@ -6,8 +6,10 @@
 #include <exception>
 #include <memory>
 
+#include "commandline/program_text.h"
 #include "files/camera_info.h"
 #include "live_simulation.h"
+#include "manual.h"
 #include "options.h"
 #include "sim/live/reference_picture.h"
 #include "sim/scene/sent_picture.h"
@@ -39,9 +41,18 @@ void write_files(const Options& options, const Scenario& scenario) {
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app("heel-sim: a simulated P3-AT for any ARCOS client, with a person to follow and a camera");
+  CLI::App app;
   add_options(app, options);
-  CLI11_PARSE(app, argc, argv);
+  const commandline::ProgramText manual = heel_sim_manual();
+  heel::commandline::add_program_text(app, manual);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {  // --help, --version
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "heel-sim: %s (see heel-sim --help)\n", error.what());
+    return kExitUsage;
+  }
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, on_signal);
   std::signal(SIGPIPE,
               SIG_IGN);  // when the reader of our output ends, the pty's symlink must still be removed
@@ -62,6 +73,6 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "heel-sim: %s\n", error.what());
-    return 1;
+    return kExitInput;
   }
 }

@@ -68,7 +68,7 @@ void BenchLoad::send_packets() {
 
 void BenchLoad::set_and_mark(const std::string& socket) {
   try {
-    OperatorClient client(socket, "bench control");
+    OperatorClient client({.socket = socket}, "bench control");
     for (int i = 0; !stop_; ++i) {
       client.ask({{"do", "mark"}, {"text", "load"}}, kAnswer_s);
       if (i % 2 == 0) {
@@ -85,7 +85,7 @@ void BenchLoad::set_and_mark(const std::string& socket) {
 
 void BenchLoad::watch(const std::string& socket) {
   try {
-    OperatorClient client(socket, "bench control");
+    OperatorClient client({.socket = socket}, "bench control");
     client.send({{"do", "watch"}, {"period_s", 0.1}});
     while (!stop_)
       if (!client.next(0.5).is_null()) ++watched_;

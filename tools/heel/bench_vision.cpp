@@ -1,6 +1,4 @@
 // heel bench vision: the vision stages beside OpenCV's features, matcher and homography, in one run.
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -12,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "commandline/progress.h"
 #include "commands.h"
 #include "evaluation/benchmarks/vision_report.h"
 #include "evaluation/reports/plots.h"
@@ -94,12 +93,6 @@ evaluation::BenchInput input_of(const BenchVisionOptions& options) {
   return evaluation::walk_in_a_room(size, options.frames + 1);
 }
 
-/// A counter on a terminal.
-void show_progress(std::size_t frame, std::size_t frames) {
-  if (isatty(STDERR_FILENO) != 1) return;
-  std::fprintf(stderr, frame == frames ? "\r\033[K" : "\rframe %zu of %zu", frame, frames);
-}
-
 /// P.png of the numbers in P.json.
 void draw(const nlohmann::ordered_json& json, const std::string& picture) {
   const std::string numbers = std::filesystem::path(picture).replace_extension(".json").string();
@@ -121,8 +114,10 @@ void run_bench_vision(const BenchVisionOptions& options) {
   std::optional<evaluation::BenchInput> far_shirt;
   if (options.inputs.empty() && options.size.empty())
     far_shirt = evaluation::far_shirt_in_a_room(std::min(options.frames, kFarShirtFrames) + 1);
+  commandline::Progress progress("frame", report.frames);
   report.bench = evaluation::measure_vision(input, far_shirt ? &*far_shirt : nullptr,
-                                            [&](std::size_t frame) { show_progress(frame, report.frames); });
+                                            [&](std::size_t frame) { progress.show(frame); });
+  progress.clear();
   std::cout << (options.json ? evaluation::to_json(report).dump(2) + "\n" : evaluation::table(report));
   if (!options.picture.empty()) draw(evaluation::to_json(report), options.picture);
 }

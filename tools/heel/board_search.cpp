@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <future>
 #include <thread>
 
@@ -70,7 +69,6 @@ std::vector<cv::Point3f> board_points(const Board& board, const BoardView& view)
 
 BoardViews find_board(const std::vector<std::string>& images, const Board& board, std::size_t least_views,
                       const std::function<void(const SearchedImage&)>& progress) {
-  const auto start = std::chrono::steady_clock::now();
   BoardViews found;
   struct Searched {
     cv::Size size;
@@ -116,9 +114,7 @@ BoardViews find_board(const std::vector<std::string>& images, const Board& board
     } else {
       found.images_without_board.push_back(images[i]);
     }
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    const double left = static_cast<double>(images.size() - i - 1) / static_cast<double>(i + 1);
-    progress({images[i], shows, is_part, i + 1, images.size(), elapsed.count() * left});
+    progress({images[i], shows, is_part, i + 1, images.size()});
   }
   const auto is_whole = [&](const BoardView& view) { return view.seen == board.corners; };
   const auto whole =

@@ -33,7 +33,6 @@ struct SearchedImage {
   bool found = false;
   bool is_part = false;  ///< not the whole board
   std::size_t done = 0, images = 0;
-  double left_s = 0.0;  ///< for the other images, by the time taken so far
 };
 
 /// Searches every image for the board, on all cores. Of a chessboard a part of at least 4 x 4 corners is

@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "bundle_facts.h"
@@ -21,6 +22,7 @@ struct BundleCommandOptions {
   std::string out = "heel-bundle.mcap";
   bool with_pictures = false;
   double max_mb = 20.0;
+  bool json = false;
 };
 
 /// The service records in its state directory; without recordings its black box is in the runtime directory.
@@ -47,6 +49,17 @@ void run_bundle(const BundleCommandOptions& options) {
       options.recording.empty() ? recording_of_service() : recording_in(options.recording);
   const BundleReport report = write_bundle(recording, options.out, bundle);
   for (const std::string& line : report.left_out) std::cerr << "heel bundle: " << line << '\n';
+  if (options.json) {
+    nlohmann::ordered_json json{{"file", options.out},
+                                {"bytes", report.bytes},
+                                {"recording", recording},
+                                {"with_pictures", options.with_pictures},
+                                {"texts", nlohmann::ordered_json::array()},
+                                {"left_out", report.left_out}};
+    for (const auto& [name, text] : bundle.texts) json["texts"].push_back(name);
+    std::cout << json.dump(2) << '\n';
+    return;
+  }
   std::cout << fmt::format("{}: {:.1f} MB of {}, with", options.out, 1e-6 * static_cast<double>(report.bytes),
                            recording);
   for (const auto& [name, text] : bundle.texts) std::cout << ' ' << name;
@@ -61,11 +74,14 @@ void add_bundle_command(CLI::App& app) {
       "bundle",
       "Packs a recording, the journal, versions and devices into one file for a bug report. Host name, user\n"
       "names, serial numbers of devices and pictures are left out. `heel replay` opens it");
-  command->add_option(
-      "recording", options->recording,
-      "a recording (*.mcap), or a folder of which the newest one is taken (default: /var/lib/heel,\n"
-      "or /run/heel with the service's black box)");
-  command->add_option("-o,--out", options->out, "the file")->capture_default_str();
+  command
+      ->add_option(
+          "recording", options->recording,
+          "a recording (*.mcap), or a folder of which the newest one is taken (default: /var/lib/heel,\n"
+          "or /run/heel with the service's black box)")
+      ->type_name("RECORDING");
+  command->add_option("-o,--out", options->out, "the file")->type_name("FILE")->capture_default_str();
+  command->add_flag("--json", options->json, "one JSON object (default: text)");
   command->add_flag("--with-pictures", options->with_pictures, "pictures and templates as well");
   command->add_option("--max-mb", options->max_mb, "what the file may have at most, megabytes")
       ->check(number_from(0.1, 10000.0))

@@ -5,10 +5,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "camera_calibration.h"
+#include "commandline/progress.h"
 #include "commands.h"
 #include "files/camera_info.h"
 #include "files/image_file.h"
@@ -17,6 +19,8 @@
 namespace heel::cli {
 namespace {
 
+using CalibrationJson = nlohmann::ordered_json;
+
 struct CalibrateOptions {
   std::vector<std::string> images;
   std::string board;
@@ -24,6 +28,7 @@ struct CalibrateOptions {
   std::string output;
   bool with_k3 = false;
   std::string pattern = "chessboard";
+  bool json = false;
 };
 
 /// "9x6": inner corners along a row, and down a column.
@@ -46,13 +51,12 @@ Pattern parse_pattern(const std::string& name) {
   throw Error("--pattern: '" + name + "' (expected chessboard, charuco, circles or asymmetric-circles)");
 }
 
-void print_progress(const SearchedImage& searched) {
-  fmt::print("{:<40} {}  ({} of {}{})\n", searched.image,
+void print_searched(const SearchedImage& searched) {
+  fmt::print("{:<40} {}  ({} of {})\n", searched.image,
              searched.is_part ? "found in part"
              : searched.found ? "found"
                               : "no board",
-             searched.done, searched.images,
-             searched.left_s >= 1.0 ? fmt::format(", about {:.0f} s left", searched.left_s) : "");
+             searched.done, searched.images);
   std::fflush(stdout);
 }
 
@@ -72,6 +76,33 @@ void print_report(const std::vector<BoardView>& views, const Calibration& result
       edges.centre_cm, edges.side_cm, edges.corner_cm);
   if (const std::string warning = warning_of(result); !warning.empty()) fmt::print("warning: {}\n", warning);
   fmt::print("wrote {}\n", output);
+}
+
+CalibrationJson json_of(const BoardViews& found, const Calibration& result, const std::string& output) {
+  const CameraModel& camera = result.camera;
+  const std::array<double, 3>& sigma = result.radial_sigma;
+  CalibrationJson json{{"output", output},
+                       {"rms_px", result.rms_px},
+                       {"width_px", camera.width_px},
+                       {"height_px", camera.height_px},
+                       {"fx", camera.fx},
+                       {"fy", camera.fy},
+                       {"cx", camera.cx},
+                       {"cy", camera.cy},
+                       {"fx_sigma_px", result.fx_sigma_px},
+                       {"fy_sigma_px", result.fy_sigma_px},
+                       {"distortion", {camera.k1, camera.k2, camera.p1, camera.p2, camera.k3}},
+                       {"radial_sigma", {sigma[0], sigma[1], sigma[2]}},
+                       {"direction_error_at_3_m_cm",
+                        {{"middle", result.edges.centre_cm},
+                         {"side", result.edges.side_cm},
+                         {"corner", result.edges.corner_cm}}},
+                       {"warning", warning_of(result)},
+                       {"views", CalibrationJson::array()},
+                       {"images_without_board", found.images_without_board}};
+  for (const BoardView& view : found.views)
+    json["views"].push_back({{"image", view.image}, {"rms_px", view.rms_px}});
+  return json;
 }
 
 /// The images of folders among them, in natural order.
@@ -97,11 +128,21 @@ void run_calibrate(const CalibrateOptions& options) {
     throw Error("--board: '" + options.board +
                 "' (expected an odd number of rows of asymmetric circles, e.g. 4x11: an even one "
                 "looks the same upside down)");
-  BoardViews found = find_board(all_images(options.images), board, kMinViews, print_progress);
+  const std::vector<std::string> images = all_images(options.images);
+  commandline::Progress progress("images searched", images.size());
+  BoardViews found = find_board(images, board, kMinViews, [&](const SearchedImage& searched) {
+    progress.clear();
+    if (!options.json) print_searched(searched);
+    progress.show(searched.done);
+  });
+  progress.clear();
   const Calibration result = calibrate_camera(board, found.image_size, options.with_k3, found.views);
   require_good_calibration(found.views, result);
   write_camera_model(result.camera, options.output);
-  print_report(found.views, result, options.output);
+  if (options.json)
+    fmt::print("{}\n", json_of(found, result, options.output).dump(2));
+  else
+    print_report(found.views, result, options.output);
 }
 
 }  // namespace
@@ -139,6 +180,7 @@ void add_calibrate_command(CLI::App& app) {
       ->type_name("KIND");
   command->add_flag("--k3", options->with_k3,
                     "also estimate the third radial coefficient (wide-angle lenses)");
+  command->add_flag("--json", options->json, "one JSON object (default: text)");
   command->callback([options] { run_calibrate(*options); });
 }
 

@@ -1,7 +1,6 @@
 // heel experiment: the paper's experiments, and others, on the rendered world and on pictures of others; CSV
 // files for heel report.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -10,18 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "commandline/progress.h"
 #include "commands.h"
 #include "config/config_load.h"
 #include "evaluation/experiments/back_set.h"
-#include "evaluation/experiments/false_detections.h"
-#include "evaluation/experiments/foreign_answers.h"
-#include "evaluation/experiments/planar_matching.h"
 #include "evaluation/experiments/real_images.h"
 #include "evaluation/experiments/still_image_cases.h"
 #include "evaluation/experiments/still_image_file.h"
 #include "evaluation/experiments/stop_distances.h"
-#include "evaluation/reports/foreign_tables.h"
 #include "experiment_family.h"
+#include "experiment_options.h"
 #include "files/folder.h"
 #include "files/image_file.h"
 #include "heel/error.h"
@@ -30,34 +27,7 @@
 namespace heel::cli {
 namespace {
 
-constexpr const char* kReal = "real";
-constexpr const char* kForeign = "foreign";
-constexpr const char* kPlanar = "foreign-planar";
-constexpr const char* kFalse = "foreign-false";
-constexpr const char* kOtherPeople = "/person/one-by-one.mp4";
-constexpr const char* kStills = "stills";
-constexpr const char* kStopping = "stopping";
-constexpr const char* kFamily = "family";
 constexpr int kVideoStep = 3;  ///< ten frames a second show how certainty rises and falls
-
-struct ExperimentOptions {
-  std::vector<std::string> names;
-  std::string out;
-  std::string scenario;
-  std::string config_file;
-  double teach_distance_m = 1.5;
-  int repeats = 0;
-  std::uint64_t seed = 1;
-  std::string data;
-  std::string foreign_set;
-  std::string error_model;
-
-  bool wants(const char* name) const { return std::find(names.begin(), names.end(), name) != names.end(); }
-};
-
-VisionConfig vision_of(const ExperimentOptions& options) {
-  return options.config_file.empty() ? VisionConfig{} : load_config(options.config_file).config.vision;
-}
 
 sim::Scenario base_scenario(const ExperimentOptions& options) {
   if (!options.scenario.empty()) return sim::read_scenario(options.scenario);
@@ -75,16 +45,16 @@ evaluation::PictureCallback picture_writer(const std::string& folder, const Came
   };
 }
 
-void run_still_experiment(const evaluation::StillImageExperiment& chosen, const ExperimentOptions& options) {
+void run_still_experiment(const evaluation::StillImageExperiment& chosen, const ExperimentOptions& options,
+                          ExperimentResults& results) {
   const sim::Scenario base = base_scenario(options);
   Config config;
   if (!options.config_file.empty()) config = load_config(options.config_file).config;
   sim::apply_scenario(base, config);
   evaluation::PictureCallback on_picture;
   if (chosen.writes_pictures) on_picture = picture_writer(options.out + "/" + chosen.name, base.camera.model);
-  const auto on_progress = [&](std::size_t done, std::size_t of) {
-    fmt::print(stderr, "\r{:<10} {:5} of {} poses", chosen.name, done, of);
-  };
+  commandline::Progress progress(std::string(chosen.name) + ", poses");
+  const auto on_progress = [&](std::size_t done, std::size_t of) { progress.show(done, of); };
   const auto rows =
       evaluation::run_still_images(base, chosen.cases(options.repeats > 0 ? options.repeats : chosen.repeats),
                                    options.teach_distance_m, config.vision, on_picture, on_progress);
@@ -92,16 +62,9 @@ void run_still_experiment(const evaluation::StillImageExperiment& chosen, const 
       std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.pose.found(); });
   const std::string file = options.out + "/" + chosen.name + ".csv";
   evaluation::write_still_images(rows, file);
-  fmt::print(stderr, "\r");
-  fmt::print("{:<10} {} pictures, found in {}: {}\n", chosen.name, rows.size(), found, file);
-  std::fflush(stdout);
-}
-
-/// The folder of --data, or HEEL_TEST_DATA.
-std::string data_folder(const ExperimentOptions& options) {
-  if (!options.data.empty()) return options.data;
-  const char* given = std::getenv("HEEL_TEST_DATA");
-  return given != nullptr && *given != '\0' ? given : "../shared/data";
+  progress.clear();
+  results.add(chosen.name, {{"file", file}, {"pictures", rows.size()}, {"found", found}},
+              fmt::format("{:<10} {} pictures, found in {}: {}\n", chosen.name, rows.size(), found, file));
 }
 
 /// Throws where a folder that the command line names cannot hold the pictures that are asked for. In the
@@ -128,7 +91,7 @@ void require_given_folders(const ExperimentOptions& options) {
         fmt::format("--data {}: no foreign set in this folder (expected one that holds foreign/)", data));
 }
 
-void run_real_image_experiment(const ExperimentOptions& options) {
+void run_real_image_experiment(const ExperimentOptions& options, ExperimentResults& results) {
   const std::string data = data_folder(options);
   const VisionConfig vision;
   const auto pairs = evaluation::estimate_pairs(data, vision);
@@ -140,85 +103,24 @@ void run_real_image_experiment(const ExperimentOptions& options) {
         fmt::format("--data {}: no pairs in oxford/ and no video in person/ (expected at least one of them)",
                     options.data));
   const bool complete = !pairs.empty() && !video.empty();
-  fmt::print("{:<10} {} pairs, {} frames of video{}\n", kReal, pairs.size(), video.size(),
-             complete ? "" : ": SKIPPED where absent in " + data);
-  std::fflush(stdout);
-}
-
-std::vector<evaluation::ForeignRow> answers_of(const evaluation::ForeignSet& set,
-                                               const evaluation::ForeignTemplates& templates,
-                                               const evaluation::ForeignMethod& method) {
-  const std::size_t all = set.pictures.size() - templates.usable.size() - templates.refused.size();
-  const bool shown = isatty(STDERR_FILENO) == 1;
-  const auto on_progress = [&](std::size_t done) {
-    if (shown) fmt::print(stderr, "\r{:<10} {:5} of {} pictures", method.name, done, all);
-  };
-  auto rows = evaluation::answer_foreign_set(set, templates, method, on_progress);
-  if (shown) std::fputs("\r\033[K", stderr);
-  return rows;
-}
-
-void run_false_detections(const ExperimentOptions& options, const evaluation::ForeignSet& set,
-                          const evaluation::ForeignTemplates& templates) {
-  const VisionConfig vision = vision_of(options);
-  std::vector<evaluation::FalseDetections> all = {evaluation::search_other_prints(set, templates, vision)};
-  const std::string video = data_folder(options) + kOtherPeople;
-  if (std::filesystem::exists(video)) {
-    all.push_back(evaluation::search_video(video, templates, vision));
-  } else {
-    fmt::print("{:<10} SKIPPED: no {}\n", kFalse, video);
-  }
-  evaluation::write_false_detections(all, options.out + "/foreign_false.csv");
-  for (const evaluation::FalseDetections& one : all) {
-    fmt::print("{:<10} {} in {}: {} pictures, found in {}\n", kFalse, one.searched_for, one.in, one.pictures,
-               one.found.size());
-    for (const std::string& found : one.found) fmt::print("{:<10}   {}\n", "", found);
-  }
-}
-
-void run_foreign_experiments(const ExperimentOptions& options) {
-  const std::string folder =
-      options.foreign_set.empty() ? data_folder(options) + "/foreign" : options.foreign_set;
-  if (options.foreign_set.empty() && !std::filesystem::exists(folder)) {
-    fmt::print("{:<10} SKIPPED: no {}\n", kForeign, folder);
-    return;
-  }
-  const evaluation::ForeignSet set = evaluation::read_foreign_set(folder);
-  const evaluation::ForeignTemplates templates = evaluation::teach_foreign_set(set);
-  if (options.wants(kForeign)) {
-    const std::string file = options.out + "/foreign.csv";
-    evaluation::write_foreign_rows(answers_of(set, templates, evaluation::heel_method(vision_of(options))),
-                                   file);
-    fmt::print("{}", evaluation::foreign_score_table(evaluation::read_foreign(file)));
-    for (const auto& [shirt, why] : templates.refused)
-      fmt::print("refused by teach: {} {} - {}\n", shirt.first, shirt.second, why);
-  }
-  if (options.wants(kPlanar)) {
-    std::vector<evaluation::ForeignRow> all;
-    for (const evaluation::ForeignMethod& method : evaluation::planar_methods())
-      for (evaluation::ForeignRow& row : answers_of(set, templates, method)) all.push_back(std::move(row));
-    const std::string file = options.out + "/foreign_planar.csv";
-    evaluation::write_foreign_rows(all, file);
-    fmt::print("{:<10} {} answers of {} methods: {}\n", kPlanar, all.size(),
-               evaluation::planar_methods().size(), file);
-  }
-  if (options.wants(kFalse)) run_false_detections(options, set, templates);
-  std::fflush(stdout);
+  results.add(kReal, {{"pairs", pairs.size()}, {"video_frames", video.size()}, {"complete", complete}},
+              fmt::format("{:<10} {} pairs, {} frames of video{}\n", kReal, pairs.size(), video.size(),
+                          complete ? "" : ": SKIPPED where absent in " + data));
 }
 
 /// A test set of pictures with truth, in the layout of the set that others' programs made.
-void write_stills(const ExperimentOptions& options) {
+void write_stills(const ExperimentOptions& options, ExperimentResults& results) {
   const std::string folder = options.out + "/" + kStills;
-  const std::size_t pictures = evaluation::write_back_set(folder, options.seed, [](std::size_t done) {
-    fmt::print(stderr, "\r{:<10} {:5} pictures", kStills, done);
-  });
-  fmt::print(stderr, "\r");
-  fmt::print("{:<10} {} pictures with truth: {}\n", kStills, pictures, folder);
-  std::fflush(stdout);
+  commandline::Progress progress(std::string(kStills) + ", pictures");
+  const std::size_t pictures =
+      evaluation::write_back_set(folder, options.seed, [&](std::size_t done) { progress.show(done); });
+  progress.clear();
+  results.add(kStills, {{"folder", folder}, {"pictures", pictures}},
+              fmt::format("{:<10} {} pictures with truth: {}\n", kStills, pictures, folder));
 }
 
 /// Stops by each trigger at each speed, in the world without pictures.
-void measure_stopping(const ExperimentOptions& options) {
+void measure_stopping(const ExperimentOptions& options, ExperimentResults& results) {
   if (options.error_model.empty())
     throw Error("stopping needs --error-model FILE (expected as for heel simulate)");
   const Config config = options.config_file.empty() ? Config{} : load_config(options.config_file).config;
@@ -226,22 +128,24 @@ void measure_stopping(const ExperimentOptions& options) {
       evaluation::measure_stops(config, sim::read_error_model(options.error_model), options.seed);
   const std::string file = options.out + "/" + kStopping + ".csv";
   evaluation::write_stop_distances(stops, file);
-  fmt::print("{}{:<10} {} stops: {}\n", evaluation::stop_distance_table(stops, config), kStopping,
-             stops.size(), file);
-  std::fflush(stdout);
+  results.add(kStopping, {{"file", file}, {"stops", stops.size()}},
+              fmt::format("{}{:<10} {} stops: {}\n", evaluation::stop_distance_table(stops, config),
+                          kStopping, stops.size(), file));
 }
 
 void run_experiments(const ExperimentOptions& options) {
   require_given_folders(options);
   make_folder(options.out);
-  if (options.wants(kStills)) write_stills(options);
-  if (options.wants(kStopping)) measure_stopping(options);
-  if (options.wants(kFamily)) measure_family(options.out, options.config_file, options.seed);
-  if (options.wants(kReal)) run_real_image_experiment(options);
+  ExperimentResults results(options.json);
+  if (options.wants(kStills)) write_stills(options, results);
+  if (options.wants(kStopping)) measure_stopping(options, results);
+  if (options.wants(kFamily)) measure_family(options, results);
+  if (options.wants(kReal)) run_real_image_experiment(options, results);
   if (options.wants(kForeign) || options.wants(kPlanar) || options.wants(kFalse))
-    run_foreign_experiments(options);
+    run_foreign_experiments(options, results);
   for (const evaluation::StillImageExperiment& known : evaluation::still_image_experiments())
-    if (options.wants(known.name)) run_still_experiment(known, options);
+    if (options.wants(known.name)) run_still_experiment(known, options, results);
+  results.end();
 }
 
 }  // namespace
@@ -274,7 +178,10 @@ void add_experiment_command(CLI::App& app) {
           ": planar matching by OpenCV on the same pictures" + "\n  " + kFalse +
           ": every shirt searched for in pictures that do not show it";
   command->add_option("name", options->names, help)->required()->check(CLI::IsMember(names));
-  command->add_option("-o,--out", options->out, "folder for CSV files and pictures")->required();
+  command->add_option("-o,--out", options->out, "folder for CSV files and pictures")
+      ->required()
+      ->type_name("DIR");
+  command->add_flag("--json", options->json, "one JSON object with a list `experiments` (default: text)");
   command
       ->add_option("--repeats", options->repeats,
                    "pictures of each pose, at most eight worlds; for `errors`: poses in thousands")
@@ -282,18 +189,26 @@ void add_experiment_command(CLI::App& app) {
   command->add_option("--seed", options->seed, "of `stills`: other persons, prints, folds and rooms")
       ->check(whole_number("a whole number"))
       ->capture_default_str();
-  command->add_option("--data", options->data,
-                      "folder of the real pictures (default: HEEL_TEST_DATA, else ../shared/data)");
-  command->add_option(
-      "--foreign-set", options->foreign_set,
-      "folder of the foreign set: images/, truth.csv, camera.yaml (default: foreign in --data)");
-  command->add_option(
-      "--scenario", options->scenario,
-      "uses the camera, light and person of this scenario (default: the simulator's defaults)");
-  command->add_option("--error-model", options->error_model,
-                      "of `stopping`: the file that poses are sampled from, as for heel simulate");
-  command->add_option("--config", options->config_file,
-                      "the daemon's configuration file (default: every key at its default)");
+  command
+      ->add_option("--data", options->data,
+                   "folder of the real pictures (default: HEEL_TEST_DATA, else ../shared/data)")
+      ->type_name("DIR");
+  command
+      ->add_option("--foreign-set", options->foreign_set,
+                   "folder of the foreign set: images/, truth.csv, camera.yaml (default: foreign in --data)")
+      ->type_name("DIR");
+  command
+      ->add_option("--scenario", options->scenario,
+                   "uses the camera, light and person of this scenario (default: the simulator's defaults)")
+      ->type_name("SCENARIO");
+  command
+      ->add_option("--error-model", options->error_model,
+                   "of `stopping`: the file that poses are sampled from, as for heel simulate")
+      ->type_name("MODEL.toml");
+  command
+      ->add_option("--config", options->config_file,
+                   "the daemon's configuration file (default: every key at its default)")
+      ->type_name("FILE");
   command->add_option("--teach-distance", options->teach_distance_m, "of the reference view, metres")
       ->check(CLI::Range(0.3, 10.0))
       ->capture_default_str();

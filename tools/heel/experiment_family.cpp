@@ -2,20 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "config/config_load.h"
 #include "evaluation/experiments/robot_family.h"
 
 namespace heel::cli {
 
-void measure_family(const std::string& folder, const std::string& config_file, std::uint64_t seed) {
-  const Config config = config_file.empty() ? Config{} : load_config(config_file).config;
-  const auto drives = evaluation::drive_family(config, seed);
-  const std::string file = folder + "/family.csv";
+void measure_family(const ExperimentOptions& options, ExperimentResults& results) {
+  const Config config = options.config_file.empty() ? Config{} : load_config(options.config_file).config;
+  const auto drives = evaluation::drive_family(config, options.seed);
+  const std::string file = options.out + "/" + kFamily + ".csv";
   evaluation::write_family(drives, file);
-  fmt::print("{}{:<10} {} robots: {}\n", evaluation::family_table(drives), "family", drives.size(), file);
-  std::fflush(stdout);
+  results.add(kFamily, {{"file", file}, {"robots", drives.size()}},
+              fmt::format("{}{:<10} {} robots: {}\n", evaluation::family_table(drives), kFamily,
+                          drives.size(), file));
 }
 
 }  // namespace heel::cli

@@ -1,6 +1,7 @@
 // heel export: a recording as files for other programs.
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "commands.h"
@@ -14,6 +15,7 @@ struct ExportOptions {
   std::string recording;
   std::string out;
   bool csv = false;
+  bool json = false;
 };
 
 void run_export(const ExportOptions& options) {
@@ -22,6 +24,13 @@ void run_export(const ExportOptions& options) {
   const std::string folder = options.out.empty() ? std::filesystem::path(file).stem().string() : options.out;
   const RecordingReport report = export_csv(file, folder);
   for (const std::string& problem : report.problems) std::cerr << "heel export: " << problem << '\n';
+  if (options.json) {
+    nlohmann::ordered_json json{{"recording", file}, {"problems", report.problems}};
+    for (const char* name : {"ticks.csv", "poses.csv", "capture.csv", "events.log"})
+      json["files"].push_back(folder + "/" + name);
+    std::cout << json.dump(2) << '\n';
+    return;
+  }
   std::cout << file << " -> " << folder << "/ticks.csv, poses.csv, capture.csv, events.log\n";
 }
 
@@ -34,9 +43,12 @@ void add_export_command(CLI::App& app) {
   command
       ->add_option("recording", options->recording,
                    "a recording (*.mcap), or a folder of which the newest one is taken")
-      ->required();
+      ->required()
+      ->type_name("RECORDING");
   command->add_flag("--csv", options->csv, "ticks.csv, poses.csv, capture.csv and events.log");
-  command->add_option("-o,--out", options->out, "folder for them (default: the recording's name)");
+  command->add_option("-o,--out", options->out, "folder for them (default: the recording's name)")
+      ->type_name("DIR");
+  command->add_flag("--json", options->json, "one JSON object (default: text)");
   command->callback([options] { run_export(*options); });
 }
 

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "commands.h"
@@ -19,6 +20,7 @@ struct FeaturesOptions {
   std::string image;
   std::string output;
   FeatureSettings settings;
+  bool json = false;
 };
 
 void write_features(const FeaturesOptions& options) {
@@ -33,6 +35,14 @@ void write_features(const FeaturesOptions& options) {
   const std::chrono::duration<double, std::milli> elapsed_ms = std::chrono::steady_clock::now() - start;
 
   write_kpd_file(features, grey.cols, grey.rows, options.output);
+  if (options.json) {
+    const nlohmann::ordered_json json{{"image", options.image},
+                                      {"output", options.output},
+                                      {"features", features.features.size()},
+                                      {"ms", elapsed_ms.count()}};
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
   fmt::print(stderr, "{} features in {:.2f} ms\n", features.features.size(), elapsed_ms.count());
 }
 
@@ -59,6 +69,8 @@ void add_features_command(CLI::App& app) {
                     "descriptors relative to the dominant orientation");
   command->add_flag("--spread", options->settings.spread,
                     "spread the features evenly over the cells of a grid");
+  command->add_flag("--json", options->json,
+                    "one JSON object: features, ms, output (default: a line on stderr)");
   command->callback([options] { write_features(*options); });
 }
 

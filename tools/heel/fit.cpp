@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 
+#include "commandline/progress.h"
 #include "commands.h"
 #include "evaluation/experiments/run_record.h"
 #include "evaluation/experiments/still_image_cases.h"
@@ -26,6 +28,7 @@ struct FitOptions {
   double walk_s = 60.0;
   double teach_distance_m = 1.5;
   int thousands = 3;
+  bool json = false;
 };
 
 /// Makes DIR/errors.csv: the standing person in thousands of poses.
@@ -34,12 +37,11 @@ void make_stills(const sim::Scenario& base, const VisionConfig& vision, const Fi
   const auto& known = evaluation::still_image_experiments();
   const auto errors = std::find_if(known.begin(), known.end(),
                                    [](const auto& one) { return std::string(one.name) == "errors"; });
+  commandline::Progress progress("poses");
   evaluation::write_still_images(
-      evaluation::run_still_images(
-          base, errors->cases(options.thousands), options.teach_distance_m, vision, {},
-          [](std::size_t done, std::size_t of) { fmt::print(stderr, "\r{:5} of {} poses", done, of); }),
+      evaluation::run_still_images(base, errors->cases(options.thousands), options.teach_distance_m, vision,
+                                   {}, [&](std::size_t done, std::size_t of) { progress.show(done, of); }),
       file);
-  fmt::print(stderr, "\r");
 }
 
 /// Makes DIR/runs/walk: how errors are correlated from frame to frame.
@@ -70,6 +72,15 @@ void run_fit(const FitOptions& options) {
       fmt::format("Fitted to {} pictures of the standing person, found in {}, and {} frames of {}.",
                   rows.size(), found, frames.size(), settings.scenario.name);
   sim::write_error_model(model, note, options.out);
+  if (options.json) {
+    const nlohmann::ordered_json json{{"model", options.out},
+                                      {"pictures", rows.size()},
+                                      {"found", found},
+                                      {"frames", frames.size()},
+                                      {"scenario", settings.scenario.name}};
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
   fmt::print("{}\n{}\n", note, options.out);
 }
 
@@ -84,13 +95,16 @@ void add_fit_command(CLI::App& app) {
           "directory", options->directory,
           "folder with errors.csv (`heel experiment errors`) and runs/walk (`heel simulate --out`); missing "
           "ones are made first")
-      ->required();
+      ->required()
+      ->type_name("DIR");
   command->add_option("-o,--out", options->out, "the model (TOML), for `heel simulate --error-model`")
-      ->required();
+      ->required()
+      ->type_name("MODEL.toml");
   command
       ->add_option("--walk", options->walk,
                    "the walk's scenario; its camera, person and light are used for all pictures")
-      ->required();
+      ->required()
+      ->type_name("SCENARIO");
   command
       ->add_option("--walk-duration", options->walk_s,
                    "longest duration of that walk when it is made, seconds")
@@ -102,6 +116,7 @@ void add_fit_command(CLI::App& app) {
   command->add_option("--teach-distance", options->teach_distance_m, "of the reference view, metres")
       ->check(CLI::Range(0.3, 10.0))
       ->capture_default_str();
+  command->add_flag("--json", options->json, "one JSON object (default: text)");
   command->callback([options] { run_fit(*options); });
 }
 

@@ -92,7 +92,8 @@ void add_latency_command(CLI::App& app) {
   command
       ->add_option("recording", options->recording,
                    "a recording (*.mcap), or a folder of which the newest one is taken")
-      ->required();
+      ->required()
+      ->type_name("RECORDING");
   command->add_flag("--json", options->json, "one JSON object (default: a table)");
   command
       ->add_option("--picture", options->picture,

@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "heel/error.h"
+#include "manual.h"
 
 namespace {
 
@@ -117,16 +118,11 @@ int run_command(CLI::App& app, int argc, char** argv) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{
-      "heel: a Pioneer P3-AT follows one person by the back of the person's shirt.\n"
-      "Exit status: 0 done; 1 the answer is no (not found, template refused, command refused); 2 bad usage "
-      "or\n"
-      "input; 69 heeld cannot be reached."};
-  app.name("heel");
-  app.set_version_flag("--version", "heel " HEEL_VERSION);
+  CLI::App app;
   app.require_subcommand(1);
-  app.get_formatter()->column_width(34);
   add_commands(app);
+  const heel::commandline::ProgramText manual = heel_manual();
+  heel::commandline::add_program_text(app, manual);
   refuse_empty_values(app);
 
   const int status = run_command(app, argc, argv);

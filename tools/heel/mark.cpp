@@ -1,5 +1,4 @@
 // heel mark: a mark in the recording of the running heeld.
-#include <iostream>
 #include <string>
 
 #include "commands.h"
@@ -15,9 +14,8 @@ struct MarkOptions : OperatorOptions {
 };
 
 void run_mark(const MarkOptions& options) {
-  OperatorClient client(options.socket, "mark");
-  client.ask({{"do", "mark"}, {"text", options.text}}, kMarkTimeout_s);
-  std::cout << "marked\n";
+  OperatorClient client(options, "mark");
+  print_answer(options, client.ask({{"do", "mark"}, {"text", options.text}}, kMarkTimeout_s), "marked\n");
 }
 
 }  // namespace

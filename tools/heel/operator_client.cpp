@@ -43,16 +43,16 @@ std::string why_no_connection(int error) {
 
 }  // namespace
 
-void add_operator_options(CLI::App& command, OperatorOptions& options) {
+void add_operator_options(CLI::App& command, OperatorOptions& options, const std::string& json_help) {
+  command.add_flag("--json", options.json, json_help);
   command.add_option("--socket", options.socket, "heeld's local socket (operator.socket)")
       ->envname("HEEL_SOCKET")
+      ->type_name("SOCKET")
       ->capture_default_str();
-  command.footer(
-      "Exit status: 0 done; 1 refused, the reason is printed; 2 bad usage; 69 heeld cannot be reached.");
 }
 
-OperatorClient::OperatorClient(const std::string& socket_path, std::string command)
-    : socket_(socket_path), command_(std::move(command)) {
+OperatorClient::OperatorClient(const OperatorOptions& options, std::string command)
+    : socket_(options.socket), command_(std::move(command)), json_(options.json) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (socket_.size() >= sizeof address.sun_path)
@@ -121,6 +121,7 @@ Json OperatorClient::ask(const Json& request, double timeout_s) {
   Json answer = next(timeout_s);
   if (answer.is_null()) fail(fmt::format("{}: heeld did not answer within {} s", socket_, timeout_s));
   if (answer.value("ok", false)) return answer;
+  if (json_) std::cout << answer.dump() << std::endl;
   std::cerr << "heel " << command_ << ": " << answer.value("error", std::string("refused")) << '\n';
   if (answer.contains("state")) std::cerr << state_line(answer) << '\n';
   throw CLI::RuntimeError(kExitNo);
@@ -131,8 +132,9 @@ void add_operator_command(CLI::App& app, const std::string& name, const std::str
   CLI::App* command = app.add_subcommand(name, description);
   add_operator_options(*command, *options);
   command->callback([options, name] {
-    OperatorClient client(options->socket, name);
-    std::cout << state_line(client.ask({{"do", name}}, kCommandTimeout_s)) << '\n';
+    OperatorClient client(*options, name);
+    const Json answer = client.ask({{"do", name}}, kCommandTimeout_s);
+    print_answer(*options, answer, state_line(answer) + "\n");
   });
 }
 
@@ -141,6 +143,10 @@ std::string state_line(const Json& answer) {
   std::transform(state.begin(), state.end(), state.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return state + ": " + answer.value("sentence", std::string());
+}
+
+void print_answer(const OperatorOptions& options, const Json& answer, const std::string& text) {
+  std::cout << (options.json ? answer.dump() + "\n" : text);
 }
 
 std::string changes_text(const Json& changes) {

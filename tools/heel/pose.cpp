@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "commandline/progress.h"
 #include "commands.h"
 #include "config/config_load.h"
 #include "files/camera_info.h"
@@ -112,31 +113,6 @@ void write_pose_picture(const std::string& folder, const InputFrame& frame, cons
   write_image(path.string(), draw_pose(frame.grey, pose, shirt, camera));
 }
 
-/// A counter on stderr while the results go to a file or a pipe; silent when stderr is not a terminal.
-class Progress {
- public:
-  explicit Progress(std::uint64_t frames)
-      : frames_(frames), shown_(isatty(STDERR_FILENO) == 1 && isatty(STDOUT_FILENO) == 0) {}
-  ~Progress() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
-  void show(std::uint64_t frame) const {
-    if (!shown_ || frame % 10 != 0) return;
-    if (frames_ > 0) {
-      fmt::print(stderr, "\rframe {} of {}", frame, frames_);
-    } else {
-      fmt::print(stderr, "\rframe {}", frame);
-    }
-  }
-
- private:
-  std::uint64_t frames_;
-  bool shown_;
-};
-
 Error no_first_frame(const PoseOptions& options, std::uint64_t frames) {
   const std::string ends = options.inputs.size() == 1
                                ? options.inputs.front() + " ends"
@@ -157,7 +133,8 @@ void process_frames(const PoseOptions& options, Setup setup) {
   // A single picture has no frame before or after it that could share the work of a search.
   if (options.independent || input.stated_frame_count() == 1) setup.vision.tracking = false;
   TemplateSelector templates(setup.shirts, setup.camera, setup.vision);
-  const Progress progress(input.stated_frame_count());
+  // The results of a terminal are progress enough.
+  commandline::Progress progress("frame", input.stated_frame_count(), isatty(STDOUT_FILENO) == 0);
   PoseSummary summary;
   InputFrame frame;
   bool more = input.skip(options.first) && input.next(frame);
@@ -166,6 +143,7 @@ void process_frames(const PoseOptions& options, Setup setup) {
   std::size_t notes = 0;
   for (; more && frame.number <= options.last; more = input.next(frame)) {
     require_size(frame, setup.sent_camera, setup.camera_file);
+    if (notes < input.notes().size()) progress.clear();
     for (; notes < input.notes().size(); ++notes) fmt::print(stderr, "heel pose: {}\n", input.notes()[notes]);
     frame.grey = turned_picture(frame.grey, setup.turn);
     const PoseRow row = estimate(templates, frame, setup.target);
@@ -177,6 +155,7 @@ void process_frames(const PoseOptions& options, Setup setup) {
     progress.show(frame.number);
   }
   std::fflush(stdout);
+  progress.clear();
   fmt::print(stderr, "heel pose: {}\n", summary.line());
   end_with_problems(input, "heel pose");
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,11 +20,14 @@
 namespace heel::cli {
 namespace {
 
+using ReplayJson = nlohmann::ordered_json;
+
 struct ReplayCommandOptions {
   std::string recording;
   std::vector<std::string> settings;
   bool diff = false;
   std::string plot;
+  bool json = false;
 };
 
 /// "12 345 678"
@@ -96,9 +100,7 @@ void print_answer(const ReplayResult& result, bool asked_what_if) {
   }
 }
 
-/// True: every pose is the same, or there is no picture to replay.
-bool replay_vision_side(const std::string& file) {
-  const VisionReplayResult vision = replay_vision(file);
+void print_vision(const VisionReplayResult& vision) {
   if (vision.frames > 0)
     std::cout << fmt::format("{} of {} frames the same in vision\n", grouped(vision.same),
                              grouped(vision.frames));
@@ -108,7 +110,51 @@ bool replay_vision_side(const std::string& file) {
       std::cout << fmt::format("  {:<32} recorded {}, replayed {}\n", field.name, field.a, field.b);
   }
   if (!vision.ended.empty()) std::cout << vision.ended << '\n';
-  return vision.all_same();
+}
+
+void print_result(const ReplayResult& result, const std::optional<VisionReplayResult>& vision, bool what_if,
+                  bool diff, TimeNs t_begin_ns) {
+  print_answer(result, what_if);
+  const auto& shown = what_if ? result.first_command : result.first;
+  if (shown) print_tick(what_if ? "first command that differs" : "first difference", *shown, t_begin_ns);
+  if (diff && !result.quantities.empty()) print_quantities(result);
+  if (!result.ended.empty()) std::cout << result.ended << '\n';
+  if (vision) print_vision(*vision);
+}
+
+ReplayJson json_of(const std::vector<FieldDifference>& fields) {
+  ReplayJson json = ReplayJson::array();
+  for (const FieldDifference& field : fields)
+    json.push_back({{"name", field.name}, {"recorded", field.a}, {"replayed", field.b}});
+  return json;
+}
+
+ReplayJson json_of(const std::optional<TickDifference>& tick, TimeNs t_begin_ns) {
+  if (!tick) return nullptr;
+  return {{"tick", tick->recorded.tick},
+          {"t_s", seconds_from_ns(tick->recorded.input.now_ns - t_begin_ns)},
+          {"fields", json_of(tick->fields)}};
+}
+
+ReplayJson json_of(const ReplayResult& result, const std::optional<VisionReplayResult>& vision,
+                   TimeNs t_begin_ns) {
+  ReplayJson json{{"ticks", result.ticks},
+                  {"same", result.same},
+                  {"duration_s", result.duration_s},
+                  {"first", json_of(result.first, t_begin_ns)},
+                  {"first_command", json_of(result.first_command, t_begin_ns)},
+                  {"quantities", ReplayJson::array()},
+                  {"ended", result.ended},
+                  {"vision", nullptr}};
+  for (const auto& [name, quantity] : result.quantities)
+    json["quantities"].push_back({{"name", name},
+                                  {"ticks", quantity.ticks},
+                                  {"first_tick", quantity.first_tick},
+                                  {"largest", quantity.largest}});
+  if (vision) json["vision"] = {{"frames", vision->frames}, {"same", vision->same}, {"ended", vision->ended}};
+  if (vision && vision->first)
+    json["vision"]["first"] = {{"frame", vision->first->frame_sequence}, {"fields", json_of(vision->fields)}};
+  return json;
 }
 
 void run_replay(const ReplayCommandOptions& options) {
@@ -126,22 +172,22 @@ void run_replay(const ReplayCommandOptions& options) {
   };
   const ReplayResult result = replay_control(file, replay);
   const bool what_if = replay.until_command_differs;
-  print_answer(result, what_if);
-  const auto& shown = what_if ? result.first_command : result.first;
-  if (shown) print_tick(what_if ? "first command that differs" : "first difference", *shown, t_begin_ns);
-  if (options.diff && !result.quantities.empty()) print_quantities(result);
-  if (!result.ended.empty()) std::cout << result.ended << '\n';
+  std::optional<VisionReplayResult> vision;
+  if (!what_if) vision = replay_vision(file);
+  if (options.json)
+    std::cout << json_of(result, vision, t_begin_ns).dump(2) << '\n';
+  else
+    print_result(result, vision, what_if, options.diff, t_begin_ns);
   for (const std::string& problem : result.report.problems) std::cerr << "heel replay: " << problem << '\n';
   for (const std::string& name : result.report.other_version)
     std::cerr << "heel replay: " << name
               << ": in the recording or in this version of heel alone; it counts with its default\n";
-  const bool vision_same = what_if || replay_vision_side(file);
   if (csv) {
     csv->flush();
     if (const std::string why_not = evaluation::draw_figures({options.plot}); !why_not.empty())
       std::cerr << "heel replay: " << why_not << '\n';
   }
-  const bool same = what_if ? !result.first_command : result.all_same() && vision_same;
+  const bool same = what_if ? !result.first_command : result.all_same() && vision->all_same();
   if (!same) throw CLI::RuntimeError(kExitNo);
 }
 
@@ -157,13 +203,20 @@ void add_replay_command(CLI::App& app) {
   command
       ->add_option("recording", options->recording,
                    "a recording (*.mcap), or a folder of which the newest one is taken")
-      ->required();
+      ->required()
+      ->type_name("RECORDING");
   command->add_flag("--diff", options->diff, "print every quantity that differs, over all ticks");
-  command->add_option("--plot", options->plot,
-                      "folder for replay.csv and the picture replay.png, replay.svg of the commands");
-  command->add_option("--set", options->settings,
-                      "KEY=VALUE: what heel would have done with this value, up to the first command that\n"
-                      "differs; several times for several keys");
+  command
+      ->add_option("--plot", options->plot,
+                   "folder for replay.csv and the picture replay.png, replay.svg of the commands")
+      ->type_name("DIR");
+  command
+      ->add_option("--set", options->settings,
+                   "KEY=VALUE: what heel would have done with this value, up to the first command that\n"
+                   "differs; several times for several keys")
+      ->type_name("KEY=VALUE");
+  command->add_flag("--json", options->json,
+                    "one JSON object, with every quantity that differs (default: text)");
   command->callback([options] { run_replay(*options); });
 }
 

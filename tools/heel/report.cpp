@@ -1,6 +1,7 @@
 // heel report: a summary, numbers and figures of a finished run's folder, or of a folder of experiments.
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "commands.h"
@@ -27,7 +28,9 @@ void draw(const std::string& directory) {
 void run_report(const ReportOptions& options) {
   const std::string& directory = options.directory;
   if (!std::filesystem::exists(directory + "/truth.csv") && evaluation::holds_experiments(directory)) {
-    std::cout << evaluation::report_experiments(directory) << std::flush;
+    const std::string summary = evaluation::report_experiments(directory);
+    const nlohmann::ordered_json json{{"directory", directory}, {"summary", summary}};
+    std::cout << (options.json ? json.dump(2) + "\n" : summary) << std::flush;
     draw(directory);
     return;
   }
@@ -52,8 +55,10 @@ void add_report_command(CLI::App& app) {
                          "folder of `heel experiment`. Figures are PNG and SVG with their "
                          "numbers as CSV; drawing needs the Debian package python3-matplotlib");
   command->add_option("directory", options->directory, "holds truth.csv and a recording; or experiments")
-      ->required();
-  command->add_flag("--json", options->json, "print the summary as JSON");
+      ->required()
+      ->type_name("DIR");
+  command->add_flag("--json", options->json,
+                    "print the summary as JSON: of experiments the text of summary.md, as `summary`");
   add_criteria_options(*command, options->criteria);
   command->callback([options] { run_report(*options); });
 }

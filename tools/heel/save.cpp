@@ -1,6 +1,4 @@
 // heel save: what was set, into the configuration file of the running heeld.
-#include <iostream>
-
 #include "commands.h"
 #include "operator_client.h"
 
@@ -10,10 +8,10 @@ namespace {
 constexpr double kSaveTimeout_s = 60.0;  // for the disk
 
 void run_save(const OperatorOptions& options) {
-  OperatorClient client(options.socket, "save");
+  OperatorClient client(options, "save");
   const Json answer = client.ask({{"do", "save"}}, kSaveTimeout_s);
   const std::string changes = changes_text(answer["changes"]);
-  std::cout << (changes.empty() ? "nothing to save: no value was set\n" : changes);
+  print_answer(options, answer, changes.empty() ? "nothing to save: no value was set\n" : changes);
 }
 
 }  // namespace

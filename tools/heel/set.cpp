@@ -1,5 +1,4 @@
 // heel set: new values for keys of the running heeld's configuration.
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -32,11 +31,13 @@ void run_set(const SetOptions& options) {
     if (values.contains(key)) throw Error(key + ": given twice (expected once)");
     values[key] = value_of(assignment.substr(equals + 1));
   }
-  OperatorClient client(options.socket, "set");
+  OperatorClient client(options, "set");
   const Json answer = client.ask({{"do", "set"}, {"values", values}}, kSetTimeout_s);
   const std::string changes = changes_text(answer["changes"]);
-  std::cout << (changes.empty() ? "nothing has changed: these values are in use already\n" : changes);
-  if (!changes.empty()) std::cout << "in use until heeld is reloaded or restarted; `heel save` keeps it\n";
+  print_answer(options, answer,
+               changes.empty()
+                   ? "nothing has changed: these values are in use already\n"
+                   : changes + "in use until heeld is reloaded or restarted; `heel save` keeps it\n");
 }
 
 }  // namespace

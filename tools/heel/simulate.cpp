@@ -86,26 +86,35 @@ void add_simulate_command(CLI::App& app) {
                          "Runs scenarios in lock step with the simulated world. One scenario is reported in\n"
                          "detail, several as a table and figures. Exit status 1 when a limit is not met.");
   command->add_option("scenario", options->scenarios, "scenario files (TOML), or folders of them")
-      ->required();
+      ->required()
+      ->type_name("SCENARIO");
   command->add_option("--seed", options->seed, "replaces the scenario's")
       ->check(whole_number("a whole number"));
   command->add_option("--duration", options->duration_s, "seconds; replaces the scenario's")
       ->check(duration_s());
-  command->add_option("--config", options->config_file,
-                      "the daemon's configuration file (default: every key at its default)");
-  command->add_option("--template", options->template_file,
-                      "template file (default: made from the world's reference view)");
-  command->add_option(
-      "--error-model", options->error_model_file,
-      "do not draw pictures: take poses from this error model (`heel fit`), some hundred times faster");
+  command
+      ->add_option("--config", options->config_file,
+                   "the daemon's configuration file (default: every key at its default)")
+      ->type_name("FILE");
+  command
+      ->add_option("--template", options->template_file,
+                   "template file (default: made from the world's reference view)")
+      ->type_name("T.heel");
+  command
+      ->add_option(
+          "--error-model", options->error_model_file,
+          "do not draw pictures: take poses from this error model (`heel fit`), some hundred times faster")
+      ->type_name("MODEL.toml");
   command->add_option("--teach-distance", options->teach_distance_m, "of the reference view, metres")
       ->check(CLI::Range(0.3, 10.0))
       ->capture_default_str();
-  command->add_option(
-      "-o,--out", options->out,
-      std::string("folder for the recording run.mcap, truth.csv, wire.hex and frames; with several "
-                  "scenarios it has a folder for each (default ") +
-          kSimulateDefaultOut + ")");
+  command
+      ->add_option(
+          "-o,--out", options->out,
+          std::string("folder for the recording run.mcap, truth.csv, wire.hex and frames; with several "
+                      "scenarios it has a folder for each (default ") +
+              kSimulateDefaultOut + ")")
+      ->type_name("DIR");
   command->add_flag("--json", options->json, "metrics as JSON; of several scenarios as a list");
   command
       ->add_option("--runs", options->runs,

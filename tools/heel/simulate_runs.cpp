@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <future>
 #include <iostream>
 #include <string>
 #include <thread>
 
+#include "commandline/progress.h"
 #include "commands.h"
 #include "evaluation/experiments/many_runs.h"
 #include "evaluation/experiments/run_record.h"
@@ -38,11 +40,31 @@ SimulatedRun description_of(const sim::Scenario& scenario) {
   return run;
 }
 
+/// A run's record that shows how far the run is.
+class WatchedRecord final : public evaluation::RunRecord {
+ public:
+  WatchedRecord(const std::string& folder, const sim::LockstepSettings& settings)
+      : RunRecord(folder, settings),
+        progress_(settings.scenario.name + ", seconds",
+                  static_cast<std::uint64_t>(std::ceil(settings.scenario.duration_s))) {}
+  void on_tick(const TickRecord& tick, const sim::LockstepTruth& truth) override {
+    RunRecord::on_tick(tick, truth);
+    if (tick.tick == 0) begin_ns_ = tick.input.now_ns;
+    progress_.show(static_cast<std::uint64_t>(seconds_from_ns(tick.input.now_ns - begin_ns_)));
+  }
+  void end_progress() { progress_.clear(); }
+
+ private:
+  commandline::Progress progress_;
+  TimeNs begin_ns_ = 0;
+};
+
 SimulatedRun simulate(const SimulateOptions& options, const sim::LockstepSettings& settings,
-                      evaluation::RunRecord& record) {
+                      WatchedRecord& record) {
   SimulatedRun run = description_of(settings.scenario);
   const Clock::time_point begin = Clock::now();
   run.counts = sim::run_lockstep(settings, record);
+  record.end_progress();
   run.speed = settings.scenario.duration_s / seconds_since(begin);
   run.metrics = record.metrics().evaluate();
   run.failed = evaluation::failed_criteria(run.metrics, options.criteria);
@@ -81,7 +103,7 @@ SimulatedRun simulate_into_folder(const SimulateOptions& options, const sim::Sce
     run.refused = error.what();
     return run;
   }
-  evaluation::RunRecord record(folder, settings);
+  WatchedRecord record(folder, settings);
   SimulatedRun run = simulate(options, settings, record);
   record.flush();
   evaluation::write_run_report(folder, record.metrics(), run.metrics, run.failed);
@@ -102,7 +124,7 @@ evaluation::FollowMetrics simulate_seed(const SimulateOptions& options, sim::Sce
 void simulate_one(const SimulateOptions& options, const sim::Scenario& scenario) {
   const sim::LockstepSettings settings = settings_of(options, scenario);
   if (!options.out.empty()) make_folder(options.out);
-  evaluation::RunRecord record(options.out, settings);
+  WatchedRecord record(options.out, settings);
   const SimulatedRun run = simulate(options, settings, record);
   record.flush();
   std::cout << (options.json ? to_json(run).dump(2) + "\n" : detailed_text(run));
@@ -138,17 +160,21 @@ void simulate_many(const SimulateOptions& options, const sim::Scenario& scenario
   const Clock::time_point begin = Clock::now();
   many.runs.resize(static_cast<std::size_t>(options.runs));
   many.simulated_s = options.runs * settings_of(options, scenario).scenario.duration_s;
-  std::atomic<int> next{0};
+  std::atomic<int> next{0}, done{0};
+  commandline::Progress progress("runs", static_cast<std::uint64_t>(options.runs));
   const auto work = [&] {
-    for (int i = next++; i < options.runs; i = next++)
+    for (int i = next++; i < options.runs; i = next++) {
       many.runs[static_cast<std::size_t>(i)] =
           simulate_seed(options, scenario, scenario.seed + static_cast<std::uint64_t>(i));
+      progress.show(static_cast<std::uint64_t>(++done));
+    }
   };
   const unsigned threads =
       options.error_model_file.empty() ? 1 : std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::future<void>> workers;
   for (unsigned i = 0; i < threads; ++i) workers.push_back(std::async(std::launch::async, work));
   for (std::future<void>& worker : workers) worker.get();
+  progress.clear();
   if (options.json) {
     std::cout << evaluation::to_json(many).dump(2) << '\n';
     return;

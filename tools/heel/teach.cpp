@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,8 @@ constexpr TimeNs kFrameTimeout_ns = kNsPerS;
 constexpr TimeNs kLongestSilence_ns = 10 * kNsPerS;
 constexpr std::uint64_t kSettlingFrames = 30;  // the camera's automatic exposure has settled by then
 
+using TeachJson = nlohmann::ordered_json;
+
 struct TeachOptions {
   std::string image;
   std::string camera_address;
@@ -46,6 +49,7 @@ struct TeachOptions {
   int max_features = 0;
   std::optional<std::uint64_t> frame;
   TurnOptions turn;
+  bool json = false;
 };
 
 /// Number of the frame to take.
@@ -145,6 +149,33 @@ void print_verdict(const ShirtTemplate& shirt, const TemplateVerdict& verdict) {
              100.0 * verdict.coarse_share);
 }
 
+TeachJson json_of(const TeachOptions& options, const TemplateVerdict& verdict) {
+  return {{"usable", verdict.usable},
+          {"reason", verdict.reason},
+          {"output", verdict.usable ? options.output : ""},
+          {"features", verdict.features},
+          {"spread", verdict.spread},
+          {"self_similarity", verdict.self_similarity},
+          {"coarse_share", verdict.coarse_share},
+          {"reach", nullptr}};
+}
+
+/// Measures how far the shirt is found, and prints everything.
+void print_results(const TeachOptions& options, const ShirtTemplate& shirt, const TemplateVerdict& verdict,
+                   const CameraModel& robot_camera) {
+  const bool measures = verdict.usable && options.reach_time_s > 0.0;
+  if (options.json) {
+    TeachJson json = json_of(options, verdict);
+    if (measures) json["reach"] = reach_json(measured_reach(shirt, robot_camera, options.reach_time_s));
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  print_verdict(shirt, verdict);
+  if (!verdict.usable) fmt::print("refused: {}\n", verdict.reason);
+  if (measures) print_reach(measured_reach(shirt, robot_camera, options.reach_time_s), options.reach_time_s);
+  if (verdict.usable) fmt::print("wrote {}\n", options.output);
+}
+
 void run_teach(const TeachOptions& options) {
   if (options.image.empty() == options.camera_address.empty()) {
     throw Error("expected either --image or --camera (see heel teach --help)");
@@ -162,13 +193,8 @@ void run_teach(const TeachOptions& options) {
       shirt.further_views = further_views(shirt, options.more, options.camera_file, turn_of(options.turn));
     write_template(shirt, options.output);
   }
-  print_verdict(shirt, verdict);
-  if (!verdict.usable) {
-    fmt::print("refused: {}\n", verdict.reason);
-    throw CLI::RuntimeError(kExitNo);
-  }
-  print_reach(shirt, robot_camera, options.reach_time_s);
-  fmt::print("wrote {}\n", options.output);
+  print_results(options, shirt, verdict, robot_camera);
+  if (!verdict.usable) throw CLI::RuntimeError(kExitNo);
 }
 
 }  // namespace
@@ -182,7 +208,7 @@ void add_teach_command(CLI::App& app) {
       "1, nothing written). For a usable shirt it measures, on pictures made from the view, at which "
       "distances\n"
       "and turns the robot's camera finds it, and prints a table: pictures found / pictures made.");
-  command->add_option("--image", options->image, "photograph or video of the back")->type_name("I");
+  command->add_option("--image", options->image, "photograph or video of the back")->type_name("IMAGE");
   command
       ->add_option("--camera", options->camera_address,
                    "take the view now: v4l2:PATH, libcamera:ID, file:PATH, sim:NAME")
@@ -240,6 +266,7 @@ void add_teach_command(CLI::App& app) {
       ->type_name("N")
       ->check(CLI::Range(20, 5000));
   add_turn_options(*command, options->turn);
+  command->add_flag("--json", options->json, "one JSON object (default: text)");
   command->callback([options] { run_teach(*options); });
 }
 

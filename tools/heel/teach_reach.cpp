@@ -1,39 +1,19 @@
 #include "teach_reach.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
-#include "vision/reach/template_reach.h"
+#include "commandline/progress.h"
 
 namespace heel::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr double kShownAfter_s = 1.0;
-
-TemplateReach measured_reach(const ShirtTemplate& shirt, const CameraModel& camera, double longest_s) {
-  const Clock::time_point start = Clock::now();
-  const bool terminal = isatty(STDERR_FILENO) == 1;
-  bool shown = false;
-  TemplateReach reach = measure_reach(shirt, camera, VisionConfig{}, [&](int done, int most) {
-    const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
-    if (terminal && elapsed_s > kShownAfter_s) {
-      fmt::print(stderr, "\rmeasuring how far it is found: picture {} of {} or fewer", done, most);
-      shown = true;
-    }
-    return elapsed_s < longest_s;
-  });
-  if (shown) std::fputs("\r\033[K", stderr);
-  return reach;
-}
 
 std::string in_degrees(double angle_rad) {
   return fmt::format("{:.0f}°", angle_rad * 180.0 / M_PI);
@@ -77,15 +57,38 @@ void print_table(const TemplateReach& reach) {
 
 }  // namespace
 
-void print_reach(const ShirtTemplate& shirt, const CameraModel& robot_camera, double longest_s) {
-  if (longest_s == 0.0) return;
-  const TemplateReach reach = measured_reach(shirt, robot_camera, longest_s);
+TemplateReach measured_reach(const ShirtTemplate& shirt, const CameraModel& robot_camera, double longest_s) {
+  const Clock::time_point start = Clock::now();
+  commandline::Progress progress("measuring how far it is found: pictures, at most");
+  return measure_reach(shirt, robot_camera, VisionConfig{}, [&](int done, int most) {
+    progress.show(static_cast<std::uint64_t>(done), static_cast<std::uint64_t>(most));
+    return std::chrono::duration<double>(Clock::now() - start).count() < longest_s;
+  });
+}
+
+void print_reach(const TemplateReach& reach, double longest_s) {
   const std::string limit =
       reach.complete ? "" : fmt::format(" (not measured further after {} s: --reach-time)", longest_s);
   fmt::print("{}{}\n", in_one_line(reach), limit);
   if (!reach.cells.empty()) print_table(reach);
   const std::string warning = reach_warning(reach);
   if (!warning.empty()) fmt::print("warning: {}\n", warning);
+}
+
+nlohmann::ordered_json reach_json(const TemplateReach& reach) {
+  nlohmann::ordered_json json{{"near_m", reach.near_m},
+                              {"far_m", reach.far_m},
+                              {"turn_rad", nullptr},
+                              {"complete", reach.complete},
+                              {"warning", reach_warning(reach)},
+                              {"cells", nlohmann::ordered_json::array()}};
+  if (reach.turn_rad) json["turn_rad"] = *reach.turn_rad;
+  for (const ReachCell& cell : reach.cells)
+    json["cells"].push_back({{"distance_m", cell.distance_m},
+                             {"turn_rad", cell.turn_rad},
+                             {"found", cell.found},
+                             {"pictures", cell.pictures}});
+  return json;
 }
 
 }  // namespace heel::cli

@@ -1,13 +1,18 @@
 // Measures and prints how far a taught shirt will be found.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include "heel/camera_model.h"
 #include "heel/shirt_template.h"
+#include "vision/reach/template_reach.h"
 
 namespace heel::cli {
 
-/// Ends after `longest_s` with what it has measured by then; 0: measures and prints nothing. Shows its
-/// progress on stderr when that is a terminal.
-void print_reach(const ShirtTemplate& shirt, const CameraModel& robot_camera, double longest_s);
+/// Ends after `longest_s` with what it has measured by then.
+TemplateReach measured_reach(const ShirtTemplate& shirt, const CameraModel& robot_camera, double longest_s);
+
+void print_reach(const TemplateReach& reach, double longest_s);
+nlohmann::ordered_json reach_json(const TemplateReach& reach);
 
 }  // namespace heel::cli

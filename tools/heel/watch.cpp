@@ -1,12 +1,13 @@
 // heel watch: the status of the running heeld. On a terminal a view that is drawn again and again, elsewhere
 // a line at each change and once a period.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
 
+#include "commandline/progress.h"
 #include "commands.h"
 #include "operator_client.h"
 #include "status_text.h"
@@ -23,7 +24,6 @@ constexpr double kScreenPeriod_s = 0.2;
 constexpr double kKeyWait_s = 0.04;  // between two looks at the keys
 
 struct WatchOptions : OperatorOptions {
-  bool json = false;
   bool lines = false;
   bool alive = false;
   double period_s = 1.0;
@@ -37,7 +37,7 @@ void print_event(const Json& line, bool json) {
 void run_watch(const WatchOptions& options) {
   using SteadyClock = std::chrono::steady_clock;
   const std::chrono::duration<double> longest(options.period_s + kLate_s), alive_period(kAlivePeriod_s);
-  OperatorClient client(options.socket, "watch");
+  OperatorClient client(options, "watch");
   print_event(client.ask({{"do", "watch"}, {"period_s", options.period_s}}, longest.count()), options.json);
   SteadyClock::time_point last_event = SteadyClock::now(), last_alive;
   while (std::cout.good()) {
@@ -71,13 +71,13 @@ void run_watch_screen(const WatchOptions& options) {
   const auto seconds_since = [](SteadyClock::time_point then) {
     return std::chrono::duration<double>(SteadyClock::now() - then).count();
   };
-  OperatorClient client(options.socket, "watch");
+  OperatorClient client(options, "watch");
   const double period_s = std::min(options.period_s, kScreenPeriod_s);
   Json status = client.ask({{"do", "watch"}, {"period_s", period_s}}, period_s + kLate_s);
   SteadyClock::time_point last_status = SteadyClock::now(), last_alive, last_note;
   Screen screen;
   WatchLook look;
-  look.colour = std::getenv("NO_COLOR") == nullptr;
+  look.colour = commandline::colour_wanted(STDOUT_FILENO);
   while (!screen.ended()) {
     for (char key = screen.key(); key != 0; key = screen.key()) {
       if (key == 'q' || key == 'Q') return;
@@ -114,14 +114,13 @@ void add_watch_command(CLI::App& app) {
       "Shows state, reason, speed, person, battery and what was set, until `q`; the space bar is an "
       "emergency stop. "
       "Not on a terminal: a line at each change, and once a period, until it is interrupted");
-  command->add_flag("--json", options->json, "each as one JSON object (docs/operator.md)");
   command->add_flag("--lines", options->lines, "lines on a terminal, too");
   command->add_option("--period", options->period_s, "longest time between two lines, seconds")
       ->check(number_from(0.1, 60.0))
       ->capture_default_str();
   command->add_flag("--alive", options->alive,
                     "say twice a second that the operator is there (supervisor.operator_timeout_s)");
-  add_operator_options(*command, *options);
+  add_operator_options(*command, *options, "each line as one JSON object (docs/operator.md)");
   command->callback([options] {
     if (!options->json && !options->lines && is_screen())
       run_watch_screen(*options);

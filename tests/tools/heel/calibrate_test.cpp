@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -193,6 +194,19 @@ TEST_F(Calibrate, FindsTheTrueCamera) {
   EXPECT_NEAR(camera.p1, kTrueDistortion[2], 0.001);
   EXPECT_NEAR(camera.p2, kTrueDistortion[3], 0.001);
   EXPECT_EQ(camera.k3, 0.0);
+}
+
+TEST_F(Calibrate, PrintsOneJsonObjectOnRequest) {
+  std::vector<std::string> images = write_views(kGoodPoses);
+  images.emplace_back("--json");
+  const Outcome outcome = calibrate(images);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out, nullptr, /*allow_exceptions=*/false);
+  ASSERT_TRUE(json.is_object()) << outcome.out;
+  EXPECT_EQ(json["output"], output);
+  EXPECT_NEAR(json["fx"].get<double>(), kTrueK(0, 0), 1.0);
+  EXPECT_EQ(json["views"].size(), kGoodPoses.size());
+  EXPECT_EQ(json["distortion"].size(), 5U);
 }
 
 TEST_F(Calibrate, SaysWhatCountsWhenSquaresAreGivenForCorners) {

@@ -28,6 +28,7 @@ using test::Outcome;
 using test::run_heel;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class HeelOperator : public ::testing::Test {
@@ -85,6 +86,31 @@ TEST_F(HeelOperator, TheStatusIsForPeopleOrForPrograms) {
   EXPECT_EQ(status["limits"]["gate.v_max_m_s"], 0.5);
 }
 
+TEST_F(HeelOperator, WithJsonEachCommandPrintsTheAnswerOfHeeldAndNothingElse) {
+  int answers = 0;
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"start"},
+                                                  {"stop"},
+                                                  {"set", "gate.v_max_m_s=0.25"},
+                                                  {"save"},
+                                                  {"estop"},
+                                                  {"reset"},
+                                                  {"status"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.emplace_back("--json");
+    const Outcome outcome = heel(arguments);
+    const auto answer = nlohmann::json::parse(outcome.out, nullptr, /*allow_exceptions=*/false);
+    ASSERT_TRUE(answer.is_object()) << command.front() << ": " << outcome.out;
+    EXPECT_EQ(answer["ok"], true) << command.front();
+    ++answers;
+  }
+  EXPECT_EQ(answers, 7);
+  EXPECT_EQ(nlohmann::json::parse(heel({"estop", "--json"}).out)["state"], "emergency");
+  const Outcome refused = heel({"start", "--json"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(nlohmann::json::parse(refused.out)["ok"], false);
+  EXPECT_THAT(refused.err, StartsWith("heel start: refused: emergency stop\n"));
+}
+
 TEST_F(HeelOperator, SetAndSaveShowTheDifference) {
   const Outcome set = heel({"set", "gate.v_max_m_s=0.25", "runtime.log_level=warn", "control.reverse=false"});
   EXPECT_EQ(set.status, 0) << set.err;
@@ -115,15 +141,16 @@ TEST_F(HeelOperator, WatchPrintsALineAtEachChange) {
 /// `heel watch` on a terminal of 80 columns and 24 rows.
 class WatchOnATerminal {
  public:
-  explicit WatchOnATerminal(const std::string& socket) {
+  explicit WatchOnATerminal(const std::string& socket, const std::string& variable = "HEEL_TEST=1") {
     const winsize size{24, 80, 0, 0};
     // Made before the fork: between it and exec nothing may allocate, because other threads run.
     std::string program = HEEL_PROGRAM, watch = "watch", option = "--socket", name = socket,
-                kind = "TERM=xterm";
+                kind = "TERM=xterm", more = variable;
     std::vector<char*> arguments{program.data(), watch.data(), option.data(), name.data(), nullptr};
-    std::vector<char*> environment{kind.data()};
-    for (char** variable = environ; *variable != nullptr; ++variable)
-      if (!std::string_view(*variable).starts_with("TERM=")) environment.push_back(*variable);
+    std::vector<char*> environment{kind.data(), more.data()};
+    for (char** one = environ; *one != nullptr; ++one)
+      if (!std::string_view(*one).starts_with("TERM=") && !std::string_view(*one).starts_with("NO_COLOR="))
+        environment.push_back(*one);
     environment.push_back(nullptr);
     pid_ = forkpty(&terminal_, nullptr, nullptr, &size);
     if (pid_ == 0) {
@@ -190,6 +217,15 @@ TEST_F(HeelOperator, OnATerminalWatchIsAViewWhoseSpaceBarIsAnEmergencyStop) {
   watch.press('q');
   EXPECT_EQ(watch.wait(), 0);
   EXPECT_THAT(watch.output(), ::testing::EndsWith("\x1b[?25h")) << "the cursor is shown again";
+}
+
+TEST_F(HeelOperator, TheViewHasColourExceptWithNoColor) {
+  const std::string kColour = "\x1b[30;47m";  // the state on grey
+  WatchOnATerminal coloured(socket_), plain(socket_, "NO_COLOR=1");
+  ASSERT_TRUE(coloured.shows("IDLE")) << coloured.output();
+  ASSERT_TRUE(plain.shows("IDLE")) << plain.output();
+  EXPECT_THAT(coloured.output(), HasSubstr(kColour));
+  EXPECT_THAT(plain.output(), Not(HasSubstr(kColour)));
 }
 
 TEST_F(HeelOperator, ASignalEndsTheViewAndLeavesTheTerminalAsItWas) {

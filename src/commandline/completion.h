@@ -1,0 +1,17 @@
+// Names that both shells' completions share.
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+namespace heel::commandline {
+
+/// "_heel_sim" of "heel-sim"; "_heel_bench_vision" of "heel bench vision".
+inline std::string function_name(const std::string& command) {
+  std::string name = "_" + command;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '-' || c == ' '; }, '_');
+  return name;
+}
+
+}  // namespace heel::commandline
