@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <boost/beast/core/tcp_stream.hpp>
+#include <charconv>
 #include <map>
 #include <memory>
 #include <set>
@@ -239,12 +240,21 @@ void FoxgloveSession::publish(Topic topic, TimeNs t_log_ns, const std::string& m
   }
 }
 
-/// What stands after "token=" in the address that is asked for.
+/// What stands after "token=" in the address that is asked for; "%20" there is a space.
 std::string token_in(std::string_view target) {
   const std::size_t place = target.find("token=");
   if (place == std::string_view::npos) return "";
-  const std::string_view rest = target.substr(place + 6);
-  return std::string(rest.substr(0, rest.find('&')));
+  const std::string_view rest = target.substr(place + 6), written = rest.substr(0, rest.find('&'));
+  std::string token;
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    unsigned byte = 0;
+    const char* const end = written.data() + std::min(i + 3, written.size());
+    const bool coded = written[i] == '%' && i + 2 < written.size() &&
+                       std::from_chars(written.data() + i + 1, end, byte, 16).ptr == end;
+    token += coded ? static_cast<char>(byte) : written[i];
+    if (coded) i += 2;
+  }
+  return token;
 }
 
 }  // namespace
