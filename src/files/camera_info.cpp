@@ -77,6 +77,9 @@ void read_intrinsics(const CameraYaml& file, CameraModel& camera) {
     throw camera_key_error(file.path(), data_key, found, expected);
   };
   if (k.size() != 9) refuse(fmt::format("{} numbers", k.size()), "9: fx 0 cx, 0 fy cy, 0 0 1");
+  if (std::all_of(k.begin(), k.end(), [](double number) { return number == 0.0; }))
+    refuse("all 0, as a camera says that was never calibrated",
+           "focal length and centre, px: calibrate it, e.g. by `heel calibrate`");
   if (k[1] != 0.0)
     throw camera_key_error(file.path(), data_key + "[1]", fmt::format("skew {}", k[1]), "0: no skew");
   if (k[3] != 0.0 || k[6] != 0.0 || k[7] != 0.0 || k[8] != 1.0)

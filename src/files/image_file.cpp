@@ -171,19 +171,24 @@ GreyImage decode_bytes(std::string& bytes, int least_white) {
   return image;
 }
 
-bool has_image_ending(const std::string& path) {
-  static constexpr std::array kEndings{".png", ".jpg", ".jpeg", ".bmp",  ".pgm",
-                                       ".ppm", ".pnm", ".tif",  ".tiff", ".webp"};
+constexpr std::array kImageEndings{".png", ".jpg", ".jpeg", ".bmp",  ".pgm",
+                                   ".ppm", ".pnm", ".tif",  ".tiff", ".webp"};
+// One JPEG picture after another: without a look at the name, only the first would be used.
+constexpr std::array kMotionJpegEndings{".mjpeg", ".mjpg"};
+
+template <typename Endings>
+bool has_one_of(const Endings& endings, const std::string& path) {
   std::string ending = fs::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
 }  // namespace
 
 bool is_image_file(const std::string& path) {
-  if (has_image_ending(path)) return true;
+  if (has_one_of(kImageEndings, path)) return true;
+  if (has_one_of(kMotionJpegEndings, path)) return false;
   if (std::error_code none; !fs::is_regular_file(path, none)) return false;
   std::array<std::uint8_t, 16> head{};
   std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(head.data()), head.size());

@@ -111,6 +111,7 @@ const AVPacket* VideoFile::next_packet() {
     cut_in_a_packet_ = (packet_->flags & AV_PKT_FLAG_CORRUPT) != 0;
     if (cut_in_a_packet_) continue;
     ++packets_;
+    longest_packet_s_ = std::max(longest_packet_s_, seconds(packet_->duration));
     return packet_.get();
   }
   return nullptr;

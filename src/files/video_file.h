@@ -37,6 +37,8 @@ class VideoFile {
   /// At the end: whether the file ends inside a packet, or cannot be read further.
   bool cut_in_a_packet() const { return cut_in_a_packet_; }
   std::uint64_t packets() const { return packets_; }
+  /// The longest time that one of the packets read is shown, as the file says.
+  double longest_packet_s() const { return longest_packet_s_; }
 
   /// 0: the display matrix means none of the eight.
   int orientation() const { return orientation_; }
@@ -65,6 +67,7 @@ class VideoFile {
   bool ended_ = false;
   bool cut_in_a_packet_ = false;
   std::uint64_t packets_ = 0;
+  double longest_packet_s_ = 0.0;
 };
 
 }  // namespace heel

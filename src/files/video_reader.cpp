@@ -174,7 +174,7 @@ std::uint64_t VideoReader::Decoder::missing_frames() const {
   const double rate_hz = file.rate_hz();
   if (given == 0 || rate_hz <= 0.0) return 0;
   // Lengths in headers are rounded, and count from 0 or from the first frame.
-  const double period_s = std::max(longest_period_s, 1.0 / rate_hz);
+  const double period_s = std::max({longest_period_s, file.longest_packet_s(), 1.0 / rate_hz});
   const double missing_s = file.end_s() - (t_s + std::max(t_first_s, 0.0) + period_s);
   return missing_s > 0.5 * period_s ? static_cast<std::uint64_t>(std::lround(missing_s * rate_hz)) : 0;
 }

@@ -334,6 +334,10 @@ TEST_F(CameraFile, TakesACameraInfoMessageAsItIsPrinted) {
   std::string mm = message;
   mm.replace(mm.find("K: [612.0"), 9, "K: [3.6");
   EXPECT_THAT(refusal_of(mm), HasSubstr("K: fx 3.6 (expected 128"));
+  std::string uncalibrated = message;
+  const std::size_t at = uncalibrated.find("K: [");
+  uncalibrated.replace(at, uncalibrated.find(']', at) - at, "K: [0, 0, 0, 0, 0, 0, 0, 0, 0");
+  EXPECT_THAT(refusal_of(uncalibrated), HasSubstr("K: all 0, as a camera says that was never calibrated"));
 }
 
 TEST_F(CameraFile, TakesTheNamesOfOldOpenCvFiles) {

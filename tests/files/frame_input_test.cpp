@@ -97,6 +97,26 @@ TEST_F(FrameInputTest, APipeIsRefusedAndNotWaitedFor) {
   }
 }
 
+TEST_F(FrameInputTest, JpegPicturesOneAfterAnotherAreAVideo) {
+  std::string stream;
+  for (const int grey : {40, 90, 140}) {
+    std::vector<std::uint8_t> jpeg;
+    cv::imencode(".jpg", cv::Mat(48, 64, CV_8UC1, cv::Scalar(grey)), jpeg);
+    stream.append(jpeg.begin(), jpeg.end());
+  }
+  for (const char* name : {"walk.mjpeg", "walk.MJPG"}) {
+    FrameInput input({test::write_text(folder_.file(name), stream)}, 5.0);
+    InputFrame frame;
+    for (const int grey : {40, 90, 140}) {
+      ASSERT_TRUE(input.next(frame)) << name << grey;
+      EXPECT_NEAR(frame.grey.at<std::uint8_t>(8, 8), grey, 3);
+    }
+    EXPECT_GT(frame.t_s, 0.0);
+    EXPECT_FALSE(input.next(frame));
+    EXPECT_THAT(input.problems(), ::testing::IsEmpty());
+  }
+}
+
 TEST_F(FrameInputTest, WhatIsMissingOfAVideoIsSaidWhenItsFramesHaveBeenUsed) {
   const std::string path = folder_.file("cut.mkv");
   test::MadeVideo made{.path = path, .greys = {}, .times_s = {}, .display_abcd = {}};

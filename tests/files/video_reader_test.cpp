@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "files/image_file.h"
 #include "support/made_video.h"
 #include "support/temporary_folder.h"
 #include "support/test_data.h"
@@ -167,6 +168,16 @@ TEST_F(Videos, CutShortGiveWhatThereIsAndSayWhatIsMissing) {
   }
 }
 
+TEST_F(Videos, WhoseLastFrameIsShownLongAreWhole) {
+  for (const char* name : {"held.mp4", "held.mov"}) {
+    MadeVideo video = walk(name, 10);
+    video.last_shown_s = 3.0;
+    write_video(video);
+    EXPECT_EQ(times_of(video.path).size(), 10u) << name;
+    EXPECT_EQ(reader.missing(), "") << name;
+  }
+}
+
 TEST_F(Videos, DamagedMotionJpegFramesAreLeftOutAndCounted) {
   const std::string path = folder.file("damaged.avi");
   cv::VideoWriter writer(path, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 20.0,
@@ -222,6 +233,17 @@ TEST_F(Videos, OfPublicReportsAreRight) {
   EXPECT_NEAR(varied_s[19], 0.95, 1e-6);
   EXPECT_NEAR(varied_s[39], 4.75, 1e-6);
   EXPECT_EQ(reader.missing(), "");
+  cv::Mat grey;
+  ASSERT_TRUE(reader.open(reports + "video-rotated/rot90.mp4"));
+  ASSERT_TRUE(reader.read(grey));
+  const cv::Mat shown = read_grey_image(reports + "video-rotated/shown.png").grey;
+  EXPECT_LT(cv::norm(grey, shown, cv::NORM_INF), 2.0);
+  cv::Mat turned;
+  cv::rotate(shown, turned, cv::ROTATE_90_COUNTERCLOCKWISE);  // both videos have the same frames as stored
+  ASSERT_TRUE(reader.open(reports + "video-rotated/rot180.mp4"));
+  ASSERT_TRUE(reader.read(grey));
+  ASSERT_EQ(grey.size(), turned.size());
+  EXPECT_LT(cv::norm(grey, turned, cv::NORM_INF), 2.0);
   EXPECT_EQ(times_of(reports + "video-cut-short/cuttail.mkv").size(), 20u);
   EXPECT_EQ(reader.missing(), "ends after 20 of 40 frames");
 }

@@ -103,9 +103,10 @@ class Writer {
   }
   void write_packets() {
     while (avcodec_receive_packet(codec_, packet_) == 0) {
-      // The last frame is shown as long as the one before it. Without this, MP4 files would not show it.
+      // Without this, MP4 files would not show the last frame.
       const std::size_t frames = video_.times_s.size();
-      const double shown_s = frames > 1 ? video_.times_s[frames - 1] - video_.times_s[frames - 2] : 0.1;
+      double shown_s = frames > 1 ? video_.times_s[frames - 1] - video_.times_s[frames - 2] : 0.1;
+      if (video_.last_shown_s > 0.0) shown_s = video_.last_shown_s;
       packet_->duration = std::lround(shown_s * video_.ticks_per_s);
       av_packet_rescale_ts(packet_, codec_->time_base, stream_->time_base);
       packet_->stream_index = 0;

@@ -15,6 +15,7 @@ struct MadeVideo {
   int b_frames = 0;                  ///< between two others: the frames are then stored in another order
   std::vector<double> display_abcd;  ///< the display matrix's a, b, c, d; empty: none
   int ticks_per_s = 1000;            ///< of its clock; of AVI files: the frame rate
+  double last_shown_s = 0.0;         ///< how long the last frame is shown; 0: as long as the one before it
   bool index_first = false;          ///< of an MP4 file, so that it can be read when its end is missing
   const char* raw_format = nullptr;  ///< FFmpeg's pixel format of black frames, not coded; null: MPEG-4
 };

@@ -121,6 +121,22 @@ TEST(HeeldCheck, ATemplateNeedsADistance) {
   EXPECT_THAT(with.out, HasSubstr("taken at 1.75 m"));
 }
 
+TEST(HeeldCheck, CamerasOfPublicReportsThatCannotExistAreRefused) {
+  HEEL_NEEDS_TEST_DATA("reports");
+  const Scene scene(1);
+  std::string config = read_text(scene.write_config());
+  const std::size_t key = config.find("info = "), end = config.find('\n', key);
+  ASSERT_NE(key, std::string::npos) << config;
+  for (const char* name : {"10_edited_resolution", "11_negative_c", "20_fx_mm"}) {
+    const std::string file = test::data_path(std::string("reports/camera-file-impossible/") + name + ".yaml");
+    std::string changed = config;
+    changed.replace(key, end - key, "info = \"" + file + "\"");
+    const Outcome outcome = heeld({"--config", write_text(scene.path("changed.toml"), changed), "--check"});
+    EXPECT_EQ(outcome.status, kExitConfiguration) << name;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(file + ": camera_matrix.data: "), HasSubstr("(expected ")));
+  }
+}
+
 TEST(HeeldCheck, BearingLimitMustFitTheCamera) {
   const Scene scene(1);
   const std::string config = scene.write_config({.sections = "[control]\nbearing_max_rad = 0.6\n"});

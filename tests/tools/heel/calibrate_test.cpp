@@ -263,6 +263,15 @@ TEST_F(Calibrate, TakesBoardsThatTheEdgeOfThePictureCuts) {
   }
 }
 
+/// In this view a row of corners is found that the board does not have.
+TEST_F(Calibrate, LeavesOutAPartWithCornersInWrongPlaces) {
+  std::vector<BoardPose> poses(kGoodPoses.begin(), kGoodPoses.begin() + 4);
+  poses.push_back({-37, -41, -3, -0.05, 0.16, 0.52});
+  const Outcome outcome = calibrate(write_pictures(drawn_chessboard(), poses));
+  EXPECT_EQ(outcome.status, 2) << outcome.out;
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("only 4 of 5 images"), HasSubstr("picture4.png")));
+}
+
 TEST_F(Calibrate, RefusesViewsThatDoNotShowTheEdges) {
   std::vector<BoardPose> far;
   for (const BoardPose& pose : kGoodPoses)
@@ -304,6 +313,7 @@ TEST_F(Calibrate, JudgesTheBoardsOfPublicReports) {
   const Outcome dark = calibrate({reports + "calibrate-dark-photo/dark1280.png"});
   EXPECT_EQ(dark.status, 2);
   EXPECT_THAT(dark.out, HasSubstr("no board  (1 of 1)"));
+  EXPECT_THAT(calibrate({reports + "calibrate-dark-photo/dark640.png"}).out, HasSubstr("no board  (1 of 1)"));
 }
 
 TEST_F(Calibrate, RefusesTooFewViewsNamingThoseWithoutABoard) {

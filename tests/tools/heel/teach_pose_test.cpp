@@ -207,6 +207,38 @@ TEST_F(TeachAndPose, AVideoThatIsCutShortIsUsedAndSaid) {
                     ::testing::EndsWith("heel pose: " + video + ": ends after 20 of 40 frames\n")));
 }
 
+TEST_F(TeachAndPose, TheInputAfterAVideoGoesOnInTime) {
+  HEEL_NEEDS_TEST_DATA("reports");
+  const std::string reports = test::data_path("reports/");
+  const Outcome outcome = run_heel({"pose", reports + "video-last-frames-at-zero/walk.mp4",
+                                    reports + "common/yaw20.png", "--template", reports + "common/shirt.heel",
+                                    "--camera-info", reports + "common/camera.yaml", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::vector<json> lines = lines_of(outcome.out);
+  ASSERT_EQ(lines.size(), 41u);
+  EXPECT_NEAR(lines[39]["t_s"].get<double>(), 1.95, 1e-6);
+  EXPECT_NEAR(lines[40]["t_s"].get<double>(), 1.98, 0.01);
+  EXPECT_NEAR(lines[40]["position_m"][0].get<double>(), 0.12, 0.02);
+}
+
+/// A camera mounted upside down: its calibration is that of the pictures as it sends them.
+TEST_F(TeachAndPose, ACameraMountedUpsideDownGivesThePosesOfAnUprightOne) {
+  HEEL_NEEDS_TEST_DATA("reports");
+  const std::string mounted = test::data_path("reports/camera-upside-down/");
+  const Outcome taught = run_heel({"teach", "--image", mounted + "ref_upside.png", "--roi", test::kRoi,
+                                   "--distance", "1.5", "--reach-time", "0", "--camera-info",
+                                   mounted + "cam_upside.yaml", "--rotate", "180", "-o", shirt});
+  ASSERT_EQ(taught.status, 0) << taught.err;
+  const Outcome outcome = run_heel({"pose", mounted + "ref_upside.png", "--template", shirt, "--camera-info",
+                                    mounted + "cam_upside.yaml", "--rotate", "180", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json found = lines_of(outcome.out).at(0);
+  ASSERT_TRUE(found["found"].get<bool>());
+  // The middle of the region is 2.5 pixels to the left of the turned principal point.
+  EXPECT_NEAR(found["position_m"][0].get<double>(), -0.0075, 0.003);
+  EXPECT_NEAR(found["position_m"][2].get<double>(), 1.5, 0.02);
+}
+
 TEST_F(TeachAndPose, TeachRefusesAPlainShirtWithTheReasonAndStatusOne) {
   cv::imwrite(image, cv::Mat(test::kHeight_px, test::kWidth_px, CV_8UC1, cv::Scalar(120)));
   const Outcome outcome = teach();

@@ -43,7 +43,7 @@ TEST(PictureBounds, APalePictureOrOneOfSnowIsNotTooBright) {
     return (static_cast<int>(x) / 12 + static_cast<int>(y) / 12) % 2 == 0 ? 205.0 : 232.0;
   };
   expect_none(pale, 1.0, 0.0);
-  const Light snow = [](double x, double, int) { return static_cast<int>(x) % 40 < 3 ? 70.0 : 252.0; };
+  const Light snow = [](double x, double, int) { return static_cast<int>(x) % 40 < 3 ? 90.0 : 254.0; };
   expect_none(snow, 1.0);
 }
 
