@@ -90,6 +90,7 @@ void ArcosSession::line_opened(TimeNs now_ns) {
   line_exhausted_ = false;
   heard_.clear();
   text_of_sweep_.clear();
+  bytes_of_sweep_ = 0;
   if (reported_text_.text().empty()) events_.push(now_ns, Kind::LineOpened);
   enter(Step::Listening, now_ns);
 }

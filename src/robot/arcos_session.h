@@ -150,6 +150,7 @@ class ArcosSession {
   SessionEvents events_;
   HeardText heard_;          ///< at this rate
   HeardText text_of_sweep_;  ///< at any rate of the sweep
+  std::uint64_t bytes_of_sweep_ = 0;
   HeardText reported_text_;  ///< of the last OtherDevice since a robot answered
   RobotState state_;
   arcos::RobotIdentity identity_;

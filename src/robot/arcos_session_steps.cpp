@@ -21,6 +21,7 @@ constexpr TimeNs kSipSilence_ns = 2 * kNsPerS;
 constexpr TimeNs kEnableRetry_ns = 700 * kNsPerMs;
 constexpr TimeNs kRefused_ns = 10 * kNsPerS;
 constexpr int kEnableAttempts = 3;
+constexpr std::uint64_t kLeastOtherBytes = 16;  // fewer may be noise of a line that is not connected
 constexpr int kSyncAttemptsPerBaud = 2;
 // The longest packet takes 0.27 s at 9600 baud: an incomplete packet that is older has lost bytes.
 constexpr TimeNs kPartialPacket_ns = 300 * kNsPerMs;
@@ -124,15 +125,19 @@ void ArcosSession::retry_sync(TimeNs now_ns) {
 /// No robot has this rate: on to the next one. After the last one the sweep is over, and a person is told.
 void ArcosSession::leave_rate(TimeNs now_ns) {
   if (!heard_.text().empty()) text_of_sweep_ = heard_;
+  bytes_of_sweep_ += heard_.bytes();
   const int before = sweep_.current();
   if (!sweep_.advance()) {
     line_exhausted_ = true;
     state_.kind = RobotKind{};
     if (!text_of_sweep_.text().empty())
       report_other_device(text_of_sweep_, now_ns);
+    else if (bytes_of_sweep_ >= kLeastOtherBytes)
+      events_.push(now_ns, Kind::OtherBytes, static_cast<std::int64_t>(bytes_of_sweep_));
     else
       events_.push(now_ns, sweep_.sweeps() ? Kind::NoAnswer : Kind::NoAnswerTcp);
     text_of_sweep_.clear();
+    bytes_of_sweep_ = 0;
   }
   if (sweep_.current() != before) {
     events_.push(now_ns, Kind::TryingBaud, sweep_.current());

@@ -30,6 +30,7 @@ class HeardText {
     }
   }
 
+  std::uint64_t bytes() const { return bytes_; }
   /// The first line of some length; empty when what was heard is no text.
   std::string_view text() const {
     const bool is_text = size_ >= kLeast && text_bytes_ * 10 >= bytes_ * 9;

@@ -21,6 +21,9 @@ const char* to_string(SessionEventKind kind) {
     case SessionEventKind::OtherDevice:
       return "robot line answers, but not in ARCOS: text such as '{text}'; check that robot.address is the "
              "robot's";
+    case SessionEventKind::OtherBytes:
+      return "robot line answers, but not in ARCOS: {} bytes came; check that robot.address is "
+             "the robot's, and its cable";
     case SessionEventKind::Synchronised:
       return "robot synchronised: class {class}, subclass {subclass}; driven as {model}";
     case SessionEventKind::ModelUnknown:
@@ -80,6 +83,7 @@ bool is_warning(SessionEventKind kind) {
     case SessionEventKind::NoAnswer:
     case SessionEventKind::NoAnswerTcp:
     case SessionEventKind::OtherDevice:
+    case SessionEventKind::OtherBytes:
     case SessionEventKind::ModelUnknown:
     case SessionEventKind::ModelConflict:
     case SessionEventKind::ModelMissing:

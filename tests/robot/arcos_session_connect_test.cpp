@@ -216,6 +216,19 @@ TEST(ArcosSessionBaud, TextOfAnotherDeviceIsReported) {
   }
 }
 
+TEST(ArcosSessionBaud, BytesThatAreNoTextAreNotSilence) {
+  for (const char* address : {"serial:/dev/ttyUSB0@38400", "tcp:robot:5760"}) {
+    SessionBench bench(bench_config(address));
+    const bool is_tcp = address[0] == 't';
+    bench.robot.chatter = {0xfd, 9, 0, 0, 1, 1, 1, 0, 0, 0, 2, 3, 4, 5, 6, 7, 8, 9, 0x12, 0x34};
+    bench.robot.chatters = true;
+    bench.robot.baud = is_tcp ? 0 : 19200;
+    bench.run(16.0);
+    EXPECT_GE(bench.count(Kind::OtherBytes), 1);
+    EXPECT_EQ(bench.count(Kind::NoAnswer) + bench.count(Kind::NoAnswerTcp), 0);
+  }
+}
+
 TEST(ArcosSessionBaud, AServerThatEndsTheConnectionWithATextIsNamedOnce) {
   SessionBench bench(bench_config("tcp:robot:8101"));
   const std::string_view text = "heel-sim: in use by another client\r\n";
