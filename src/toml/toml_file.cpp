@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,9 +15,13 @@
 namespace heel {
 
 std::string read_toml_text(const std::string& path, const std::string& expected) {
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))  // a folder opens, but cannot be read
-    throw Error(fmt::format("{}: cannot read (expected {})", path, expected));
+  int why_not = file ? 0 : errno;
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) why_not = EISDIR;  // a folder opens, but cannot be read
+  if (!file || why_not != 0)
+    throw Error(fmt::format("{}: cannot read: {} (expected {})", path, std::strerror(why_not), expected));
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

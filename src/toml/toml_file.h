@@ -10,7 +10,7 @@
 
 namespace heel {
 
-/// The file as text. Throws heel::Error "PATH: cannot read (expected `expected`)".
+/// The file as text. Throws heel::Error "PATH: cannot read: WHY (expected `expected`)".
 std::string read_toml_text(const std::string& path, const std::string& expected);
 
 /// Throws heel::Error for a syntax error. `file` is the name used in the message.

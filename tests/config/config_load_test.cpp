@@ -185,8 +185,9 @@ TEST(ConfigLoad, AnEmptyFileMeansAllDefaults) {
 }
 
 TEST(ConfigLoad, MissingFileIsNamed) {
-  EXPECT_THAT(test::complaint_of([] { load_config("/nowhere/heel.toml"); }),
-              HasSubstr("/nowhere/heel.toml: cannot read (expected a configuration file"));
+  EXPECT_THAT(
+      test::complaint_of([] { load_config("/nowhere/heel.toml"); }),
+      HasSubstr("/nowhere/heel.toml: cannot read: No such file or directory (expected a configuration file"));
 }
 
 TEST(ConfigLoad, NamesKeysThatNeedARestart) {

@@ -86,12 +86,14 @@ TEST(TomlSection, AKeyThatIsNotReadIsAnErrorThatNamesTheNearest) {
 TEST(TomlFile, SyntaxErrorsAndMissingFilesAreNamed) {
   EXPECT_EQ(message("a = = 1\n", [](TomlSection&) {}).substr(0, 12), "f.toml:1:5: ");
   const test::TemporaryFolder folder;
-  for (const std::string& path : {folder.file("absent.toml"), folder.path().string()}) {
+  for (const auto& [path, why] : {std::pair{folder.file("absent.toml"), "No such file or directory"},
+                                  std::pair{folder.path().string(), "Is a directory"},
+                                  std::pair{folder.file(std::string(300, 'a')), "File name too long"}}) {
     try {
       read_toml_text(path, "a scenario file");
       FAIL() << path;
     } catch (const Error& error) {
-      EXPECT_EQ(error.what(), path + ": cannot read (expected a scenario file)");
+      EXPECT_EQ(error.what(), path + ": cannot read: " + why + " (expected a scenario file)");
     }
   }
   EXPECT_EQ(read_toml_text(test::write_text(folder.file("empty.toml"), ""), "a file"), "");
