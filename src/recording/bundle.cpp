@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <set>
@@ -15,6 +16,7 @@
 #include "mcap/mcap_reader.h"
 #include "mcap/mcap_writer.h"
 #include "recording/private_wire.h"
+#include "recording/recording_reader.h"
 #include "recording/redacted_message.h"
 
 namespace heel {
@@ -175,6 +177,23 @@ BundleReport write_bundle(const std::string& recording, const std::string& bundl
   if (!chosen.left_out.empty())
     report.left_out.push_back(fmt::format("left out because of the size: {}", chosen.left_out));
   return report;
+}
+
+std::string recording_in_first_of(const std::vector<std::string>& folders) {
+  std::string why_not;
+  for (const std::string& folder : folders) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(folder, error)) {
+      why_not += fmt::format("{}: {}; ", folder, error ? error.message() : "not a folder");
+      continue;
+    }
+    try {
+      return recording_in(folder);
+    } catch (const Error& none) {
+      why_not += fmt::format("{}; ", none.what());
+    }
+  }
+  throw Error(why_not + "no recording of the service (expected one there, or a recording as argument)");
 }
 
 }  // namespace heel

@@ -29,4 +29,8 @@ struct BundleReport {
 BundleReport write_bundle(const std::string& recording, const std::string& bundle,
                           const BundleOptions& options);
 
+/// The newest recording in the first of these folders that has one. Throws heel::Error that says of each
+/// folder why it gave none.
+std::string recording_in_first_of(const std::vector<std::string>& folders);
+
 }  // namespace heel

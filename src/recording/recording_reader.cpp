@@ -126,10 +126,13 @@ RecordingReport read_recording(const std::string& path, RecordingVisitor& visito
 }
 
 std::string recording_in(const std::string& file_or_folder) {
-  if (!fs::is_directory(file_or_folder)) return file_or_folder;
+  std::error_code error;
+  if (!fs::is_directory(file_or_folder, error)) return file_or_folder;
+  const fs::directory_iterator entries(file_or_folder, error);
+  if (error) throw Error(fmt::format("{}: cannot read the folder: {}", file_or_folder, error.message()));
   fs::path newest;
   fs::file_time_type t_newest;
-  for (const auto& entry : fs::directory_iterator(file_or_folder)) {
+  for (const auto& entry : entries) {
     if (entry.path().extension() != kRecordingExtension) continue;
     const auto t = entry.last_write_time();
     if (!newest.empty() && (t < t_newest || (t == t_newest && entry.path() < newest))) continue;

@@ -14,6 +14,7 @@
 #include "recording/private_wire.h"
 #include "recording/recording_reader.h"
 #include "recording/redacted_message.h"
+#include "support/complaint.h"
 #include "support/temporary_folder.h"
 #include "telemetry/recorder.h"
 
@@ -212,6 +213,23 @@ TEST_F(Bundle, WhatIsTooLargeIsLeftOutInOrder) {
   EXPECT_NEAR(static_cast<double>(content.ticks), 0.5 * kRun, 2.0);
   EXPECT_NE(content.configuration, "") << "it is always there";
   EXPECT_THAT(report_.left_out[0], HasSubstr("all but the last 8 s"));
+}
+
+TEST(RecordingOfTheService, IsInTheFirstFolderThatHasOne) {
+  const test::TemporaryFolder folder;
+  const std::string absent = folder.file("absent"), state = folder.file("state"), run = folder.file("run");
+  for (const std::string& made : {state, run}) std::filesystem::create_directory(made);
+  const auto complaint = [&] {
+    return test::complaint_of([&] { recording_in_first_of({absent, state, run}); });
+  };
+  EXPECT_EQ(complaint(), absent + ": No such file or directory; " + state +
+                             ": no recording in this folder (expected a file *.mcap); " + run +
+                             ": no recording in this folder (expected a file *.mcap); no recording of the "
+                             "service (expected one there, or a recording as argument)");
+  test::write_text(run + "/black-box.mcap", "");
+  EXPECT_EQ(recording_in_first_of({absent, state, run}), run + "/black-box.mcap");
+  test::write_text(state + "/walk.mcap", "");
+  EXPECT_EQ(recording_in_first_of({absent, state, run}), state + "/walk.mcap");
 }
 
 }  // namespace

@@ -3,15 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "bundle_facts.h"
 #include "commands.h"
-#include "heel/error.h"
 #include "recording/recording_reader.h"
 
 namespace heel::cli {
@@ -26,27 +24,13 @@ struct BundleCommandOptions {
 };
 
 /// The service records in its state directory; without recordings its black box is in the runtime directory.
-constexpr std::array kServiceFolders{"/var/lib/heel", "/run/heel"};
-
-std::string recording_of_service() {
-  std::string why_not;
-  for (const char* const folder : kServiceFolders) {
-    try {
-      if (std::filesystem::is_directory(folder)) return recording_in(folder);
-    } catch (const Error& error) {
-      why_not += std::string(error.what()) + "; ";
-    }
-  }
-  throw Error(why_not +
-              "no recording of the service in /var/lib/heel or /run/heel (expected one, or a "
-              "recording as argument)");
-}
+const std::vector<std::string> kServiceFolders{"/var/lib/heel", "/run/heel"};
 
 void run_bundle(const BundleCommandOptions& options) {
   BundleOptions bundle{options.with_pictures, static_cast<std::uint64_t>(options.max_mb * 1e6),
                        machine_facts(), private_names()};
   const std::string recording =
-      options.recording.empty() ? recording_of_service() : recording_in(options.recording);
+      options.recording.empty() ? recording_in_first_of(kServiceFolders) : recording_in(options.recording);
   const BundleReport report = write_bundle(recording, options.out, bundle);
   for (const std::string& line : report.left_out) std::cerr << "heel bundle: " << line << '\n';
   if (options.json) {
