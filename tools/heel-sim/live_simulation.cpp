@@ -1,10 +1,12 @@
 #include "live_simulation.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <utility>
 
+#include "heel/error.h"
 #include "heel/time.h"
 #include "realtime/clock.h"
 #include "sim/contact/robot_in_world.h"
@@ -44,23 +46,26 @@ LiveSimulation::LiveSimulation(const Options& options, const Scenario* scenario)
     : robot_(robot_settings(options, scenario), options.seed),
       duration_s_(options.duration_s),
       truth_period_ns_(ns_from_seconds(1.0 / options.truth_rate_hz)) {
-  std::unique_ptr<FrameSink> sink;
+  OpenSink open_sink;
   if (scenario != nullptr) {
     live_world_ = std::make_unique<LiveWorld>(*scenario, robot_);
     const ScenarioCamera& camera = scenario->camera;
     if (options.camera != "none") {
       const CameraModel sent = sent_camera(camera);
-      sink = open_frame_sink(options.camera, sent.width_px, sent.height_px, camera.rate_hz);
+      open_sink = [address = options.camera, sent, rate_hz = camera.rate_hz] {
+        return open_frame_sink(address, sent.width_px, sent.height_px, rate_hz);
+      };
     }
   }
   transport_ = open_transport(options.robot, options.boot_baud);
   t_start_ns_ = monotonic_now_ns();  // time 0 of robot and world: after all that takes long
   open_recordings(options);
-  if (sink) {
+  if (options.live_faults) live_faults_ = std::make_unique<LineInput>(STDIN_FILENO);
+  if (open_sink) {
     live_world_->motion.set(robot_.truth());
     live_world_->camera =
-        std::make_unique<LiveCamera>(live_world_->world, live_world_->motion, std::move(sink), t_start_ns_,
-                                     options.saved_frames_folder, kSavedFramePeriod_s);
+        std::make_unique<LiveCamera>(live_world_->world, live_world_->motion, std::move(open_sink),
+                                     t_start_ns_, options.saved_frames_folder, kSavedFramePeriod_s);
   }
   print_event(0, "ready at " + transport_->address());
 }
@@ -109,6 +114,7 @@ void LiveSimulation::add_world_columns() {
 void LiveSimulation::run(const volatile std::sig_atomic_t& stop) {
   while (stop == 0) {
     const TimeNs t_ns = monotonic_now_ns() - t_start_ns_;
+    if (live_faults_) begin_live_faults(t_ns);
     server_->receive(t_ns);
     if (truth_) write_truth_rows(t_ns);
     server_->advance(t_ns);
@@ -117,6 +123,24 @@ void LiveSimulation::run(const volatile std::sig_atomic_t& stop) {
     sleep_until_ns(t_start_ns_ + t_ns + kTick_ns);
   }
   if (truth_) truth_->flush();
+}
+
+/// A line that cannot be used is named and left out; the next one counts.
+void LiveSimulation::begin_live_faults(TimeNs t_ns) {
+  for (const std::string& line : live_faults_->lines()) {
+    try {
+      begin_live_fault(line, t_ns);
+    } catch (const Error& error) {
+      std::fprintf(stderr, "heel-sim: %s\n", error.what());
+    }
+  }
+}
+
+void LiveSimulation::begin_live_fault(const std::string& line, TimeNs t_ns) {
+  if (!line.starts_with("camera+")) return robot_.inject(parse_fault_now(line, t_ns));
+  if (!live_world_ || !live_world_->camera)
+    throw Error("fault '" + line + "': there is no camera (expected --scenario and --camera)");
+  live_world_->camera->take_away(parse_fault_duration(line));
 }
 
 /// Rows have equal distances in time, also when this process was delayed.
@@ -129,6 +153,9 @@ void LiveSimulation::write_truth_rows(TimeNs t_ns) {
 
 void LiveSimulation::step_world(TimeNs t_ns) {
   live_world_->contact.step(seconds_from_ns(t_ns));
+  hold_walk_while_robot_is_far(robot_.truth(), seconds_from_ns(t_ns), seconds_from_ns(t_ns - t_stepped_ns_),
+                               live_world_->world);
+  t_stepped_ns_ = t_ns;
   const RobotTruth robot = robot_.truth();
   live_world_->motion.set(robot);
   if (start_walk_when_motors_run(robot, seconds_from_ns(robot.t_ns), live_world_->world))

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "files/sampled_csv.h"
+#include "line_input.h"
 #include "options.h"
 #include "sim/contact/contact.h"
 #include "sim/live/live_camera.h"
@@ -44,6 +45,8 @@ class LiveSimulation {
   void add_world_columns();
   void write_truth_rows(TimeNs t_ns);
   void step_world(TimeNs t_ns);
+  void begin_live_faults(TimeNs t_ns);
+  void begin_live_fault(const std::string& line, TimeNs t_ns);
   void print_progress(TimeNs t_ns) const;
 
   P3At robot_;
@@ -54,9 +57,11 @@ class LiveSimulation {
   std::unique_ptr<WireFile> wire_;
   std::unique_ptr<RobotServer> server_;
   std::unique_ptr<SampledCsv> truth_;
+  std::unique_ptr<LineInput> live_faults_;  ///< null without --live-faults
   TimeNs truth_period_ns_;
   TimeNs t_next_row_ns_ = 0;
   TimeNs t_next_progress_ns_ = 0;
+  TimeNs t_stepped_ns_ = 0;  ///< the world
 };
 
 }  // namespace heel::sim

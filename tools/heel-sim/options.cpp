@@ -36,6 +36,9 @@ void add_robot_options(CLI::App& app, Options& options) {
   app.add_option("--fault", options.faults,
                  "KIND@START[+DURATION][=AMOUNT], times in s; may be repeated. Kinds: " + fault_names())
       ->type_name("FAULT");
+  app.add_flag("--live-faults", options.live_faults,
+               "read further faults from standard input while it runs, one a line: KIND[+DURATION][=AMOUNT], "
+               "which begins at once; and camera+DURATION, for which there is no camera");
   app.add_option("--seed", options.seed,
                  "of the robot's drift and the line's faults; with a scenario, also replaces its seed")
       ->type_name("N")

@@ -18,6 +18,7 @@ struct Options {
   double track_m = ChassisSettings{}.true_track_m;
   bool exact = false;
   std::vector<std::string> faults;
+  bool live_faults = false;
   std::uint64_t seed = 1;
   std::string truth_file;
   double truth_rate_hz = 50.0;

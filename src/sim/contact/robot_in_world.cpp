@@ -29,4 +29,12 @@ bool start_walk_when_motors_run(const RobotTruth& robot, double t_s, World& worl
   return true;
 }
 
+void hold_walk_while_robot_is_far(const RobotTruth& robot, double t_s, double dt_s, World& world) {
+  const double limit_m = world.scenario().waits_beyond_m;
+  if (limit_m <= 0.0 || !world.walking()) return;
+  const Eigen::Vector2d person_m = world.people_footprints(t_s).front().centre_m;
+  const Eigen::Vector2d robot_m(robot.pose.x_m, robot.pose.y_m);
+  world.hold_walk((person_m - robot_m).norm() > limit_m ? dt_s : 0.0);
+}
+
 }  // namespace heel::sim

@@ -18,4 +18,7 @@ RobotMotion robot_motion_from_truth(const RobotTruth& truth);
 /// time.
 bool start_walk_when_motors_run(const RobotTruth& robot, double t_s, World& world);
 
+/// Holds the walk for `dt_s` when the robot is farther from the person than the scenario's waits_beyond_m.
+void hold_walk_while_robot_is_far(const RobotTruth& robot, double t_s, double dt_s, World& world);
+
 }  // namespace heel::sim

@@ -27,12 +27,13 @@ RobotMotion SharedMotion::at(TimeNs t_ns) const {
   return moved(robot_motion_from_truth(truth), seconds_from_ns(t_ns - truth.t_ns));
 }
 
-LiveCamera::LiveCamera(World& world, const SharedMotion& motion, std::unique_ptr<FrameSink> sink,
-                       TimeNs t_start_ns, const std::string& saved_folder, double saved_every_s)
+LiveCamera::LiveCamera(World& world, const SharedMotion& motion, OpenSink open_sink, TimeNs t_start_ns,
+                       const std::string& saved_folder, double saved_every_s)
     : world_(world),
       motion_(motion),
       turner_(world.scenario().camera.turn.inverse()),
-      sink_(std::move(sink)),
+      open_sink_(std::move(open_sink)),
+      sink_(open_sink_()),
       t_start_ns_(t_start_ns),
       period_ns_(ns_from_seconds(1.0 / world.scenario().camera.rate_hz)),
       saved_folder_(saved_folder),
@@ -49,6 +50,10 @@ LiveCamera::LiveCamera(World& world, const SharedMotion& motion, std::unique_ptr
 LiveCamera::~LiveCamera() {
   stop_ = true;
   thread_.join();
+}
+
+void LiveCamera::take_away(TimeNs duration_ns) {
+  t_back_ns_ = monotonic_now_ns() + duration_ns;
 }
 
 LiveCameraCounters LiveCamera::counters() const {
@@ -68,7 +73,12 @@ void LiveCamera::run() {
     const TimeNs t_ns = static_cast<TimeNs>(sequence) * period_ns_;
     sleep_until_ns(t_start_ns_ + readable_ns(t_ns));
     try {
-      draw(sequence, t_ns);
+      if (monotonic_now_ns() < t_back_ns_) {
+        sink_.reset();
+      } else {
+        if (!sink_) sink_ = open_sink_();
+        draw(sequence, t_ns);
+      }
     } catch (const Error& error) {
       fmt::print(stderr, "heel-sim: {}; the camera sends no more frames\n", error.what());
       return;

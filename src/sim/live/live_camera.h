@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -37,18 +38,23 @@ struct LiveCameraCounters {
   double draw_ms_max = 0.0;
 };
 
+/// Opens where the frames go. Throws heel::Error.
+using OpenSink = std::function<std::unique_ptr<FrameSink>()>;
+
 class LiveCamera {
  public:
   /// Frames begin at `t_start_ns` (CLOCK_MONOTONIC), which is time 0 of world and robot. A frame every
   /// `saved_every_s` is also saved in `saved_folder` (none when empty). Throws heel::Error when the folder
   /// cannot be made. A sink that fails later ends the camera with a line on stderr; the robot goes on.
-  LiveCamera(World& world, const SharedMotion& motion, std::unique_ptr<FrameSink> sink, TimeNs t_start_ns,
+  LiveCamera(World& world, const SharedMotion& motion, OpenSink open_sink, TimeNs t_start_ns,
              const std::string& saved_folder, double saved_every_s);
   ~LiveCamera();
   LiveCamera(const LiveCamera&) = delete;
   LiveCamera& operator=(const LiveCamera&) = delete;
 
   LiveCameraCounters counters() const;
+  /// From now on, for so long, readers find no camera.
+  void take_away(TimeNs duration_ns);
 
  private:
   void run();
@@ -60,7 +66,8 @@ class LiveCamera {
   World& world_;
   const SharedMotion& motion_;
   PictureTurner turner_;  ///< upright → as the camera sends it
-  std::unique_ptr<FrameSink> sink_;
+  OpenSink open_sink_;
+  std::unique_ptr<FrameSink> sink_;  ///< null while the camera is away
   TimeNs t_start_ns_;
   TimeNs period_ns_;
   std::string saved_folder_;
@@ -70,7 +77,8 @@ class LiveCamera {
   mutable std::mutex counters_mutex_;
   LiveCameraCounters counters_;
   std::atomic<bool> stop_{false};
-  std::thread thread_;  ///< last: it starts when every other member is ready
+  std::atomic<TimeNs> t_back_ns_{0};  ///< until then the camera is away; CLOCK_MONOTONIC
+  std::thread thread_;                ///< last: it starts when every other member is ready
 };
 
 }  // namespace heel::sim

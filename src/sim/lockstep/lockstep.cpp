@@ -134,6 +134,7 @@ LockstepCounts Lockstep::run() {
 
 /// Bytes travel in steps of a millisecond, so that a SIP is stamped when it came, not at the next tick.
 void Lockstep::advance_line(TimeNs t_ns) {
+  const TimeNs t_before_ns = t_line_ns_;
   while (t_line_ns_ + P3At::kStep_ns <= t_ns) {
     t_line_ns_ += P3At::kStep_ns;
     robot_.advance(t_line_ns_);
@@ -142,7 +143,10 @@ void Lockstep::advance_line(TimeNs t_ns) {
     session_.receive(bytes, t_line_ns_);
     if (!bytes.empty()) observer_.on_bytes_from_robot(bytes, t_line_ns_);
   }
-  if (world_) start_walk_when_motors_run(robot_.truth(), seconds_from_ns(t_ns), *world_);
+  if (!world_) return;
+  start_walk_when_motors_run(robot_.truth(), seconds_from_ns(t_ns), *world_);
+  hold_walk_while_robot_is_far(robot_.truth(), seconds_from_ns(t_ns),
+                               seconds_from_ns(t_line_ns_ - t_before_ns), *world_);
 }
 
 RobotMotion Lockstep::motion_at(TimeNs t_ns) const {

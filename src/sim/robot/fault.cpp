@@ -84,6 +84,24 @@ double number_of(const std::string& text, const std::string& fault, const char* 
   throw Error(fmt::format("fault '{}': {} '{}' is not a number of 0 or more", fault, what, text));
 }
 
+FaultKind kind_of(const std::string& name, const std::string& fault) {
+  if (const std::optional<FaultKind> kind = fault_kind_from_name(name)) return *kind;
+  throw Error(
+      fmt::format("fault '{}': '{}' is not a fault (expected one of {})", fault, name, fault_names()));
+}
+
+/// Takes "[+DURATION][=AMOUNT]" from the end of `times`.
+void take_duration_and_amount(std::string& times, const std::string& text, Fault& fault) {
+  if (const std::size_t equals = times.find('='); equals != std::string::npos) {
+    fault.amount = number_of(times.substr(equals + 1), text, "amount");
+    times.resize(equals);
+  }
+  if (const std::size_t plus = times.find('+'); plus != std::string::npos) {
+    fault.duration_ns = ns_from_seconds(number_of(times.substr(plus + 1), text, "duration"));
+    times.resize(plus);
+  }
+}
+
 }  // namespace
 
 const char* to_string(FaultKind kind) {
@@ -111,27 +129,31 @@ std::string fault_names() {
 
 Fault parse_fault(const std::string& text) {
   const std::size_t at = text.find('@');
-  const std::optional<FaultKind> kind = fault_kind_from_name(text.substr(0, at));
-  if (!kind) {
-    throw Error(fmt::format("fault '{}': '{}' is not a fault (expected one of {})", text, text.substr(0, at),
-                            fault_names()));
-  }
+  Fault fault{.kind = kind_of(text.substr(0, at), text), .t_ns = 0, .duration_ns = 0, .amount = 0.0};
   if (at == std::string::npos) {
     throw Error(
         fmt::format("fault '{}': no start (expected KIND@START[+DURATION][=AMOUNT], times in s)", text));
   }
   std::string times = text.substr(at + 1);
-  Fault fault{.kind = *kind, .t_ns = 0, .duration_ns = 0, .amount = 0.0};
-  if (const std::size_t equals = times.find('='); equals != std::string::npos) {
-    fault.amount = number_of(times.substr(equals + 1), text, "amount");
-    times.resize(equals);
-  }
-  if (const std::size_t plus = times.find('+'); plus != std::string::npos) {
-    fault.duration_ns = ns_from_seconds(number_of(times.substr(plus + 1), text, "duration"));
-    times.resize(plus);
-  }
+  take_duration_and_amount(times, text, fault);
   fault.t_ns = ns_from_seconds(number_of(times, text, "start"));
   return fault;
+}
+
+Fault parse_fault_now(const std::string& text, TimeNs now_ns) {
+  Fault fault;
+  std::string name = text;
+  take_duration_and_amount(name, text, fault);
+  fault.kind = kind_of(name, text);
+  fault.t_ns = now_ns;
+  return fault;
+}
+
+TimeNs parse_fault_duration(const std::string& text) {
+  Fault fault;
+  std::string name = text;
+  take_duration_and_amount(name, text, fault);
+  return fault.duration_ns;
 }
 
 void FaultSchedule::add(const Fault& fault) {

@@ -40,6 +40,10 @@ std::string fault_names();
 /// Parses "KIND@START[+DURATION][=AMOUNT]", times in seconds, e.g. "drop@10+5=0.02". Throws heel::Error
 /// naming the part that is wrong.
 Fault parse_fault(const std::string& text);
+/// The same without "@START", for a fault that begins at `now_ns`.
+Fault parse_fault_now(const std::string& text, TimeNs now_ns);
+/// The DURATION of such a text, whatever its kind.
+TimeNs parse_fault_duration(const std::string& text);
 
 /// The effect of all active faults at one moment.
 struct FaultEffects {

@@ -85,7 +85,8 @@ struct Scenario {
   std::string shows;  ///< one line: what makes this scenario difficult
   std::uint64_t seed = 1;
   double duration_s = 60.0;
-  double walk_after_s = 2.0;        ///< start of the target's walk, after the robot's motors are switched on
+  double walk_after_s = 2.0;    ///< start of the target's walk, after the robot's motors are switched on
+  double waits_beyond_m = 0.0;  ///< people stand still while the robot is farther from the target; 0: never
   double vision_latency_ms = 25.0;  ///< in lock step: from the end of the exposure to the pose
   WalkState person_start;
   std::vector<WalkItem> path;

@@ -102,6 +102,7 @@ void read_target(TomlSection person, Scenario& scenario) {
   scenario.person_start = read_start(person);
   read_body(person, scenario.person);
   scenario.walk_after_s = person.number("walk_after_s", scenario.walk_after_s, {0, 3600, "s"});
+  scenario.waits_beyond_m = person.number("waits_beyond_m", scenario.waits_beyond_m, {0, 100, "m"});
   scenario.path = read_path(person);
   person.reject_unknown_keys();
 }

@@ -109,7 +109,9 @@ Eigen::Isometry3d World::world_from_camera(const RobotMotion& robot) const {
 
 PersonPose World::pose_of(std::size_t index, double t_s) const {
   const WalkingPerson& walker = people_[index];
-  return walker.person.pose(walker.walk.at(t_s - walk_start_s_ - walker.walk_after_s), t_s);
+  WalkState state = walker.walk.at(t_s - walk_start_s_ - walker.walk_after_s);
+  if (walk_held_) state.speed_m_s = 0.0;
+  return walker.person.pose(state, t_s);
 }
 
 Eigen::Vector2d World::project_px(const Eigen::Vector3d& point_in_camera_m) const {

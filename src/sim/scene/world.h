@@ -86,6 +86,12 @@ class World {
   /// called by different threads at the same time, render() by one of them.
   void start_walk(double t_s) { walk_start_s_ = t_s; }
   bool walking() const { return walk_start_s_ < kNever; }
+  /// Everybody stands still for the next `dt_s`, in the posture of the moment; 0: they walk. The same
+  /// threads.
+  void hold_walk(double dt_s) {
+    walk_held_ = dt_s > 0.0;
+    walk_start_s_ = walk_start_s_ + dt_s;
+  }
 
   Truth truth(const RobotMotion& robot, double t_s) const;
   /// The picture whose middle row's exposure is centred on `t_s`. Depends on the arguments and the scenario
@@ -155,6 +161,7 @@ class World {
   Ground ground_;
   ExposureControl exposure_;
   std::atomic<double> walk_start_s_{kNever};  ///< set by one thread while another renders
+  std::atomic<bool> walk_held_{false};
   RayBounds view_;
   std::unique_ptr<Renderer> renderer_;  ///< null with WorldUse::TruthOnly
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "sim/contact/robot_in_world.h"
 #include "support/complaint.h"
@@ -147,6 +148,36 @@ TEST(Contact, APatchOfFloorChangesTheTurn) {
     return other.true_pose().heading_rad;
   };
   EXPECT_NEAR(heading_after(-3.0) / heading_after(-0.5), 0.7 / 0.588, 0.01);
+}
+
+/// Steps the walk alone, from 0, with the robot at rest at its start; returns the person's places, each
+/// second.
+std::vector<WalkState> walk_before_a_robot_at_rest(const Scenario& scenario, int seconds) {
+  World world(scenario, 0, WorldUse::TruthOnly);
+  P3At robot(driving(scenario));  // not advanced: it stays
+  world.start_walk(0.0);
+  std::vector<WalkState> states;
+  for (int ms = 0; ms <= 1000 * seconds; ++ms) {
+    const double t_s = 1e-3 * ms;
+    hold_walk_while_robot_is_far(robot.truth(), t_s, 1e-3, world);
+    if (ms % 1000 == 0) states.push_back(world.truth({}, t_s).person);
+  }
+  return states;
+}
+
+TEST(RobotInWorld, APersonWaitsForARobotThatIsFarAwayAndNotWithoutALimit) {
+  Scenario scenario = scenario_with({});
+  scenario.person_start.y_m = 0.0;
+  scenario.path = {{.step = WalkStep::Straight, .speed_m_s = 0.5, .length_m = 10.0}};
+  scenario.waits_beyond_m = 3.0;
+  const std::vector<WalkState> waiting = walk_before_a_robot_at_rest(scenario, 8);
+  EXPECT_NEAR(waiting[8].x_m, scenario.robot.x_m + 3.0, 0.1);
+  EXPECT_EQ(waiting[8].speed_m_s, 0.0);
+  EXPECT_NEAR(waiting[8].stride_rad, waiting[7].stride_rad, 1e-6);
+  EXPECT_GT(waiting[1].speed_m_s, 0.2);
+
+  scenario.waits_beyond_m = 0.0;
+  EXPECT_GT(walk_before_a_robot_at_rest(scenario, 8)[8].x_m, 3.0);
 }
 
 }  // namespace

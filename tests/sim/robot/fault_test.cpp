@@ -34,6 +34,18 @@ TEST(ParseFault, NamesWhatIsWrong) {
   EXPECT_NE(complaint("drop@1=1e999").find("amount '1e999'"), std::string::npos);
 }
 
+TEST(ParseFault, OfNowHasNoStart) {
+  const Fault fault = parse_fault_now("drop+5=0.02", 7 * kNsPerS);
+  EXPECT_EQ(fault.kind, FaultKind::DropBytes);
+  EXPECT_EQ(fault.t_ns, 7 * kNsPerS);
+  EXPECT_EQ(fault.duration_ns, 5 * kNsPerS);
+  EXPECT_DOUBLE_EQ(fault.amount, 0.02);
+  EXPECT_EQ(parse_fault_now("reset", 0).kind, FaultKind::Reset);
+  EXPECT_EQ(parse_fault_duration("camera+1.5"), 1500 * kNsPerMs);
+  EXPECT_NE(test::complaint_of([] { parse_fault_now("drop@1", 0); }).find("'drop@1' is not a fault"),
+            std::string::npos);
+}
+
 TEST(ParseFault, EveryKindHasAName) {
   for (int kind = 0; kind <= static_cast<int>(FaultKind::LeftOpen); ++kind) {
     const std::string name = to_string(static_cast<FaultKind>(kind));
