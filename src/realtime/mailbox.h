@@ -1,16 +1,20 @@
 // A mailbox for the newest value: one writer posts values, one reader gets the newest. Wait-free on both
 // sides. Poses reach control through it: control must act on the newest pose and never work through a queue
 // of old ones.
+//
+// Memory order: that of the exchange (triple_buffer.h). A slot is written between two publish() and read
+// between two take(), by the side that it then belongs to.
 #pragma once
 
 #include <array>
 #include <type_traits>
 
+#include "realtime/memory_policy.h"
 #include "realtime/triple_buffer.h"
 
 namespace heel {
 
-template <typename T>
+template <typename T, typename Memory = StdMemory>
 class Mailbox {
   static_assert(std::is_trivially_copyable_v<T>, "values are copied between threads as bytes");
 
@@ -30,10 +34,10 @@ class Mailbox {
 
  private:
   struct alignas(kCacheLineBytes) Slot {
-    T value{};
+    typename Memory::template Record<T> value{};
   };
-  TripleBuffer exchange_;
-  std::array<Slot, TripleBuffer::kSlots> values_{};
+  BasicTripleBuffer<Memory> exchange_;
+  std::array<Slot, BasicTripleBuffer<Memory>::kSlots> values_{};
 };
 
 }  // namespace heel

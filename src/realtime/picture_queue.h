@@ -1,5 +1,10 @@
 // Copies of frames from one thread to another, first in, first out, in memory of fixed size. Wait-free on
 // both sides. When it is full, the new frame is dropped and counted.
+//
+// Memory order: as in spsc_queue.h, but that the reader keeps the slot from front() to pop(). The writer's
+// release of tail_ publishes header and pixels; the reader's release of head_ in pop() gives back the slot
+// that it has left, and the writer acquires head_ before each push. open_ and dropped_ order nothing: a frame
+// more or less while the queue is closed does no harm.
 #pragma once
 
 #include <atomic>
@@ -8,20 +13,22 @@
 #include <vector>
 
 #include "heel/flow.h"
+#include "realtime/memory_policy.h"
 #include "realtime/triple_buffer.h"
 
 namespace heel {
 
-class PictureQueue {
+template <typename Memory = StdMemory>
+class BasicPictureQueue {
  public:
   /// Allocates all memory here, for frames of at most this size.
-  PictureQueue(std::size_t frames, std::uint32_t max_width_px, std::uint32_t max_height_px)
+  BasicPictureQueue(std::size_t frames, std::uint32_t max_width_px, std::uint32_t max_height_px)
       : slot_bytes_(std::size_t{max_width_px} * max_height_px),
         headers_(frames),
         pixels_(frames * slot_bytes_) {}
 
-  PictureQueue(const PictureQueue&) = delete;
-  PictureQueue& operator=(const PictureQueue&) = delete;
+  BasicPictureQueue(const BasicPictureQueue&) = delete;
+  BasicPictureQueue& operator=(const BasicPictureQueue&) = delete;
 
   /// Any thread. While it is closed, frames are neither copied nor counted.
   void set_open(bool open) { open_.store(open, std::memory_order_relaxed); }
@@ -50,7 +57,7 @@ class PictureQueue {
   FrameView front() const {
     const std::uint64_t head = head_.load(std::memory_order_relaxed);
     if (head == tail_.load(std::memory_order_acquire)) return {};
-    const FrameHeader& header = headers_[head % headers_.size()];
+    const FrameHeader header = headers_[head % headers_.size()];
     return {header, pixels_.data() + (head % headers_.size()) * slot_bytes_, header.width_px};
   }
   void pop() { head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
@@ -59,15 +66,19 @@ class PictureQueue {
   std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
  private:
+  template <typename Value>
+  using Atomic = typename Memory::template Atomic<Value>;
+
   const std::size_t slot_bytes_;
-  std::vector<FrameHeader> headers_;
+  std::vector<typename Memory::template Record<FrameHeader>> headers_;
   std::vector<std::uint8_t> pixels_;
-  std::atomic<bool> open_{true};
-  // Positions only count up. The writer's release publishes the slot that it has filled, the reader's the one
-  // that it has left.
-  alignas(kCacheLineBytes) std::atomic<std::uint64_t> tail_{0};  // written by the writer
-  std::atomic<std::uint64_t> dropped_{0};
-  alignas(kCacheLineBytes) std::atomic<std::uint64_t> head_{0};  // written by the reader
+  Atomic<bool> open_{true};
+  // Positions only count up.
+  alignas(kCacheLineBytes) Atomic<std::uint64_t> tail_{0};  // written by the writer
+  Atomic<std::uint64_t> dropped_{0};
+  alignas(kCacheLineBytes) Atomic<std::uint64_t> head_{0};  // written by the reader
 };
+
+using PictureQueue = BasicPictureQueue<>;
 
 }  // namespace heel

@@ -1,5 +1,14 @@
 // A bounded queue of records from one real-time thread to the telemetry thread. Wait-free on both sides.
 // When it is full, the new record is dropped and counted: the real-time thread never waits for a slow disk.
+//
+// Memory order. Each position is stored by one thread only; that thread loads it relaxed, since it sees its
+// own stores.
+// - The writer fills the slot, then stores tail_ with release; the reader loads tail_ with acquire, then
+//   reads the slot: it sees the whole record.
+// - The reader reads the slot, then stores head_ with release; the writer loads head_ with acquire, then
+//   fills the slot again: the old record was read before.
+// The copies of the other's position may be old. An old tail hides records, an old head hides room; neither
+// lets a side into a slot of the other. dropped_ orders nothing: it is a number to look at.
 #pragma once
 
 #include <atomic>
@@ -9,11 +18,12 @@
 #include <type_traits>
 #include <vector>
 
+#include "realtime/memory_policy.h"
 #include "realtime/triple_buffer.h"
 
 namespace heel {
 
-template <typename T>
+template <typename T, typename Memory = StdMemory>
 class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>, "records are copied between threads as bytes");
 
@@ -57,15 +67,18 @@ class SpscQueue {
   std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
  private:
-  std::vector<T> records_;
+  template <typename Value>
+  using Atomic = typename Memory::template Atomic<Value>;
+
+  std::vector<typename Memory::template Record<T>> records_;
   std::size_t mask_;
 
   // Positions only count up. Each side keeps a copy of the other's position and reads it again only when the
   // copy says full (or empty). In steady flow the two sides then do not access each other's cache line.
-  alignas(kCacheLineBytes) std::atomic<std::uint64_t> tail_{0};  // written by the writer
+  alignas(kCacheLineBytes) Atomic<std::uint64_t> tail_{0};  // written by the writer
   std::uint64_t cached_head_ = 0;
-  std::atomic<std::uint64_t> dropped_{0};
-  alignas(kCacheLineBytes) std::atomic<std::uint64_t> head_{0};  // written by the reader
+  Atomic<std::uint64_t> dropped_{0};
+  alignas(kCacheLineBytes) Atomic<std::uint64_t> head_{0};  // written by the reader
   std::uint64_t cached_tail_ = 0;
 };
 

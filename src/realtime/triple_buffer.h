@@ -5,17 +5,29 @@
 // A ring of positions (slot = position mod n) would not do: when the reader is slower than the writer, as
 // vision usually is behind a fast camera, the writer's position reaches the slot that the reader still holds,
 // and the writer would have to drop the new value or overwrite the one being read.
+//
+// Memory order. All synchronisation is in newest_, which only read-modify-writes change, so each exchange
+// takes the store before it and no store is lost. Both exchanges give a slot away and take one:
+// - publish() releases what was written to the slot; the take() that gets the slot acquires it.
+// - take() releases what was read from the slot; the publish() that gets it back acquires that: the next
+//   value is not written before the old one was read.
+// write_slot_ and read_slot_ each belong to one thread. has_unread() alone promises nothing about the value:
+// in take() the exchange after it synchronises, and only the reader clears the flag. It acquires, so that who
+// only asks sees what was done before the publish().
 #pragma once
 
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 
+#include "realtime/memory_policy.h"
+
 namespace heel {
 
 inline constexpr std::size_t kCacheLineBytes = 64;
 
-class TripleBuffer {
+template <typename Memory = StdMemory>
+class BasicTripleBuffer {
  public:
   static constexpr std::uint32_t kSlots = 3;
 
@@ -25,8 +37,6 @@ class TripleBuffer {
 
   /// Makes the written slot the newest value. True: it replaced a value that was never read.
   bool publish() {
-    // Release: the reader that takes the slot sees what was written to it.
-    // Acquire: the reader has finished with the slot we get back before we write to it.
     const std::uint32_t before = newest_.exchange(write_slot_ | kUnread, std::memory_order_acq_rel);
     write_slot_ = before & kSlotMask;
     return (before & kUnread) != 0;
@@ -53,10 +63,12 @@ class TripleBuffer {
   static constexpr std::uint32_t kSlotMask = 3;
 
   // Each has its own cache line, so that the writer's stores do not slow down the reader's loads.
-  alignas(kCacheLineBytes) std::atomic<std::uint32_t> newest_{0};
+  alignas(kCacheLineBytes) typename Memory::template Atomic<std::uint32_t> newest_{0};
   alignas(kCacheLineBytes) std::uint32_t write_slot_ = 1;
   alignas(kCacheLineBytes) std::uint32_t read_slot_ = 2;
 };
+
+using TripleBuffer = BasicTripleBuffer<>;
 
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
 
