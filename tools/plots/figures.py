@@ -13,6 +13,7 @@ import response
 import run_errors
 import run_frames
 import run_path
+import soak
 import steps
 import sweep
 import walk
@@ -31,6 +32,7 @@ MODULES = (
     error_map,
     real_video,
     reliability,
+    soak,
     sweep,
 )
 
