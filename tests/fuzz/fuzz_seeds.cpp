@@ -1,5 +1,5 @@
 // Good files from which the fuzzers of the readers start: fuzz_seeds FOLDER makes FOLDER/fuzz_picture,
-// fuzz_video and fuzz_camera_file.
+// fuzz_video, fuzz_camera_file and fuzz_template.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "files/camera_info.h"
+#include "files/template_file.h"
 #include "support/made_video.h"
 
 namespace {
@@ -45,6 +46,28 @@ void make_videos(const fs::path& folder) {
   }
 }
 
+heel::CameraModel small_camera() {
+  heel::CameraModel camera;
+  camera.width_px = 64;
+  camera.height_px = 48;
+  camera.fx = camera.fy = 60.0;
+  camera.cx = 32.0;
+  camera.cy = 24.0;
+  return camera;
+}
+
+void make_templates(const fs::path& folder) {
+  heel::ShirtTemplate shirt;
+  shirt.camera = small_camera();
+  shirt.grey.assign(64 * 48, 128);
+  shirt.roi = {8, 8, 40, 32};
+  shirt.distance_m = 1.5;
+  heel::write_template(shirt, folder / "small.heel");
+  shirt.yaw_rad = 0.5;
+  shirt.turned = true;
+  heel::write_template(shirt, folder / "turned.heel");
+}
+
 void make_camera_files(const fs::path& folder) {
   heel::CameraModel camera;
   camera.width_px = 640;
@@ -75,11 +98,12 @@ int main(int argc, char** argv) {
   if (argc != 2) return 2;
   try {
     const fs::path folder = argv[1];
-    for (const char* name : {"fuzz_picture", "fuzz_video", "fuzz_camera_file"})
+    for (const char* name : {"fuzz_picture", "fuzz_video", "fuzz_camera_file", "fuzz_template"})
       fs::create_directories(folder / name);
     make_pictures(folder / "fuzz_picture");
     make_videos(folder / "fuzz_video");
     make_camera_files(folder / "fuzz_camera_file");
+    make_templates(folder / "fuzz_template");
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "fuzz_seeds: %s\n", error.what());

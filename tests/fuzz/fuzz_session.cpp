@@ -47,9 +47,11 @@ void tick(ArcosSession& session, const VelocityCommand& command, TimeNs now_ns, 
 void connect(ArcosSession& session, TimeNs& now_ns, const RobotConfig& config) {
   arcos::Sip sip;
   sip.flags = arcos::kFlagMotorsEnabled;
+  // A robot that heeld does not know would not be driven.
+  const arcos::RobotIdentity robot{arcos::Text("robot"), arcos::Text("Pioneer"), arcos::Text("p3at-sh")};
   const arcos::Frame said[] = {arcos::encode_plain(arcos::CommandId::Sync0),
                                arcos::encode_plain(arcos::CommandId::Sync1),
-                               arcos::encode_sync2_echo({}),
+                               arcos::encode_sync2_echo(robot),
                                arcos::encode_sip(sip),
                                arcos::encode_config({}),
                                arcos::encode_sip(sip)};
