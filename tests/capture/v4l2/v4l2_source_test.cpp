@@ -93,6 +93,25 @@ TEST_F(V4l2SourceTest, FramesOfEachUncompressedFormatAndStride) {
   }
 }
 
+TEST_F(V4l2SourceTest, OfFramesOfTwoFieldsTheSecondIsNotSeen) {
+  camera_.formats = {V4L2_PIX_FMT_YUYV};
+  camera_.field = V4L2_FIELD_INTERLACED;
+  V4l2Source source = make();
+  ASSERT_EQ(source.open(), OpenResult::Opened) << source.problem();
+  EXPECT_THAT(source.description(), HasSubstr("interlaced: every second row is used"));
+  ScriptedFrame frame = made(0, 2);
+  for (std::uint32_t y = 1; y < kHeight; y += 2) {
+    for (std::uint32_t x = 0; x < kWidth; ++x) frame.bytes[(y * kWidth + x) * 2] = 255;
+  }
+  camera_.frames.push_back(frame);
+  ASSERT_EQ(source.wait_frame(0, frame_), FrameResult::Frame) << source.problem();
+  for (std::uint32_t x = 0; x < kWidth; ++x) {
+    EXPECT_EQ(frame_.grey[x], luma(x, 0, 0));
+    EXPECT_EQ(frame_.grey[frame_.stride_bytes + x], luma(x, 1, 0)) << "the mean of its neighbours";
+    EXPECT_EQ(frame_.grey[2 * frame_.stride_bytes + x], luma(x, 2, 0));
+  }
+}
+
 TEST_F(V4l2SourceTest, MotionJpegIsDecodedAndDamagedImagesAreCountedAndSkipped) {
   camera_.formats = {V4L2_PIX_FMT_MJPEG};
   cv::Mat image(kHeight, kWidth, CV_8UC1, cv::Scalar(77));
