@@ -4,6 +4,7 @@
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <poll.h>
 #include <sys/socket.h>
 
 #include <cerrno>
@@ -85,7 +86,14 @@ void TcpTransport::refuse(const FileDescriptor& client) {
   news_.emplace_back("another client refused: one is connected");
 }
 
+/// It may have left bytes that are not read yet.
+bool TcpTransport::client_has_closed() const {
+  pollfd line{client_.get(), POLLRDHUP, 0};
+  return ::poll(&line, 1, 0) == 1 && (line.revents & (POLLRDHUP | POLLHUP | POLLERR)) != 0;
+}
+
 void TcpTransport::look_at_next_client() {
+  if (client_has_closed()) return;  // the next one waits until the last bytes are read
   FileDescriptor other = accept_one();
   if (!other.valid()) return;
   const auto silent = Clock::now() - t_heard_;

@@ -31,6 +31,7 @@ class TcpTransport : public Transport {
   using Clock = std::chrono::steady_clock;
 
   FileDescriptor accept_one();
+  bool client_has_closed() const;
   void look_at_next_client();
   void refuse(const FileDescriptor& client);
 

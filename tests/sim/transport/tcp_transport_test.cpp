@@ -65,6 +65,26 @@ TEST(TcpTransport, AClientThatSpeaksKeepsItsPlaceAndAnotherIsTold) {
   EXPECT_TRUE(hears(transport));
 }
 
+TEST(TcpTransport, AClientThatComesAtOnceAfterAnotherHasClosedIsServed) {
+  TcpTransport transport("127.0.0.1", 0, std::chrono::minutes(10));
+  FileDescriptor first = client_of(transport);
+  ASSERT_TRUE(becomes_present(transport));
+  say(first);
+  first.close();
+  const FileDescriptor next = client_of(transport);
+  EXPECT_TRUE(transport.client_present()) << "its last byte is not read yet";
+  EXPECT_TRUE(hears(transport));
+  std::array<std::uint8_t, 8> into{};
+  ASSERT_TRUE(test::eventually([&] {
+    transport.read(into);
+    return !transport.client_present();
+  })) << "the caller sees that it has gone";
+  ASSERT_TRUE(becomes_present(transport));
+  EXPECT_EQ(transport.take_news(), "") << "nobody was refused";
+  say(next);
+  EXPECT_TRUE(hears(transport));
+}
+
 TEST(TcpTransport, AClientThatHasFallenSilentGivesWay) {
   TcpTransport transport("127.0.0.1", 0, std::chrono::milliseconds(0));
   const FileDescriptor half_dead = client_of(transport);
