@@ -40,12 +40,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 /// What fills COMPREPLY for a value of this row; empty: nothing is known of it.
 std::string bash_action(const OptionRow& row, const ProgramText& program) {
   if (!row.choices.empty())

@@ -25,13 +25,9 @@ std::string zsh_text(const std::string& text) {
 /// ":NAME:ACTION" of a value.
 std::string zsh_value(const OptionRow& row, const ProgramText& program) {
   const std::string name = zsh_text(row.names.empty() ? row.argument : row.value);
-  std::string words;
-  for (const std::string& choice : row.choices) words += (words.empty() ? "" : " ") + choice;
-  if (const auto values = program.values.find(row.value); words.empty() && values != program.values.end()) {
-    for (const std::string& one : values->second) words += (words.empty() ? "" : " ") + one;
-    return fmt::format(":{}:compadd -S \"\" {}", name, words);
-  }
-  if (!words.empty()) return fmt::format(":{}:({})", name, words);
+  if (!row.choices.empty()) return fmt::format(":{}:({})", name, joined(row.choices));
+  if (const auto values = program.values.find(row.value); values != program.values.end())
+    return fmt::format(":{}:compadd -S \"\" {}", name, joined(values->second));
   std::string extension;
   switch (completes(row.value, &extension)) {
     case Completes::Files:
@@ -47,8 +43,8 @@ std::string zsh_value(const OptionRow& row, const ProgramText& program) {
 /// A line for each name of an option, or for the argument.
 std::string specs_of(const OptionRow& row, const ProgramText& program) {
   if (row.names.empty()) return fmt::format("    '{}{}'\n", row.repeats ? "*" : "", zsh_value(row, program));
-  std::string all, text;
-  for (const std::string& name : row.names) all += (all.empty() ? "" : " ") + name;
+  const std::string all = joined(row.names);
+  std::string text;
   for (const std::string& name : row.names)
     text += fmt::format("    '{}{}[{}]{}'\n", row.repeats ? "*" : "(" + all + ")", name,
                         zsh_text(first_sentence(row.description)),
