@@ -5,8 +5,7 @@ endfunction()
 
 # heel_test(NAME [SOURCES …] DEPENDS … [PROGRAMS …] [COUNTS_ALLOCATIONS] [REAL_TIME] [SERIAL] [THREADS] [MEASURES]
 # [MEASURING_TESTS …] [AS_ONE ENTRY]): a GoogleTest program of every .cpp in the current folder, or of SOURCES; each of its tests is a ctest entry.
-# PROGRAMS: heel, heeld, heel-sim: the built programs it runs; their paths are HEEL_PROGRAM, HEELD_PROGRAM,
-# HEEL_SIM_PROGRAM.
+# PROGRAMS: heel, heeld, heel-sim: the built programs it runs, by test::built_program (support/process.h).
 # COUNTS_ALLOCATIONS: links support/allocation_count.cpp, which takes the place of the C library's malloc.
 # REAL_TIME: its tests run in real time: no two such tests at once.
 # SERIAL: its tests must not be late at all: they do not share the machine with any other.
@@ -37,14 +36,12 @@ function(heel_test name)
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
   target_link_libraries(${name} PRIVATE heel_options heel_test_support ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
   foreach(program IN LISTS ARG_PROGRAMS)
-    string(TOUPPER ${program} macro)
-    string(REPLACE "-" "_" macro ${macro})
-    target_compile_definitions(${name} PRIVATE ${macro}_PROGRAM="$<TARGET_FILE:${program}>")
     add_dependencies(${name} ${program})
   endforeach()
   # What is tested keeps its optimisation and is compiled file by file; the tests are joined, which halves their build.
   if(NOT CMAKE_BUILD_TYPE STREQUAL Debug)
-    target_compile_options(${name} PRIVATE -O1 -Wno-subobject-linkage)
+    # Paths relative to the source, so that ccache takes what another checkout has compiled.
+    target_compile_options(${name} PRIVATE -O1 -Wno-subobject-linkage -fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON)
     heel_compile_alone(${CMAKE_SOURCE_DIR}/tests/support/allocation_count.cpp)  # takes the C library's place
     heel_precompiled_test(${name})

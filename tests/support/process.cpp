@@ -112,6 +112,10 @@ bool Process::says(const std::string& text, double timeout_s) {
   return found;
 }
 
+std::string built_program(const std::string& name) {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+}
+
 Outcome run_program(const std::vector<std::string>& argv, const std::string& out_path) {
   const TemporaryFolder folder;
   const std::string out = out_path.empty() ? folder.file("out") : out_path;

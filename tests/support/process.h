@@ -52,6 +52,9 @@ class Process {
   int status_ = 0;
 };
 
+/// The path of a program of this build: it is in the folder of the test that runs.
+std::string built_program(const std::string& name);
+
 /// What a program that ran to its end has left.
 struct Outcome {
   int status = -1;  ///< exit status, or −signal; −1000 when it was killed because it did not end

@@ -11,6 +11,7 @@
 #include "core/random.h"
 #include "support/process.h"
 #include "support/temporary_folder.h"
+#include "support/test_data.h"
 #include "support/text.h"
 
 extern "C" {
@@ -85,9 +86,9 @@ int feed_folder(const FuzzTarget& target, const fs::path& folder) {
 
 TEST(FuzzCorpora, EveryTargetTakesItsInputsAndDamagedCopiesOfThem) {
   const test::TemporaryFolder made;
-  ASSERT_EQ(test::run_program({FUZZ_SEEDS_PROGRAM, made.path().string()}).status, 0);
+  ASSERT_EQ(test::run_program({test::built_program("fuzz_seeds"), made.path().string()}).status, 0);
   for (const FuzzTarget& target : kFuzzTargets) {
-    const int kept = feed_folder(target, fs::path(HEEL_FUZZ_CORPORA) / target.name);
+    const int kept = feed_folder(target, fs::path(test::source_path("tests/fuzz/corpora")) / target.name);
     EXPECT_GT(kept + feed_folder(target, made.path() / target.name), 1) << target.name;
   }
 }

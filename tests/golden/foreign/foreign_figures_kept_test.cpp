@@ -29,8 +29,8 @@ class ForeignFiguresKept : public ::testing::Test {
     if (!test::has_data(kSet)) return;
     const test::TemporaryFolder folder;
     const std::string out = folder.path().string();
-    const test::Outcome outcome =
-        test::run_program({HEEL_PROGRAM, "experiment", "foreign", "--data", test::data_path(), "-o", out});
+    const test::Outcome outcome = test::run_program(
+        {test::built_program("heel"), "experiment", "foreign", "--data", test::data_path(), "-o", out});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const auto samples = evaluation::read_foreign(out + "/foreign.csv");
     for (const auto& group : evaluation::foreign_groups(samples)) figures()[group.name] = group.figures;
@@ -112,11 +112,17 @@ TEST_F(ForeignFiguresKept, NoShirtIsFoundWhereItIsNot) {
     for (const char* name : {"roi_x", "roi_y", "roi_w", "roi_h"})
       roi += (roi.empty() ? "" : ",") + truth.text(taught, name);
     const test::Outcome teach = test::run_program(
-        {HEEL_PROGRAM, "teach", "--image", image(taught), "--roi", roi, "--distance",
+        {test::built_program("heel"), "teach", "--image", image(taught), "--roi", roi, "--distance",
          truth.text(taught, "teach_distance_m"), "--camera-info", camera, "--reach-time", "0", "-o", shirt});
     ASSERT_EQ(teach.status, 0) << image(taught) << ": " << teach.err;
-    std::vector<std::string> argv = {HEEL_PROGRAM, "pose", "--independent", "--json",
-                                     "--template", shirt,  "--camera-info", camera};
+    std::vector<std::string> argv = {test::built_program("heel"),
+                                     "pose",
+                                     "--independent",
+                                     "--json",
+                                     "--template",
+                                     shirt,
+                                     "--camera-info",
+                                     camera};
     std::vector<std::string> pictures;
     std::size_t others = 0;
     for (std::size_t row = 0; row < truth.rows(); ++row) {

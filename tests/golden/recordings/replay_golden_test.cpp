@@ -90,8 +90,9 @@ void make_again(const Reference& reference) {
       "length_m = 5\n[robot]\nx_m = -1.8\n";
   if (*reference.fault != '\0') scenario += std::string("faults = [\"") + reference.fault + "\"]\n";
   const test::Outcome run = test::run_program(
-      {HEEL_PROGRAM, "simulate", test::write_text(folder.file("walk.toml"), scenario), "--error-model",
-       test::source_path("tools/heel-sim/pose_noise/pictured.toml"), "--out", folder.file("run")});
+      {test::built_program("heel"), "simulate", test::write_text(folder.file("walk.toml"), scenario),
+       "--error-model", test::source_path("tools/heel-sim/pose_noise/pictured.toml"), "--out",
+       folder.file("run")});
   ASSERT_NE(run.status, 2) << run.err;
   OutputFile file(reference_path(reference));
   file.write(shrunk(folder.file("run/run.mcap")));

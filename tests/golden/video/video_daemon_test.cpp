@@ -97,11 +97,11 @@ class VideoDrivesHeeld : public ::testing::Test {
 /// Runs heeld on the cut video until the video ends; what the robot received is in wire.hex.
 void drive(const VideoScene& scene) {
   const std::string config = scene.write_config(kGainYaw_1_s, "file:" + scene.cut_frames(kFirst, kLast));
-  Process robot({HEEL_SIM_PROGRAM, "--robot", "pty:" + scene.file("robot"), "--exact", "--wire",
-                 scene.file("wire.hex")},
+  Process robot({test::built_program("heel-sim"), "--robot", "pty:" + scene.file("robot"), "--exact",
+                 "--wire", scene.file("wire.hex")},
                 scene.file("robot.log"));
   ASSERT_TRUE(robot.says("ready at")) << robot.output();
-  Process daemon({HEELD_PROGRAM, "--config", config}, scene.file("heeld.log"));
+  Process daemon({test::built_program("heeld"), "--config", config}, scene.file("heeld.log"));
   ASSERT_EQ(daemon.wait(kVideo_s + kPatience_s), 0) << daemon.output() << robot.output();
   ASSERT_TRUE(robot.says("closed")) << daemon.output() << robot.output();
   robot.signal(SIGTERM);

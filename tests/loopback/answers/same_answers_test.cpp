@@ -112,8 +112,8 @@ class SameAnswers : public ::testing::Test {
   }
 
   std::vector<json> poses_of_heel_pose(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> argv = {HEEL_PROGRAM,      "pose",        "--json", "--config",
-                                     path("heel.toml"), path("frames")};
+    std::vector<std::string> argv = {test::built_program("heel"), "pose",        "--json", "--config",
+                                     path("heel.toml"),           path("frames")};
     argv.insert(argv.end(), more.begin(), more.end());
     const Outcome outcome = run_program(argv);
     EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -128,8 +128,8 @@ class SameAnswers : public ::testing::Test {
                      "duration_s = 10\nvision_latency_ms = 10\n"
                      "[camera]\nsource = \"file:frames\"\ninfo = \"camera.yaml\"\nrate_hz = 5\n");
     const Outcome outcome =
-        run_program({HEEL_PROGRAM, "simulate", path("scenario.toml"), "--config", path("heel.toml"),
-                     "--template", path("shirt.heel"), "--out", path("lockstep")});
+        run_program({test::built_program("heel"), "simulate", path("scenario.toml"), "--config",
+                     path("heel.toml"), "--template", path("shirt.heel"), "--out", path("lockstep")});
     EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
     return recorded_poses(test::exported(path("lockstep")) + "/poses.csv");
   }
@@ -137,9 +137,9 @@ class SameAnswers : public ::testing::Test {
   /// One run of the daemon; empty when the busy machine made it drop or delay a frame.
   std::vector<PoseColumns> poses_of_heeld() const {
     std::filesystem::remove_all(path("run"));
-    Process robot({HEEL_SIM_PROGRAM, "--robot", "pty:" + path("robot")}, path("robot.log"));
+    Process robot({test::built_program("heel-sim"), "--robot", "pty:" + path("robot")}, path("robot.log"));
     EXPECT_TRUE(robot.says("ready at")) << robot.output();
-    Process daemon({HEELD_PROGRAM, "--config", path("heel.toml")}, path("heeld.log"));
+    Process daemon({test::built_program("heeld"), "--config", path("heel.toml")}, path("heeld.log"));
     EXPECT_EQ(daemon.wait(), 0) << daemon.output();
     const std::vector<PoseColumns> rows = recorded_poses(test::exported(path("run")) + "/poses.csv");
     if (rows.size() != kFrames) return {};
@@ -188,7 +188,8 @@ TEST_F(SameAnswers, IndependentPicturesAreEachAnsweredAsASinglePicture) {
   bool differs = false;
   for (int i = 0; i < kFrames; i += test::kSanitized ? 8 : 4) {
     const std::string image = path("frames/" + std::to_string(i) + ".png");
-    const Outcome alone = run_program({HEEL_PROGRAM, "pose", "--json", "--config", path("heel.toml"), image});
+    const Outcome alone =
+        run_program({test::built_program("heel"), "pose", "--json", "--config", path("heel.toml"), image});
     ASSERT_EQ(alone.status, 0) << alone.err;
     const auto k = static_cast<std::size_t>(i);
     EXPECT_EQ(numbers_of(json::parse(alone.out)), numbers_of(together[k])) << i;

@@ -20,7 +20,8 @@ TEST_F(Latency, IsTheWayOfEachFrameToItsCommand) {
   test::sleep_s(1.0);
   daemon_->signal(SIGTERM);
   ASSERT_EQ(daemon_->wait(), 0) << logs();
-  const test::Outcome outcome = test::run_program({HEEL_PROGRAM, "latency", scene_.path(""), "--json"});
+  const test::Outcome outcome =
+      test::run_program({test::built_program("heel"), "latency", scene_.path(""), "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto told = nlohmann::json::parse(outcome.out);
   EXPECT_GT(told["commands"], 15);
@@ -41,7 +42,7 @@ TEST_F(Latency, IsTheWayOfEachFrameToItsCommand) {
 
 TEST(BenchDaemon, MeasuresAHeeldThatFollows) {
   const test::Outcome outcome =
-      test::run_program({HEEL_PROGRAM, "bench", "daemon", "--seconds", "1", "--json"});
+      test::run_program({test::built_program("heel"), "bench", "daemon", "--seconds", "1", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto told = nlohmann::json::parse(outcome.out);
   double sum = 0.0;

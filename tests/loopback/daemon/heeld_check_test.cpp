@@ -27,7 +27,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 Outcome heeld(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), HEELD_PROGRAM);
+  arguments.insert(arguments.begin(), test::built_program("heeld"));
   return run_program(arguments);
 }
 
@@ -94,7 +94,7 @@ TEST(HeeldCheck, FilesItRefersToAreLoaded) {
 TEST(HeeldCheck, ACameraWhoseModuleIsNotInstalledIsNamedWithTheFile) {
   const Scene scene(1);
   const std::string alone = scene.path("heeld");
-  std::filesystem::copy_file(HEELD_PROGRAM, alone);
+  std::filesystem::copy_file(test::built_program("heeld"), alone);
   const Outcome outcome = run_program({alone, "--config", scene.write_config()});
   EXPECT_EQ(outcome.status, kExitConfiguration);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("camera address 'file:"), HasSubstr("camera-file.so"),

@@ -22,7 +22,7 @@ class HeeldFixture : public ::testing::Test {
   explicit HeeldFixture(int frames = kFramesOfALongFile) : scene_(frames) {}
 
   void start_robot(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> argv = {HEEL_SIM_PROGRAM,
+    std::vector<std::string> argv = {test::built_program("heel-sim"),
                                      "--robot",
                                      "pty:" + scene_.path("robot"),
                                      "--exact",
@@ -39,9 +39,9 @@ class HeeldFixture : public ::testing::Test {
   }
   void start_heeld(const std::string& config) { start_heeld(config, notify_.path()); }
   void start_heeld(const std::string& config, const std::string& notify_socket) {
-    daemon_ = std::make_unique<Process>(std::vector<std::string>{HEELD_PROGRAM, "--config", config},
-                                        scene_.path("heeld.log"),
-                                        std::map<std::string, std::string>{{"NOTIFY_SOCKET", notify_socket}});
+    daemon_ = std::make_unique<Process>(
+        std::vector<std::string>{test::built_program("heeld"), "--config", config}, scene_.path("heeld.log"),
+        std::map<std::string, std::string>{{"NOTIFY_SOCKET", notify_socket}});
   }
   double speed() const { return newest_truth(scene_.path("truth.csv")).v_m_s; }
   bool starts_to_drive() {

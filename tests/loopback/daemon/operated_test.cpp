@@ -175,7 +175,7 @@ TEST_F(OperatedHeeld, TheSocketOfADeadHeeldIsReplacedAndThatOfALiveOneIsNot) {
   const std::string config = operated_config();
   start_heeld(config);
   ASSERT_TRUE(daemon_->says("operators are served at")) << logs();
-  test::Process second({HEELD_PROGRAM, "--config", config});
+  test::Process second({test::built_program("heeld"), "--config", config});
   EXPECT_EQ(second.wait(), 78);
   EXPECT_THAT(second.output(), HasSubstr("operator.socket: " + socket() + ": another process serves it"));
   {
@@ -199,7 +199,7 @@ TEST_F(OperatedHeeld, TheSocketOfADeadHeeldIsReplacedAndThatOfALiveOneIsNot) {
 TEST_F(OperatedHeeld, ASecondHeeldDoesNotTouchTheRobotOfTheFirst) {
   const std::string config = operated_config();
   get_ready(config);
-  test::Process second({HEELD_PROGRAM, "--config", config});
+  test::Process second({test::built_program("heeld"), "--config", config});
   EXPECT_EQ(second.wait(), 78);
   EXPECT_THAT(second.output(), HasSubstr("another process serves it"));
   EXPECT_FALSE(robot_->says("closed", 1.0)) << "the session of the first" << logs();

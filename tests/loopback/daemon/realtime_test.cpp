@@ -112,16 +112,16 @@ TEST_F(RealTimeHeeld, ATickThatIsTooLateIsAFaultThatStopsTheRobot) {
   EXPECT_TRUE(daemon_->says("at rest: control too late")) << logs();
 }
 
-#ifdef HEEL_HOT_TRAP
+#ifdef HEEL_HAVE_HOT_TRAP
 
 class TrappedHeeld : public RealTimeHeeld {
  protected:
   void start_trapped(std::map<std::string, std::string> environment = {}) {
-    environment["LD_PRELOAD"] = HEEL_HOT_TRAP;
+    environment["LD_PRELOAD"] = test::built_program("libheel_hot_trap.so");
     environment["NOTIFY_SOCKET"] = notify_.path();
     daemon_ = std::make_unique<test::Process>(
-        std::vector<std::string>{HEELD_PROGRAM, "--config", live_config(false)}, scene_.path("heeld.log"),
-        environment);
+        std::vector<std::string>{test::built_program("heeld"), "--config", live_config(false)},
+        scene_.path("heeld.log"), environment);
   }
 };
 
@@ -157,7 +157,7 @@ TEST_F(TrappedHeeld, AnAllocationInAHotThreadEndsItWithTheThreadsNameAndABacktra
   EXPECT_EQ(ended, 3);
 }
 
-#endif  // HEEL_HOT_TRAP
+#endif  // HEEL_HAVE_HOT_TRAP
 
 }  // namespace
 }  // namespace heel

@@ -43,7 +43,7 @@ struct Sim {
     if (start != std::string::npos) address = line.substr(start + 9, line.find('\n', start) - start - 9);
   }
   static std::vector<std::string> arguments(const std::string& robot, std::vector<std::string> options) {
-    options.insert(options.begin(), {HEEL_SIM_PROGRAM, "--robot", robot});
+    options.insert(options.begin(), {test::built_program("heel-sim"), "--robot", robot});
     return options;
   }
 
@@ -358,7 +358,7 @@ class HeelSimOptions : public testing::TestWithParam<BadOption> {};
 
 TEST_P(HeelSimOptions, AreRefusedByNameAndExpectation) {
   std::vector<std::string> argv = GetParam().arguments;
-  argv.insert(argv.begin(), HEEL_SIM_PROGRAM);
+  argv.insert(argv.begin(), test::built_program("heel-sim"));
   Process process(argv);
   EXPECT_GT(process.wait(), 0);
   EXPECT_NE(process.output().find(GetParam().complaint), std::string::npos) << process.output();

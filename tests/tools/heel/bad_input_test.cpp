@@ -224,7 +224,7 @@ TEST(GoodUsage, HelpAndVersionGoToStandardOutput) {
 }
 
 TEST(GoodUsage, AFullDiskAtStandardOutputIsReported) {
-  const Outcome outcome = test::run_program({HEEL_PROGRAM, "--help"}, "/dev/full");
+  const Outcome outcome = test::run_program({test::built_program("heel"), "--help"}, "/dev/full");
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.err, HasSubstr("standard output cannot be written"));
 }

@@ -128,7 +128,8 @@ TEST_F(HeelOperator, SetAndSaveShowTheDifference) {
 }
 
 TEST_F(HeelOperator, WatchPrintsALineAtEachChange) {
-  const test::Process watch({HEEL_PROGRAM, "watch", "--socket", socket_, "--period", "60", "--alive"});
+  const test::Process watch(
+      {test::built_program("heel"), "watch", "--socket", socket_, "--period", "60", "--alive"});
   const auto says = [&](const char* text) {
     return test::eventually([&] { return watch.output().find(text) != std::string::npos; });
   };
@@ -144,7 +145,7 @@ class WatchOnATerminal {
   explicit WatchOnATerminal(const std::string& socket, const std::string& variable = "HEEL_TEST=1") {
     const winsize size{24, 80, 0, 0};
     // Made before the fork: between it and exec nothing may allocate, because other threads run.
-    std::string program = HEEL_PROGRAM, watch = "watch", option = "--socket", name = socket,
+    std::string program = test::built_program("heel"), watch = "watch", option = "--socket", name = socket,
                 kind = "TERM=xterm", more = variable;
     std::vector<char*> arguments{program.data(), watch.data(), option.data(), name.data(), nullptr};
     std::vector<char*> environment{kind.data(), more.data()};
@@ -237,7 +238,7 @@ TEST_F(HeelOperator, ASignalEndsTheViewAndLeavesTheTerminalAsItWas) {
 }
 
 TEST_F(HeelOperator, TheSocketIsNamedByAVariable) {
-  test::Process heel({HEEL_PROGRAM, "status"}, "", {{"HEEL_SOCKET", socket_}});
+  test::Process heel({test::built_program("heel"), "status"}, "", {{"HEEL_SOCKET", socket_}});
   EXPECT_EQ(heel.wait(), 0);
   EXPECT_THAT(heel.output(), StartsWith("IDLE\n"));
 }
@@ -291,7 +292,7 @@ TEST(HeelOperatorWithoutHeeld, AStartWithoutAnAnswerClosesItsConnection) {
 TEST(HeelOperatorWithoutHeeld, WatchPrintsWhyItsConnectionIsClosed) {
   const test::TemporaryFolder folder;
   LocalSocket heeld(folder.file("control.sock"));
-  test::Process watch({HEEL_PROGRAM, "watch", "--json", "--socket", heeld.path()});
+  test::Process watch({test::built_program("heel"), "watch", "--json", "--socket", heeld.path()});
   int fd = -1;
   ASSERT_TRUE(test::eventually([&] { return (fd = heeld.accept(monotonic_now_ns())) >= 0; }));
   {

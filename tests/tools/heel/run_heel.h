@@ -10,7 +10,7 @@
 namespace heel::test {
 
 inline Outcome run_heel(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), HEEL_PROGRAM);
+  arguments.insert(arguments.begin(), test::built_program("heel"));
   return run_program(arguments);
 }
 
