@@ -36,6 +36,7 @@ void add_teach_command(CLI::App& app);
 void add_pose_command(CLI::App& app);
 void add_features_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
+void add_tune_command(CLI::App& app);
 void add_merge_command(CLI::App& app);
 void add_report_command(CLI::App& app);
 void add_experiment_command(CLI::App& app);

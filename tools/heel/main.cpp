@@ -22,6 +22,7 @@ void add_commands(CLI::App& app) {
   add_pose_command(app);
   add_features_command(app);
   add_simulate_command(app);
+  add_tune_command(app);
   add_merge_command(app);
   add_experiment_command(app);
   add_fit_command(app);

@@ -72,6 +72,13 @@ std::map<std::string, CommandText> simulation() {
                 {"heel simulate walk.toml --error-model vision.toml --runs 200 --json",
                  "statistics over 200 seeds, without drawing pictures"}},
                "a limit is not met")},
+      {"tune",
+       offline({{"heel tune gait.toml walk.toml --error-model pictured.toml --config heel.toml -o heel.toml "
+                 "--picture tune.png",
+                 "better gains of the law, into the configuration, and a picture"},
+                {"heel tune walk.toml --error-model pictured.toml --key control.gain_yaw_1_s --json",
+                 "one key; nothing is written"}},
+               "no better values found")},
       {"merge", offline({{"heel merge runs/*.json", "tables over the runs of many processes"},
                          {"heel merge runs/*.json --json > sweep.json", "for programs"}},
                         "a run has not met a limit")},

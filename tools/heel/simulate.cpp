@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
@@ -17,26 +16,6 @@
 
 namespace heel::cli {
 namespace {
-
-/// The scenario files that the arguments name; a folder stands for the *.toml in it, in the order of their
-/// names.
-std::vector<std::string> scenario_files(const std::vector<std::string>& arguments) {
-  namespace fs = std::filesystem;
-  std::vector<std::string> files;
-  for (const std::string& argument : arguments) {
-    if (!fs::is_directory(argument)) {
-      files.push_back(argument);
-      continue;
-    }
-    std::vector<std::string> in_folder;
-    for (const auto& entry : fs::directory_iterator(argument))
-      if (entry.path().extension() == ".toml") in_folder.push_back(entry.path().string());
-    if (in_folder.empty()) throw Error(argument + ": no scenario in this folder (expected *.toml)");
-    std::sort(in_folder.begin(), in_folder.end());
-    files.insert(files.end(), in_folder.begin(), in_folder.end());
-  }
-  return files;
-}
 
 bool is_folder_name(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {

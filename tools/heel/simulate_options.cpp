@@ -1,10 +1,31 @@
 #include "simulate_options.h"
 
+#include <algorithm>
+#include <filesystem>
+
 #include "config/config_load.h"
 #include "files/template_file.h"
 #include "heel/error.h"
 
 namespace heel::cli {
+
+std::vector<std::string> scenario_files(const std::vector<std::string>& arguments) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> files;
+  for (const std::string& argument : arguments) {
+    if (!fs::is_directory(argument)) {
+      files.push_back(argument);
+      continue;
+    }
+    std::vector<std::string> in_folder;
+    for (const auto& entry : fs::directory_iterator(argument))
+      if (entry.path().extension() == ".toml") in_folder.push_back(entry.path().string());
+    if (in_folder.empty()) throw Error(argument + ": no scenario in this folder (expected *.toml)");
+    std::sort(in_folder.begin(), in_folder.end());
+    files.insert(files.end(), in_folder.begin(), in_folder.end());
+  }
+  return files;
+}
 
 sim::Scenario scenario_of(const SimulateOptions& options, const std::string& file) {
   sim::Scenario scenario = sim::read_scenario(file);

@@ -28,6 +28,10 @@ struct SimulateOptions {
   evaluation::FollowCriteria criteria;
 };
 
+/// The scenario files that the arguments name; a folder stands for the *.toml in it, in the order of their
+/// names. Throws heel::Error for a folder without any.
+std::vector<std::string> scenario_files(const std::vector<std::string>& arguments);
+
 /// The scenario in `file` with the seed and duration of the options. Throws heel::Error.
 sim::Scenario scenario_of(const SimulateOptions& options, const std::string& file);
 
