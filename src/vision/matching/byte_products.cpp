@@ -145,9 +145,12 @@ std::size_t PlacesAbove(std::span<const std::int16_t> row, std::int16_t limit, s
   const auto threshold = hn::Set(d, limit);
   std::size_t count = 0;
   for (std::size_t i = 0; i < row.size(); i += n) {
-    if (hn::AllFalse(d, hn::Gt(hn::Load(d, row.data() + i), threshold))) continue;
-    for (std::size_t l = i; l < i + n; ++l)
-      if (row[l] > limit) out[count++] = static_cast<std::int32_t>(l);
+    const auto above = hn::Gt(hn::Load(d, row.data() + i), threshold);
+    if (hn::AllFalse(d, above)) continue;
+    std::uint64_t bits = 0;  // one a lane
+    hn::StoreMaskBits(d, above, reinterpret_cast<std::uint8_t*>(&bits));
+    for (; bits != 0; bits &= bits - 1)
+      out[count++] = static_cast<std::int32_t>(i + hwy::Num0BitsBelowLS1Bit_Nonzero64(bits));
   }
   return count;
 }
