@@ -2,14 +2,49 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "config/config_load.h"
+#include "config/config_table.h"
 #include "config/config_text.h"
 #include "daemon/inputs.h"
+#include "heel/error.h"
+#include "operator/web/config_json.h"
 #include "operator/web/exposure.h"
 
 namespace heel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json keys_of(const LoadedConfig& loaded) {
+  Json keys = Json::array();
+  for (std::size_t i = 0; i < config_keys().size(); ++i) {
+    const ConfigKey& key = config_keys()[i];
+    keys.push_back({{"key", key.full_name()},
+                    {"value", config_value_json(key, loaded.config)},
+                    {"line", loaded.line_of[i]}});
+  }
+  return keys;
+}
+
+/// Throws as check_configuration does.
+void add_what_it_holds(Json& answer, const std::string& path) {
+  const LoadedConfig loaded = load_config(path);
+  const Inputs inputs = load_inputs(loaded.config);
+  answer["keys"] = keys_of(loaded);
+  answer["camera"] = {{"file", loaded.config.camera.info},
+                      {"width_px", inputs.camera.width_px},
+                      {"height_px", inputs.camera.height_px},
+                      {"fx", inputs.camera.fx},
+                      {"fy", inputs.camera.fy}};
+  answer["templates"] = template_lines(loaded.config, inputs);
+  answer["page"] = page_exposure(loaded.config.view);
+}
+
+}  // namespace
 
 void check_configuration(const std::string& path) {
   const LoadedConfig loaded = load_config(path);
@@ -21,6 +56,21 @@ void check_configuration(const std::string& path) {
   const std::string exposure = page_exposure(loaded.config.view);
   if (!exposure.empty()) fmt::print("{}\n", exposure);
   fmt::print("{}: valid\n", path);
+}
+
+CheckAnswer check_configuration_as_json(const std::string& path) {
+  std::vector<std::string> errors;
+  Json answer{{"file", path}};
+  try {
+    add_what_it_holds(answer, path);
+  } catch (const ConfigError& error) {
+    errors = error.lines();
+  } catch (const Error& error) {
+    errors = {error.what()};
+  }
+  answer["valid"] = errors.empty();
+  answer["errors"] = errors;
+  return {errors.empty(), answer.dump(2)};
 }
 
 }  // namespace heel

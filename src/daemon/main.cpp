@@ -25,6 +25,7 @@ constexpr int kExitUsage = 64;
 struct Options {
   std::string config;
   bool check = false;
+  bool json = false;
   bool print_default_config = false;
   bool print_config_manual = false;
   bool print_state_manual = false;
@@ -49,6 +50,7 @@ heel::commandline::ProgramText manual_text() {
       {kExitUsage, "the command line cannot be used"},
       {kExitConfiguration, "the configuration or a file that it names cannot be used, or none is given"}};
   text.commands[""] = {{{"heeld --config /etc/heel/heel.toml --check", "every value and where it comes from"},
+                        {"heeld --config heel.toml --check --json | jq -r .errors[]", "for scripts"},
                         {"heeld --config heel.toml", "runs until SIGINT or SIGTERM"},
                         {"heeld --print-default-config > heel.toml", "a file to begin with"}},
                        {}};
@@ -92,6 +94,11 @@ int run(const Options& options) {
     std::fputs(heel::commandline::config_man_page().c_str(), stdout);
     return 0;
   }
+  if (options.check && options.json) {
+    const heel::CheckAnswer answer = heel::check_configuration_as_json(options.config);
+    std::printf("%s\n", answer.json.c_str());
+    return answer.valid ? 0 : kExitConfiguration;
+  }
   if (options.check) {
     heel::check_configuration(options.config);
     return 0;
@@ -109,10 +116,12 @@ int run(int argc, char** argv) {
       app.add_option("--config", options.config, "Configuration file (TOML); see docs/configuration.md")
           ->type_name("FILE")
           ->check(not_empty);
-  app.add_flag(
-         "--check", options.check,
-         "Check the configuration and the files it refers to, print every value with its origin, and exit")
-      ->needs(config);
+  auto* check = app.add_flag(
+      "--check", options.check,
+      "Check the configuration and the files it refers to, print every value with its origin, and exit");
+  check->needs(config);
+  app.add_flag("--json", options.json, "With --check: one JSON object, also of an invalid configuration")
+      ->needs(check);
   auto* print = app.add_flag("--print-default-config", options.print_default_config,
                              "Print a configuration file with every key at its default value, and exit");
   auto* manual = app.add_flag("--print-config-manual", options.print_config_manual,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "files/template_file.h"
 #include "heel/shirt_template.h"
@@ -81,6 +82,40 @@ TEST(HeeldCheck, AllErrorsOfAFileAreReported) {
   EXPECT_EQ(outcome.err,
             place_of(config, "v_max") + ":1: gate.v_max: no such key; did you mean gate.v_max_m_s?\n" +
                 place_of(config, "separation_m") + ":16: gate.separation_m: -1 (expected a number 0…5 m)\n");
+}
+
+TEST(HeeldCheck, JsonHasTheValuesOrTheErrorsOfAFile) {
+  const Scene scene(1);
+  const auto check = [&](const std::string& sections) {
+    const Outcome outcome =
+        heeld({"--config", scene.write_config({.sections = sections}), "--check", "--json"});
+    EXPECT_EQ(outcome.err, "");
+    auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(outcome.status, json.at("valid").get<bool>() ? 0 : kExitConfiguration);
+    return json;
+  };
+  const auto good = check("[gate]\nv_max_m_s = 0.5\n");
+  EXPECT_TRUE(good.at("valid"));
+  EXPECT_TRUE(good.at("errors").empty());
+  EXPECT_EQ(good.at("camera").at("width_px"), 640);
+  int set = 0, by_default = 0;
+  for (const auto& key : good.at("keys")) {
+    if (key.at("key") == "gate.v_max_m_s") {
+      EXPECT_EQ(key.at("value"), 0.5);
+      EXPECT_GT(key.at("line"), 0);
+      ++set;
+    }
+    by_default += key.at("line") == 0;
+  }
+  EXPECT_EQ(set, 1);
+  EXPECT_GT(by_default, 50);
+
+  const auto bad = check("[gate]\nv_max = 0.5\nseparation_m = -1\n");
+  EXPECT_FALSE(bad.at("valid"));
+  EXPECT_EQ(bad.at("errors").size(), 2U);
+  EXPECT_THAT(bad.at("errors")[0].get<std::string>(), HasSubstr("did you mean gate.v_max_m_s?"));
+  EXPECT_FALSE(bad.contains("keys"));
+  EXPECT_EQ(heeld({"--config", scene.write_config(), "--json"}).status, kExitUsage) << "without --check";
 }
 
 TEST(HeeldCheck, FilesItRefersToAreLoaded) {
