@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench_load.h"
+#include "bench_viewers.h"
 #include "commands.h"
 #include "core/config.h"
 #include "evaluation/benchmarks/machine.h"
@@ -28,6 +29,7 @@ constexpr const char* kCyclictest = "/usr/bin/cyclictest";
 constexpr double kControlSettle_s = 2.0;
 constexpr int kLongest_us = 1000000;
 constexpr double kGoalRatio = 1.2;         // of cyclictest's lateness
+constexpr int kViewers = 5;                // of the page, with pictures
 constexpr double kGoalLoadedRatio = 1.05;  // of the loaded p99.9 to the idle one
 
 struct BenchControlOptions {
@@ -83,19 +85,22 @@ std::vector<double> cyclictest_times_us(const std::string& json_file) {
 
 struct Beside {
   Lateness heeld, cyclictest;
-  std::size_t sets = 0, watched = 0;  ///< what the load did
+  std::size_t sets = 0, watched = 0, pictures = 0;  ///< what the load did
 };
 
 /// Both at once: the same priority, period, load and time.
 Beside measure(const BenchControlOptions& options, bool loaded) {
   const Config defaults;
   const double period_us = 1e6 / defaults.control.rate_hz;
-  SimulatedWalk walk({.pictures = loaded ? "lossless" : "none", .camera = loaded});
+  SimulatedWalk walk({.pictures = loaded ? "lossless" : "none",
+                      .more_config = loaded ? "[view]\naddress = \"127.0.0.1:0\"\n" : "",
+                      .camera = loaded});
   if (loaded) {
     walk.wait_until_following(kControlSettle_s);
   } else {
     walk.wait_until_linked();
   }
+  auto viewers = loaded ? std::make_unique<BenchViewers>(walk.page_port(), kViewers) : nullptr;
   auto load = loaded ? std::make_unique<BenchLoad>(walk.file(""), walk.socket()) : nullptr;
   const std::string result = walk.file("cyclictest.json");
   Beside beside;
@@ -111,8 +116,10 @@ Beside measure(const BenchControlOptions& options, bool loaded) {
   }
   TickLateness ticks(begin_ns, monotonic_now_ns());
   if (load) beside.sets = load->sets(), beside.watched = load->watched();
+  if (viewers) beside.pictures = viewers->pictures();
   walk.daemon().require_running();
   load.reset();
+  viewers.reset();
   walk.end();
   read_recording(recording_in(walk.file("recordings")), ticks);
   beside.heeld = lateness_of(std::move(ticks.times_us), period_us);
@@ -132,6 +139,7 @@ ControlJson json_of(const Beside& beside) {
       {"p50", h.p50_us / c.p50_us}, {"p99", h.p99_us / c.p99_us}, {"p99_9", h.p999_us / c.p999_us}};
   json["sets"] = beside.sets;
   json["watched_lines"] = beside.watched;
+  json["viewed_pictures"] = beside.pictures;
   return json;
 }
 
@@ -155,6 +163,8 @@ void run_bench_control(const BenchControlOptions& options) {
     std::cout << fmt::format("{:<7} {:<11} {:>8} {:>9} {:>9} {:>9} {:>9} {:>7}\n", "µs", "", "ticks", "p50",
                              "p99", "p99.9", "max", "missed")
               << rows("idle", idle) << rows("loaded", loaded)
+              << fmt::format("loaded by: {} `set`, {} lines to watchers, {} pictures to {} viewers\n",
+                             loaded.sets, loaded.watched, loaded.pictures, kViewers)
               << fmt::format("p99.9 loaded / idle: {:.2f} (goal {:.2f}); cyclictest's: {:.2f}\n",
                              loaded_to_idle, kGoalLoadedRatio, yardstick);
     return;
@@ -175,14 +185,15 @@ void run_bench_control(const BenchControlOptions& options) {
 
 void add_bench_control_command(CLI::App& bench) {
   auto options = std::make_shared<BenchControlOptions>();
-  CLI::App* command = bench.add_subcommand("control",
-                                           "How late the control ticks of heeld start, beside cyclictest of "
-                                           "the same priority and period at the same\n"
-                                           "time: idle (no pictures), then loaded: vision follows, every "
-                                           "picture is recorded, a core is busy, the disk and\n"
-                                           "the network are, and five watchers, ten `set` and twenty marks a "
-                                           "second ask. Needs real-time priorities\n"
-                                           "(root, or CAP_SYS_NICE) and the Debian package rt-tests.");
+  CLI::App* command = bench.add_subcommand(
+      "control",
+      "How late the control ticks of heeld start, beside cyclictest of "
+      "the same priority and period at the same\n"
+      "time: idle (no pictures), then loaded: vision follows, every "
+      "picture is recorded, a core is busy, the disk and\n"
+      "the network are, five people look at the page, and five watchers, ten `set` and twenty marks "
+      "a second ask. Needs real-time priorities\n"
+      "(root, or CAP_SYS_NICE) and the Debian package rt-tests.");
   command->add_option("--seconds", options->seconds, "of each of the two")
       ->type_name("S")
       ->check(number_from(2.0, 3600.0))

@@ -124,8 +124,11 @@ void measure_stopping(const ExperimentOptions& options, ExperimentResults& resul
   if (options.error_model.empty())
     throw Error("stopping needs --error-model FILE (expected as for heel simulate)");
   const Config config = options.config_file.empty() ? Config{} : load_config(options.config_file).config;
+  commandline::Progress progress(std::string(kStopping) + ", stops");
   const auto stops =
-      evaluation::measure_stops(config, sim::read_error_model(options.error_model), options.seed);
+      evaluation::measure_stops(config, sim::read_error_model(options.error_model), options.seed,
+                                [&](std::size_t done, std::size_t of) { progress.show(done, of); });
+  progress.clear();
   const std::string file = options.out + "/" + kStopping + ".csv";
   evaluation::write_stop_distances(stops, file);
   results.add(kStopping, {{"file", file}, {"stops", stops.size()}},

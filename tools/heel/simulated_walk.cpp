@@ -131,6 +131,13 @@ void SimulatedWalk::wait_until_linked() {
   daemon_->wait_for("link to the robot: running", kStartTimeout_s);
 }
 
+std::uint16_t SimulatedWalk::page_port() {
+  const std::string before = "the page is served at 127.0.0.1:0, port ";
+  daemon_->wait_for(before, kStartTimeout_s);
+  const std::string log = daemon_->output();
+  return static_cast<std::uint16_t>(std::stoi(log.substr(log.find(before) + before.size())));
+}
+
 bool SimulatedWalk::follows() {
   world_->require_running();
   daemon_->require_running();

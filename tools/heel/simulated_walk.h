@@ -2,6 +2,7 @@
 // is taught, the configuration written, and both run until this object ends.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -30,6 +31,8 @@ class SimulatedWalk {
   void wait_until_linked();
   /// Waits until the robot follows the person, and then so long. Throws heel::Error.
   void wait_until_following(double and_then_s);
+  /// The port of heeld's page, of a walk whose configuration serves it. Throws heel::Error.
+  std::uint16_t page_port();
   /// True: it follows now. Throws heel::Error when one of the programs has ended.
   bool follows();
 

@@ -148,9 +148,13 @@ FamilyDrive drive_model(const std::string& subclass, const Config& config, std::
   return drive;
 }
 
-std::vector<FamilyDrive> drive_family(const Config& config, std::uint64_t seed) {
+std::vector<FamilyDrive> drive_family(const Config& config, std::uint64_t seed,
+                                      const ProgressCallback& on_progress) {
   std::vector<FamilyDrive> drives;
-  for (const RobotModel& model : robot_models()) drives.push_back(drive_model(model.subclass, config, seed));
+  for (const RobotModel& model : robot_models()) {
+    drives.push_back(drive_model(model.subclass, config, seed));
+    on_progress(drives.size(), robot_models().size());
+  }
   return drives;
 }
 

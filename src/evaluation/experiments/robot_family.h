@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/config.h"
+#include "evaluation/experiments/progress_callback.h"
 
 namespace heel::evaluation {
 
@@ -24,8 +25,9 @@ struct FamilyDrive {
 /// Throws heel::Error when the robot is not known, or is refused.
 FamilyDrive drive_model(const std::string& subclass, const Config& config, std::uint64_t seed);
 
-/// All that heel knows, in the order of robot_models().
-std::vector<FamilyDrive> drive_family(const Config& config, std::uint64_t seed);
+/// All that heel knows, in the order of robot_models(). `on_progress` counts robots.
+std::vector<FamilyDrive> drive_family(const Config& config, std::uint64_t seed,
+                                      const ProgressCallback& on_progress);
 
 /// CSV, a row a robot.
 void write_family(const std::vector<FamilyDrive>& drives, const std::string& path);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "evaluation/experiments/progress_callback.h"
 #include "evaluation/experiments/still_image_scene.h"
 
 namespace heel::evaluation {
@@ -33,7 +34,6 @@ const std::vector<StillImageExperiment>& still_image_experiments();
 
 /// Takes the picture of a case with the case's index.
 using PictureCallback = std::function<void(std::size_t index, const std::vector<std::uint8_t>& grey)>;
-using ProgressCallback = std::function<void(std::size_t done, std::size_t of)>;
 
 /// Renders and estimates all cases, two rows for each (StillImageScene::estimate_pair). `on_picture` is
 /// called with the second picture of every case, `on_progress` after each world; both may be empty.

@@ -117,12 +117,16 @@ StopDistance measure_stop(StopTrigger trigger, double v_m_s, const Config& confi
 }
 
 std::vector<StopDistance> measure_stops(const Config& config, const sim::ErrorModel& errors,
-                                        std::uint64_t first_seed) {
+                                        std::uint64_t first_seed, const ProgressCallback& on_progress) {
   std::vector<StopDistance> stops;
-  for (const double v_m_s : stop_speeds_m_s(config))
+  const std::vector<double> speeds_m_s = stop_speeds_m_s(config);
+  const std::size_t all = speeds_m_s.size() * std::size(kStopTriggers) * kSeeds;
+  for (const double v_m_s : speeds_m_s)
     for (const StopTrigger trigger : kStopTriggers)
-      for (std::uint64_t seed = first_seed; seed < first_seed + kSeeds; ++seed)
+      for (std::uint64_t seed = first_seed; seed < first_seed + kSeeds; ++seed) {
         stops.push_back(measure_stop(trigger, v_m_s, config, errors, seed));
+        on_progress(stops.size(), all);
+      }
   return stops;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/config.h"
+#include "evaluation/experiments/progress_callback.h"
 #include "sim/pose_noise/error_model.h"
 
 namespace heel::evaluation {
@@ -39,9 +40,9 @@ std::vector<double> stop_speeds_m_s(const Config& config);
 StopDistance measure_stop(StopTrigger trigger, double v_m_s, const Config& config,
                           const sim::ErrorModel& errors, std::uint64_t seed);
 
-/// By each trigger at each of these speeds, with five seeds from `first_seed`.
+/// By each trigger at each of these speeds, with five seeds from `first_seed`. `on_progress` counts stops.
 std::vector<StopDistance> measure_stops(const Config& config, const sim::ErrorModel& errors,
-                                        std::uint64_t first_seed);
+                                        std::uint64_t first_seed, const ProgressCallback& on_progress);
 
 /// CSV, a row a stop.
 void write_stop_distances(const std::vector<StopDistance>& stops, const std::string& path);

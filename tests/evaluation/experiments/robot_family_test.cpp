@@ -12,8 +12,14 @@ namespace {
 
 TEST(RobotFamily, OdometryIsTheTruthAndTheWallIsKeptClear) {
   const Config config;
-  const std::vector<FamilyDrive> drives = drive_family(config, 3);
+  std::vector<std::pair<std::size_t, std::size_t>> progress;
+  const std::vector<FamilyDrive> drives = drive_family(config, 3, [&](std::size_t done, std::size_t of) {
+    progress.push_back({done, of});
+  });
   ASSERT_EQ(drives.size(), robot_models().size());
+  ASSERT_EQ(progress.size(), drives.size());
+  EXPECT_EQ(progress.front(), (std::pair<std::size_t, std::size_t>(1, drives.size())));
+  EXPECT_EQ(progress.back().first, progress.back().second);
   for (const FamilyDrive& drive : drives) {
     SCOPED_TRACE(drive.subclass);
     EXPECT_GE(drive.straight_truth_m, 5.0);
