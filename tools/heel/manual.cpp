@@ -41,6 +41,12 @@ std::map<std::string, CommandText> files_and_pictures() {
                           "--camera-info camera.yaml -o shirt.heel",
                           "from the camera, now"}},
                         "the shirt is refused, the reason is printed")},
+      {"preflight",
+       offline(
+           {{"heel preflight --config /etc/heel/heel.toml", "all steps, the wheels stand still"},
+            {"heel preflight --config heel.toml wheels --wheels-on-blocks", "do they turn the right way?"},
+            {"heel preflight --config heel.toml camera person --json", "two steps, for programs"}},
+           "a step failed")},
       {"pose",
        offline({{"heel pose --config /etc/heel/heel.toml walk.mp4", "a table, a row for each frame"},
                 {"heel pose --template shirt.heel --camera-info camera.yaml walk.mp4 --json > poses.jsonl",

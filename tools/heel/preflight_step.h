@@ -1,0 +1,53 @@
+// One step of `heel preflight`: what was measured, and whether it is good enough to drive with.
+#pragma once
+
+#include <atomic>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/config.h"
+
+namespace heel::cli {
+
+enum class StepVerdict { Pass, Fail, Skipped };
+
+struct PreflightStep {
+  std::string name;
+  StepVerdict verdict = StepVerdict::Skipped;
+  std::string measured{};           ///< one line
+  std::string advice{};             ///< one line, of a step that failed
+  nlohmann::ordered_json values{};  ///< the same numbers, for programs
+
+  PreflightStep& pass(std::string what) {
+    verdict = StepVerdict::Pass;
+    measured = std::move(what);
+    return *this;
+  }
+  PreflightStep& fail(std::string what, std::string what_to_do) {
+    verdict = StepVerdict::Fail;
+    measured = std::move(what);
+    advice = std::move(what_to_do);
+    return *this;
+  }
+};
+
+/// Set by SIGINT and SIGTERM: the robot is stopped and nothing more is begun.
+inline std::atomic<bool> g_preflight_interrupted{false};
+
+// The steps, in the order in which each needs those before it. None throws for what it judges; what it needs
+// and cannot have (a file, a device that another program holds) is a failed step.
+
+/// Opens the camera and looks for three seconds: rate, damage, faults of the picture.
+PreflightStep check_camera(const Config& config);
+/// The camera's calibration: it exists, and is of pictures of this size.
+PreflightStep check_calibration(const Config& config);
+/// The template is usable; with a camera that shows the person: it is found, upright, and as far as it says.
+PreflightStep check_shirt(const Config& config);
+PreflightStep check_person(const Config& config);
+/// The robot answers, is one that heel knows, its battery is charged, its sonars are heard. It stands still.
+PreflightStep check_robot(const Config& config);
+/// Drives the wheels forwards and to the left, each for a second, slowly, and compares odometry. For a robot
+/// on blocks.
+PreflightStep check_wheels(const Config& config);
+
+}  // namespace heel::cli
