@@ -22,6 +22,7 @@ constexpr double kLeastBandedShare = 0.6;  // of what differs between two pictur
 constexpr double kFewestBands = 1.5, kMostBands = 12.0, kBandsStep = 0.5;
 constexpr int kFlickeringOf16 = 8;
 constexpr int kCombedOf32 = 6;
+constexpr int kEdgesEvery = 3;
 
 constexpr double kHuntingSwing = 0.18;  // logarithm of the brightness: 20 %
 constexpr TimeNs kHuntingTime_ns = 4 * kNsPerS;
@@ -71,28 +72,28 @@ double FlickerDetector::banded_share(const Bands& difference) const {
   return best / power;
 }
 
-bool FlickerDetector::update(const PictureStatistics& now) {
+bool FlickerDetector::update(const PictureBrightness& now) {
   std::array<Bands, 2> differences{};
   bool banded = any_;
   for (std::size_t half = 0; half < 2; ++half) {
     double mean = 0.0;
-    for (std::size_t i = 0; i < PictureStatistics::kBands; ++i) {
-      const auto brightness = static_cast<float>(log_grey(now.bands[half][i]));
+    for (std::size_t i = 0; i < PictureBrightness::kBands; ++i) {
+      const float brightness = std::log(now.bands[half][i] + 1.f);
       differences[half][i] = brightness - before_[half][i];
       before_[half][i] = brightness;
-      mean += differences[half][i] / static_cast<double>(PictureStatistics::kBands);
+      mean += differences[half][i] / static_cast<double>(PictureBrightness::kBands);
     }
     for (float& d : differences[half]) d -= static_cast<float>(mean);
   }
   any_ = true;
   if (!banded) return false;
   double product = 0.0, left = 0.0, right = 0.0;
-  for (std::size_t i = 0; i < PictureStatistics::kBands; ++i) {
+  for (std::size_t i = 0; i < PictureBrightness::kBands; ++i) {
     product += differences[0][i] * differences[1][i];
     left += differences[0][i] * differences[0][i];
     right += differences[1][i] * differences[1][i];
   }
-  const double least = kLeastFlicker * kLeastFlicker / 2.0 * static_cast<double>(PictureStatistics::kBands);
+  const double least = kLeastFlicker * kLeastFlicker / 2.0 * static_cast<double>(PictureBrightness::kBands);
   constexpr double kLeastCorrelation = 0.8;
   if (left < least || right < least || product < kLeastCorrelation * std::sqrt(left * right)) return false;
   return banded_share(differences[0]) > kLeastBandedShare && banded_share(differences[1]) > kLeastBandedShare;
@@ -121,6 +122,7 @@ void PictureMonitor::reset() {
   flicker_detector_.reset();
   hunting_detector_.reset();
   flickering_ = combed_ = 0;
+  pictures_to_edges_ = 0;
 }
 
 PictureFault PictureMonitor::update(const FrameView& frame) {
@@ -132,11 +134,15 @@ PictureFault PictureMonitor::update(const FrameView& frame) {
     reset();
   last_ = header;
 
-  const PictureStatistics now = picture_statistics(frame);
-  const bool is_dark = now.mean < kDarkMean && now.detail < kDarkDetail;
+  const PictureBrightness now = picture_brightness(frame);
+  if (pictures_to_edges_-- == 0) {
+    pictures_to_edges_ = kEdgesEvery - 1;
+    edges_ = picture_edges(frame);
+    combed_ = combed_ << 1 | static_cast<std::uint32_t>(edges_.comb > kLeastComb);
+  }
+  const bool is_dark = now.mean < kDarkMean && edges_.detail < kDarkDetail;
   const bool is_too_bright = now.mean > kBrightMean && now.darkest > kBrightDarkest;
   flickering_ = flickering_ << 1 | static_cast<std::uint32_t>(flicker_detector_.update(now));
-  combed_ = combed_ << 1 | static_cast<std::uint32_t>(now.comb > kLeastComb);
 
   // Each is updated with every picture; the first that lasts is named.
   struct Named {
@@ -146,8 +152,8 @@ PictureFault PictureMonitor::update(const FrameView& frame) {
   const std::array<Named, 7> all = {{
       {dark_.update(is_dark, t_ns), PictureFault::Dark},
       {too_bright_.update(is_too_bright, t_ns), PictureFault::TooBright},
-      {no_detail_.update(now.detail < kLeastDetail, t_ns), PictureFault::NoDetail},
-      {out_of_focus_.update(now.edge_blur_px > kLargestBlur_px, t_ns), PictureFault::OutOfFocus},
+      {no_detail_.update(edges_.detail < kLeastDetail, t_ns), PictureFault::NoDetail},
+      {out_of_focus_.update(edges_.edge_blur_px > kLargestBlur_px, t_ns), PictureFault::OutOfFocus},
       {interlaced_.update(std::popcount(combed_) >= kCombedOf32, t_ns), PictureFault::Interlaced},
       {flicker_.update(std::popcount(flickering_ & 0xffffu) >= kFlickeringOf16, t_ns), PictureFault::Flicker},
       {hunting_.update(hunting_detector_.update(now.mean, t_ns), t_ns), PictureFault::ExposureHunting},

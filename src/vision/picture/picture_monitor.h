@@ -30,11 +30,11 @@ class FlickerDetector {
  public:
   FlickerDetector();
   /// Whether bands as strong as 3 % differ between this picture and the one before.
-  bool update(const PictureStatistics& now);
+  bool update(const PictureBrightness& now);
   void reset() { any_ = false; }
 
  private:
-  using Bands = std::array<float, PictureStatistics::kBands>;
+  using Bands = std::array<float, PictureBrightness::kBands>;
   double banded_share(const Bands& difference) const;
 
   std::vector<Bands> sines_;  // sine and cosine in turn, a pair for each number of bands
@@ -57,8 +57,9 @@ class HuntingDetector {
   bool any_ = false;
 };
 
-/// The same frames in the same order give the same faults. A gap of more than a second, or another size,
-/// starts it again. Allocates nothing after construction.
+/// Brightness is looked at in each picture, since light that flickers needs two pictures in a row; edges in
+/// every third. The same frames in the same order give the same faults. A gap of more than a second, or
+/// another size, starts it again. Allocates nothing after construction.
 class PictureMonitor {
  public:
   /// The fault of the pictures up to this one that hides most.
@@ -73,7 +74,9 @@ class PictureMonitor {
   LastingCondition flicker_{0}, interlaced_{0}, hunting_{0};
   FlickerDetector flicker_detector_;
   HuntingDetector hunting_detector_;
-  std::uint32_t flickering_ = 0, combed_ = 0;  // bits: the last 32 pictures, the newest lowest
+  PictureEdges edges_;                         // of the last picture in which they were looked at
+  int pictures_to_edges_ = 0;                  // to come before they are looked at again
+  std::uint32_t flickering_ = 0, combed_ = 0;  // bits: the last 32 that were looked at, the newest lowest
 };
 
 }  // namespace heel

@@ -75,7 +75,7 @@ double sharper(double a, double b) {
   return std::min(a, b);
 }
 
-void measure_edges(const FrameView& frame, int width, int height, PictureStatistics& out) {
+void measure_edges(const FrameView& frame, int width, int height, PictureEdges& out) {
   const double scale = std::max(1.0, width / 640.0);
   const int reach = static_cast<int>(std::lround(6.0 * scale));
   LineSample across, down;
@@ -89,13 +89,13 @@ void measure_edges(const FrameView& frame, int width, int height, PictureStatist
 }
 
 /// Mean of each band's halves, and the distribution of the brightness.
-void measure_brightness(const FrameView& frame, int width, int height, PictureStatistics& out) {
+void measure_brightness(const FrameView& frame, int width, int height, PictureBrightness& out) {
   std::array<int, 256> counts{};
   int total = 0;
-  for (std::size_t band = 0; band < PictureStatistics::kBands; ++band) {
-    const int first = static_cast<int>(band) * height / static_cast<int>(PictureStatistics::kBands);
+  for (std::size_t band = 0; band < PictureBrightness::kBands; ++band) {
+    const int first = static_cast<int>(band) * height / static_cast<int>(PictureBrightness::kBands);
     const int end = std::max(
-        first + 1, static_cast<int>(band + 1) * height / static_cast<int>(PictureStatistics::kBands));
+        first + 1, static_cast<int>(band + 1) * height / static_cast<int>(PictureBrightness::kBands));
     std::array<int, 2> sums{}, numbers{};
     for (int y = first; y < end; y += std::max(1, (end - first) / 2)) {
       for (int column = 0; column < kBandColumns; ++column) {
@@ -124,7 +124,7 @@ void measure_brightness(const FrameView& frame, int width, int height, PictureSt
 
 /// Two fields of different times show a moving upright edge at two places: rows alternate there. A pattern of
 /// thin lines across alternates as well, but has no upright edges.
-void measure_comb(const FrameView& frame, int width, int height, PictureStatistics& out) {
+void measure_comb(const FrameView& frame, int width, int height, PictureEdges& out) {
   int edges = 0, combed = 0;
   for (int y = 1; y + 2 < height; y += 8) {
     for (int x = 2; x + 2 < width; x += 4) {
@@ -139,16 +139,30 @@ void measure_comb(const FrameView& frame, int width, int height, PictureStatisti
   out.comb = edges < kFewestEdges ? 0.0 : static_cast<double>(combed) / edges;
 }
 
+struct Size {
+  int width, height;
+  bool large_enough() const { return width >= kLeast_px && height >= kLeast_px; }
+};
+
+Size size_of(const FrameView& frame) {
+  return {static_cast<int>(frame.header.width_px), static_cast<int>(frame.header.height_px)};
+}
+
 }  // namespace
 
-PictureStatistics picture_statistics(const FrameView& frame) {
-  PictureStatistics out;
-  const int width = static_cast<int>(frame.header.width_px),
-            height = static_cast<int>(frame.header.height_px);
-  if (width < kLeast_px || height < kLeast_px) return out;
-  measure_brightness(frame, width, height, out);
-  measure_edges(frame, width, height, out);
-  measure_comb(frame, width, height, out);
+PictureBrightness picture_brightness(const FrameView& frame) {
+  PictureBrightness out;
+  const Size size = size_of(frame);
+  if (size.large_enough()) measure_brightness(frame, size.width, size.height, out);
+  return out;
+}
+
+PictureEdges picture_edges(const FrameView& frame) {
+  PictureEdges out;
+  const Size size = size_of(frame);
+  if (!size.large_enough()) return out;
+  measure_edges(frame, size.width, size.height, out);
+  measure_comb(frame, size.width, size.height, out);
   return out;
 }
 
