@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "files/one_field.h"
+
 namespace heel {
 
 void LumaConverter::configure(PixelFormat format, std::uint32_t width_px, std::uint32_t height_px,
@@ -36,17 +38,11 @@ bool LumaConverter::convert(const std::uint8_t* buffer, std::size_t used_bytes, 
 
 /// The picture in grey_, with the rows 1, 3, … from those above and below.
 Luma LumaConverter::one_field(const Luma& luma) {
-  const auto row_of = [&](std::uint32_t y) { return grey_.data() + std::size_t{y} * width_px_; };
   if (luma.data != grey_.data())
     for (std::uint32_t y = 0; y < height_px_; y += 2)
-      std::memcpy(row_of(y), luma.data + std::size_t{y} * luma.stride_bytes, width_px_);
-  for (std::uint32_t y = 1; y < height_px_; y += 2) {
-    const std::uint8_t* above = row_of(y - 1);
-    const std::uint8_t* below = y + 1 < height_px_ ? row_of(y + 1) : above;
-    std::uint8_t* row = row_of(y);
-    for (std::uint32_t x = 0; x < width_px_; ++x)
-      row[x] = static_cast<std::uint8_t>((above[x] + below[x] + 1) / 2);
-  }
+      std::memcpy(grey_.data() + std::size_t{y} * width_px_, luma.data + std::size_t{y} * luma.stride_bytes,
+                  width_px_);
+  keep_one_field(grey_.data(), width_px_, height_px_, width_px_);
   return {grey_.data(), width_px_};
 }
 

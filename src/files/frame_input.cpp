@@ -52,12 +52,14 @@ struct FrameInput::Impl {
   double t_begin_s = 0.0;    // of the current file's first frame
   double t_last_s = 0.0;     // of the last frame
   int white = 0;             // of the deepest image so far
+  bool video_noted = false;  // the current one
   std::vector<std::string> notes;
   std::vector<std::string> problems;
 
   /// The current file's reader, opened at its first frame.
   VideoReader& current_video();
   cv::Mat read_image(const std::string& path);
+  void note_video();
   void end_video();
   void go_to_next_file();
   double video_time_s() const { return t_begin_s + video.time_s(); }
@@ -78,6 +80,12 @@ cv::Mat FrameInput::Impl::read_image(const std::string& path) {
   return image.grey;
 }
 
+void FrameInput::Impl::note_video() {
+  if (video_noted || video.note().empty()) return;
+  video_noted = true;
+  notes.push_back(files[current].path + ": " + video.note());
+}
+
 void FrameInput::Impl::end_video() {
   if (const std::string missing = video.missing(); !missing.empty())
     problems.push_back(files[current].path + ": " + missing);
@@ -86,6 +94,7 @@ void FrameInput::Impl::end_video() {
 
 void FrameInput::Impl::go_to_next_file() {
   video.close();
+  video_noted = false;
   ++current;
   t_begin_s = t_last_s + image_period_s;
 }
@@ -117,6 +126,7 @@ bool FrameInput::next(InputFrame& frame) {
       return true;
     }
     if (in.current_video().read(frame.grey)) {
+      in.note_video();
       frame.t_s = in.t_last_s = in.video_time_s();
       frame.number = in.number++;
       return true;

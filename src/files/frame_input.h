@@ -39,7 +39,7 @@ class FrameInput {
   /// Frames in all inputs as the files' headers state them; 0 when one does not.
   std::uint64_t stated_frame_count() const;
   /// Of the inputs passed so far: what was taken for the depth of their pixels, one line each time it
-  /// changes.
+  /// changes, and for interlaced videos.
   const std::vector<std::string>& notes() const;
   /// Of the inputs passed so far: those of which a part is missing, "walk.mkv: ends after 20 of 40 frames".
   const std::vector<std::string>& problems() const;

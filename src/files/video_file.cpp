@@ -76,6 +76,7 @@ bool VideoFile::open_file(const std::string& path) {
   for (const char* not_a_video : {"tty", "image2", "concat", "hls", "dash", "ffmetadata", "srt"}) {
     if (is_format(*file_, not_a_video)) return fail("no video");
   }
+  if (is_format(*file_, "matroska")) length_ = matroska_length(path);
   return true;
 }
 

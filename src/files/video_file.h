@@ -10,6 +10,7 @@ extern "C" {
 #include <memory>
 #include <string>
 
+#include "files/matroska_length.h"
 #include "files/orientation.h"
 
 namespace heel {
@@ -50,6 +51,8 @@ class VideoFile {
   std::uint64_t packets_left_in_index() const;
   /// When the video ends, counted from time 0 or from its first frame; 0 when the header does not say.
   double end_s() const;
+  /// Of Matroska and WebM files; of others it is unknown.
+  StatedLength length() const { return length_; }
   /// The number of frames of an AVI file, whose time stamps need not begin with 0; else 0.
   std::uint64_t avi_frame_count() const;
 
@@ -63,6 +66,7 @@ class VideoFile {
   std::unique_ptr<AVPacket, FreeBy<av_packet_free>> packet_{av_packet_alloc()};
   AVStream* stream_ = nullptr;
   int orientation_ = kAsStored;
+  StatedLength length_ = StatedLength::Unknown;
   std::string problem_;
   bool ended_ = false;
   bool cut_in_a_packet_ = false;

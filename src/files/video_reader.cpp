@@ -14,6 +14,7 @@ extern "C" {
 #include <thread>
 
 #include "files/jpeg_decoder.h"
+#include "files/one_field.h"
 #include "files/orientation.h"
 #include "files/video_file.h"
 
@@ -40,8 +41,9 @@ struct VideoReader::Decoder {
   std::unique_ptr<AVFrame, FreeBy<av_frame_free>> frame{av_frame_alloc()};
   std::unique_ptr<SwsContext, FreeScaler> scaler;
   JpegDecoder jpeg;
-  bool is_jpeg = false;  // Motion-JPEG, of which FFmpeg gives damaged frames without saying so
-  cv::Mat bgr, stored;   // stored: of Motion-JPEG, the frame
+  bool is_jpeg = false;     // Motion-JPEG, of which FFmpeg gives damaged frames without saying so
+  cv::Mat bgr, stored;      // stored: of Motion-JPEG, the frame
+  bool interlaced = false;  // of a frame so far, or as the header says
   std::string problem;
   std::string unconvertible;  // why a frame that was decoded could not be given; empty: none
 
@@ -75,6 +77,8 @@ bool VideoReader::Decoder::open_codec() {
   codec->thread_count =
       std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxDecoderThreads);
   is_jpeg = codec->codec_id == AV_CODEC_ID_MJPEG;
+  const AVFieldOrder order = stream.codecpar->field_order;
+  interlaced = order != AV_FIELD_UNKNOWN && order != AV_FIELD_PROGRESSIVE;
   if (avcodec_open2(codec.get(), decoder, nullptr) < 0) return false;
   // Some streams name their format only with the first frame.
   if (is_jpeg || codec->pix_fmt == AV_PIX_FMT_NONE || sws_isSupportedInput(codec->pix_fmt) != 0) return true;
@@ -123,6 +127,7 @@ bool VideoReader::Decoder::next_decoded_frame() {
       ++damaged;
       continue;
     }
+    interlaced = interlaced || frame->interlaced_frame != 0;
     stamp(frame->best_effort_timestamp);
     return true;
   }
@@ -160,16 +165,19 @@ bool VideoReader::Decoder::convert(cv::Mat& grey) {
   std::uint8_t* const planes[4] = {bgr.data, nullptr, nullptr, nullptr};
   const int strides[4] = {static_cast<int>(bgr.step), 0, 0, 0};
   sws_scale(scaler.get(), frame->data, frame->linesize, 0, frame->height, planes, strides);
-  if (file.orientation() == kAsStored) {
-    cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
-    return true;
+  const bool as_stored = file.orientation() == kAsStored;
+  cv::Mat& picture = as_stored ? grey : stored;
+  cv::cvtColor(bgr, picture, cv::COLOR_BGR2GRAY);
+  if (frame->interlaced_frame != 0) {
+    keep_one_field(picture.data, static_cast<std::uint32_t>(picture.cols),
+                   static_cast<std::uint32_t>(picture.rows), picture.step);
   }
-  cv::cvtColor(bgr, stored, cv::COLOR_BGR2GRAY);
-  grey = shown_picture(stored, file.orientation());
+  if (!as_stored) grey = shown_picture(stored, file.orientation());
   return true;
 }
 
 std::uint64_t VideoReader::Decoder::missing_frames() const {
+  if (file.length() == StatedLength::Complete) return 0;  // its last frame may be shown for seconds
   if (const std::uint64_t left = file.packets_left_in_index(); left > 0) return left;
   const double rate_hz = file.rate_hz();
   if (given == 0 || rate_hz <= 0.0) return 0;
@@ -209,6 +217,10 @@ bool VideoReader::read(cv::Mat& grey) {
   return decoder_->next_frame() && decoder_->convert(grey);
 }
 
+std::string VideoReader::note() const {
+  return decoder_->interlaced ? "interlaced: every second row is used" : "";
+}
+
 bool VideoReader::skip() {
   return decoder_->next_frame();
 }
@@ -221,6 +233,8 @@ std::string VideoReader::missing() const {
     return fmt::format("ends after {} of {} frames", d.given,
                        std::max(d.given + d.damaged + frames, d.file.avi_frame_count()));
   if (d.file.cut_in_a_packet()) return fmt::format("ends after {} frames, inside a frame", d.given);
+  if (d.file.length() == StatedLength::Short)
+    return fmt::format("ends after {} frames, before the end that it states", d.given);
   if (d.damaged > 0)
     return fmt::format("{} of {} frames are damaged and left out", d.damaged, d.given + d.damaged);
   return d.given > 0 ? "" : "no frame of it can be decoded";

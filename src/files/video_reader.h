@@ -25,6 +25,9 @@ class VideoReader {
 
   /// The next frame, 8-bit grey; false at the end. Damaged frames are left out.
   bool read(cv::Mat& grey);
+  /// What is taken for the pixels, when the header or a frame so far gives reason to: "interlaced: every
+  /// second row is used"; else empty.
+  std::string note() const;
   /// Passes over the next frame; false at the end.
   bool skip();
   /// At the end: what is missing of the video, as "ends after 20 of 40 frames"; empty when nothing is.

@@ -159,5 +159,20 @@ TEST_F(FrameInputTest, TheDepthOfPicturesIsSaidOnceAndKept) {
   EXPECT_THAT(input.notes()[0], ::testing::HasSubstr("3000.png: 16 bits a pixel, of which 12 are used"));
 }
 
+TEST_F(FrameInputTest, AnInterlacedVideoIsNotedOnce) {
+  test::MadeVideo video{.path = folder_.file("fields.mp4"), .greys = {}, .times_s = {}, .display_abcd = {}};
+  video.interlaced = true;
+  for (int i = 0; i < 3; ++i) {
+    video.greys.emplace_back(48, 64, CV_8U, cv::Scalar(100));
+    video.times_s.push_back(0.1 * i);
+  }
+  test::write_video(video);
+  FrameInput input({video.path, image("plain.png", 9), video.path}, 5.0);
+  for (InputFrame frame; input.next(frame);) {
+  }
+  const std::string note = video.path + ": interlaced: every second row is used";
+  EXPECT_EQ(input.notes(), (std::vector<std::string>{note, note})) << "one for each input";
+}
+
 }  // namespace
 }  // namespace heel

@@ -32,6 +32,22 @@ cv::Mat made_frame(int index) {
   return grey;
 }
 
+/// A Matroska file whose Segment has a size of such bytes in place of its own: '\xff' is unknown.
+std::string with_segment_size(std::string bytes, char size) {
+  const std::size_t at = bytes.find("\x18\x53\x80\x67\x01");
+  EXPECT_NE(at, std::string::npos);
+  return bytes.replace(at + 5, 7, 7, size);
+}
+
+/// A Matroska file as a WebM one, when its name ends so.
+std::string as_webm(std::string bytes, const std::string& name) {
+  const std::size_t at = bytes.find("\x42\x82\x88matroska");
+  EXPECT_NE(at, std::string::npos);
+  // The rest of the longer name becomes a Void element.
+  if (name.ends_with(".webm")) bytes.replace(at, 11, "\x42\x82\x84webm\xec\x82  ");
+  return bytes;
+}
+
 class Videos : public ::testing::Test {
  protected:
   MadeVideo walk(const std::string& name, int frames, double period_s = 0.05) {
@@ -175,6 +191,69 @@ TEST_F(Videos, WhoseLastFrameIsShownLongAreWhole) {
     write_video(video);
     EXPECT_EQ(times_of(video.path).size(), 10u) << name;
     EXPECT_EQ(reader.missing(), "") << name;
+  }
+}
+
+TEST_F(Videos, InMatroskaAreCutWhereTheFileIsShorterThanItStates) {
+  for (const char* name : {"walk.mkv", "walk.webm"}) {
+    SCOPED_TRACE(name);
+    MadeVideo video = walk(name, 10);
+    for (cv::Mat& grey : video.greys) cv::randu(grey, 0, 255);
+    video.path = folder.file("made.mkv");
+    video.last_shown_s = 3.0;
+    write_video(video);
+    const std::string whole = as_webm(test::read_text(video.path), name);
+    EXPECT_EQ(times_of(test::write_text(folder.file(name), whole)).size(), 10u);
+    EXPECT_EQ(reader.missing(), "");
+    const std::string void_element("\xec\x84lost", 6);
+    EXPECT_EQ(times_of(test::write_text(folder.file(name), whole + void_element)).size(), 10u);
+    EXPECT_EQ(reader.missing(), "") << "after the Segment";
+    for (std::size_t place = 1; place <= 20; ++place) {
+      const std::size_t bytes = place < 20 ? whole.size() * place / 20 : whole.size() - 1;
+      SCOPED_TRACE(bytes);
+      test::write_text(folder.file(name), whole.substr(0, bytes));
+      ASSERT_TRUE(reader.open(folder.file(name))) << reader.problem();
+      while (reader.skip()) {
+      }
+      EXPECT_THAT(reader.missing(), HasSubstr("ends after"));
+    }
+    for (const std::size_t unknown : {0u, 1u}) {
+      test::write_text(folder.file(name), with_segment_size(whole, unknown == 0 ? '\0' : '\xff'));
+      EXPECT_EQ(times_of(folder.file(name)).size(), 10u);
+      EXPECT_THAT(reader.missing(), HasSubstr("ends after 10 of")) << "by the time that it states";
+    }
+  }
+}
+
+TEST_F(Videos, InMatroskaWithoutASizeAreJudgedByTheirTimes) {
+  const MadeVideo video = walk("live.mkv", 10);
+  write_video(video);
+  const std::string live = with_segment_size(test::read_text(video.path), '\xff');
+  EXPECT_EQ(times_of(test::write_text(video.path, live)).size(), 10u);
+  EXPECT_EQ(reader.missing(), "");
+}
+
+TEST_F(Videos, OfInterlacedFramesGiveOneField) {
+  MadeVideo video = walk("fields.mp4", 2);
+  // The upper field of each frame is bright on the left, the lower one on the right.
+  for (cv::Mat& grey : video.greys) {
+    grey.setTo(60);
+    for (int y = 0; y < grey.rows; ++y)
+      grey.row(y).colRange(y % 2 == 0 ? 0 : kVideoWidth_px / 2,
+                           y % 2 == 0 ? kVideoWidth_px / 2 : kVideoWidth_px) = 200;
+  }
+  for (const bool interlaced : {false, true}) {
+    video.interlaced = interlaced;
+    write_video(video);
+    ASSERT_TRUE(reader.open(video.path));
+    cv::Mat grey;
+    ASSERT_TRUE(reader.read(grey));
+    for (int y = 4; y < kVideoHeight_px - 4; ++y) {
+      const bool lower_shown = !interlaced && y % 2 == 1;
+      EXPECT_NEAR(grey.at<std::uint8_t>(y, 8), lower_shown ? 60 : 200, 30) << y;
+      EXPECT_NEAR(grey.at<std::uint8_t>(y, kVideoWidth_px - 8), lower_shown ? 200 : 60, 30) << y;
+    }
+    EXPECT_EQ(reader.note(), interlaced ? "interlaced: every second row is used" : "");
   }
 }
 

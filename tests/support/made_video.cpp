@@ -49,6 +49,7 @@ class Writer {
     } else {
       fill(grey);
     }
+    frame_->interlaced_frame = frame_->top_field_first = video_.interlaced ? 1 : 0;
     frame_->pts = std::lround(t_s * video_.ticks_per_s);
     require(avcodec_send_frame(codec_, frame_) >= 0, "the encoder takes no frame");
     write_packets();
@@ -80,6 +81,7 @@ class Writer {
     codec_->max_b_frames = video_.b_frames;
     codec_->gop_size = 10;
     codec_->flags |= AV_CODEC_FLAG_QSCALE;
+    if (video_.interlaced) codec_->flags |= AV_CODEC_FLAG_INTERLACED_DCT;
     codec_->global_quality = 2 * FF_QP2LAMBDA;
     if ((file_->oformat->flags & AVFMT_GLOBALHEADER) != 0) codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
     require(avcodec_open2(codec_, encoder, nullptr) >= 0, "the encoder does not open");

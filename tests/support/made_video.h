@@ -17,6 +17,7 @@ struct MadeVideo {
   int ticks_per_s = 1000;            ///< of its clock; of AVI files: the frame rate
   double last_shown_s = 0.0;         ///< how long the last frame is shown; 0: as long as the one before it
   bool index_first = false;          ///< of an MP4 file, so that it can be read when its end is missing
+  bool interlaced = false;           ///< its frames say that they are two fields, row by row
   const char* raw_format = nullptr;  ///< FFmpeg's pixel format of black frames, not coded; null: MPEG-4
 };
 

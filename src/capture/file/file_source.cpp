@@ -71,6 +71,7 @@ OpenResult FileSource::open_video() {
   const cv::Size size_px = video.size_px();
   description_ =
       fmt::format("{}: video, {}x{} px at {:.4g} Hz", address_, size_px.width, size_px.height, own_rate_hz_);
+  if (!video.note().empty()) description_ += ", " + video.note();
   return OpenResult::Opened;
 }
 
