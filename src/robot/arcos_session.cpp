@@ -1,5 +1,5 @@
 // The line and the packets of the session. The steps that are due at a time: arcos_session_steps.cpp;
-// what the robot is: arcos_session_model.cpp.
+// what the robot is: arcos_session_model.cpp; a line that echoes: arcos_session_echo.cpp.
 #include "robot/arcos_session.h"
 
 #include "arcos/command_codec.h"
@@ -77,7 +77,7 @@ void ArcosSession::enter(Step step, TimeNs now_ns) {
 void ArcosSession::set_phase(LinkPhase phase) {
   const bool asks_again = phase == LinkPhase::Syncing;
   if (asks_again && is_refused(state_.kind.choice)) phase = LinkPhase::Refused;
-  if (asks_again && !reported_text_.text().empty()) phase = LinkPhase::Lost;
+  if (asks_again && (reported_echo_ || !reported_text_.text().empty())) phase = LinkPhase::Lost;
   state_.phase = phase;
 }
 
@@ -90,8 +90,9 @@ void ArcosSession::line_opened(TimeNs now_ns) {
   line_exhausted_ = false;
   heard_.clear();
   text_of_sweep_.clear();
+  echo_heard_ = echo_of_sweep_ = false;
   bytes_of_sweep_ = 0;
-  if (reported_text_.text().empty()) events_.push(now_ns, Kind::LineOpened);
+  if (!reported_echo_ && reported_text_.text().empty()) events_.push(now_ns, Kind::LineOpened);
   enter(Step::Listening, now_ns);
 }
 
@@ -149,6 +150,7 @@ void ArcosSession::copy_line_counters() {
 
 void ArcosSession::on_packet(const arcos::Packet& packet) {
   const std::uint8_t id = packet.id();
+  if (is_echo(packet)) return on_echo();
   if (step_ == Step::TryingRate) rate_confirmed(packet.t_first_byte_ns);
   if (arcos::is_sip(id)) {
     on_sip(packet);
@@ -169,12 +171,17 @@ void ArcosSession::on_sync_echo(std::uint8_t number, const arcos::Packet& packet
   } else if (step_ == Step::Sync1 && number == 1) {
     ask_sync(Step::Sync2, t_ns);
   } else if (step_ == Step::Sync2 && number == 2) {
+    if (may_be_echo_of_sync2(packet)) {
+      bare_sync2_ = true;
+      return;
+    }
     if (decode_sync2_echo(packet.body, identity_) != arcos::DecodeResult::Ok) {
       events_.push(t_ns, Kind::BadPacket, number);
       identity_ = arcos::RobotIdentity{};  // the names are lost
     }
     sweep_.found();
     reported_text_.clear();
+    reported_echo_ = false;
     line_exhausted_ = false;
     on_identity(identity_, t_ns);
   }

@@ -123,6 +123,14 @@ class ArcosSession {
     return std::min(config_.yaw_rate_limit_deg_s, model_->yaw_rate_max_deg_s);
   }
 
+  // arcos_session_echo.cpp
+  bool is_echo(const arcos::Packet& packet) const;
+  void on_echo();
+  bool looks_for_robot() const;
+  bool may_be_echo_of_sync2(const arcos::Packet& packet) const;
+  bool sweep_echoed() const;
+  void report_echo(TimeNs now_ns);
+
   // arcos_session_rate.cpp
   bool rate_can_rise() const;
   void ask_rate(Step step, int baud, TimeNs now_ns);
@@ -136,6 +144,8 @@ class ArcosSession {
   void queue_limits();
   void queue_enable();
   void flush_queue(TimeNs now_ns);
+
+  static constexpr int kSyncAttemptsPerBaud = 2;
 
   RobotConfig config_;
   BaudSweep sweep_;
@@ -151,7 +161,11 @@ class ArcosSession {
   HeardText heard_;          ///< at this rate
   HeardText text_of_sweep_;  ///< at any rate of the sweep
   std::uint64_t bytes_of_sweep_ = 0;
-  HeardText reported_text_;  ///< of the last OtherDevice since a robot answered
+  HeardText reported_text_;     ///< of the last OtherDevice since a robot answered
+  bool bare_sync2_ = false;     ///< SYNC2 came back as it was sent
+  bool echo_heard_ = false;     ///< at this rate
+  bool echo_of_sweep_ = false;  ///< what heeld sent came back
+  bool reported_echo_ = false;  ///< since a robot answered
   RobotState state_;
   arcos::RobotIdentity identity_;
 

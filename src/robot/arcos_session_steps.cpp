@@ -22,7 +22,6 @@ constexpr TimeNs kEnableRetry_ns = 700 * kNsPerMs;
 constexpr TimeNs kRefused_ns = 10 * kNsPerS;
 constexpr int kEnableAttempts = 3;
 constexpr std::uint64_t kLeastOtherBytes = 16;  // fewer may be noise of a line that is not connected
-constexpr int kSyncAttemptsPerBaud = 2;
 // The longest packet takes 0.27 s at 9600 baud: an incomplete packet that is older has lost bytes.
 constexpr TimeNs kPartialPacket_ns = 300 * kNsPerMs;
 
@@ -56,6 +55,7 @@ std::span<const std::uint8_t> ArcosSession::send(const VelocityCommand& command,
 
 void ArcosSession::take_due_steps(TimeNs now_ns) {
   const TimeNs in_step_ns = now_ns - t_step_ns_;
+  if (echo_heard_ && looks_for_robot()) return leave_rate(now_ns);
   switch (step_) {
     case Step::NoLine:
       return;
@@ -67,6 +67,7 @@ void ArcosSession::take_due_steps(TimeNs now_ns) {
       [[fallthrough]];
     case Step::Sync1:
     case Step::Sync2:
+      if (bare_sync2_ && in_step_ns >= kQuickEcho_ns) return retry_sync(now_ns);
       if (in_step_ns >= ns_from_seconds(config_.sync_retry_s)) retry_sync(now_ns);
       return;
     case Step::Closing:
@@ -108,6 +109,7 @@ void ArcosSession::ask_sync(Step step, TimeNs now_ns, bool close_first) {
                        : step == Step::Sync1 ? CommandId::Sync1
                                              : CommandId::Sync2;
   queue_.clear();
+  bare_sync2_ = false;
   // If only the last echo was lost, the robot is open, takes SYNC0 as PULSE and does not answer: it is closed
   // first. CLOSE has an argument, so that the robot cannot take it as SYNC2.
   if (close_first) queue_.push(arcos::encode_integer(CommandId::Close, 1));
@@ -126,17 +128,25 @@ void ArcosSession::retry_sync(TimeNs now_ns) {
 void ArcosSession::leave_rate(TimeNs now_ns) {
   if (!heard_.text().empty()) text_of_sweep_ = heard_;
   bytes_of_sweep_ += heard_.bytes();
+  echo_of_sweep_ = echo_of_sweep_ || echo_heard_;
+  echo_heard_ = false;
   const int before = sweep_.current();
   if (!sweep_.advance()) {
     line_exhausted_ = true;
     state_.kind = RobotKind{};
-    if (!text_of_sweep_.text().empty())
+    const bool echoed = sweep_echoed();
+    if (echoed) {
+      report_echo(now_ns);
+    } else if (!text_of_sweep_.text().empty()) {
       report_other_device(text_of_sweep_, now_ns);
-    else if (bytes_of_sweep_ >= kLeastOtherBytes)
+    } else if (bytes_of_sweep_ >= kLeastOtherBytes) {
       events_.push(now_ns, Kind::OtherBytes, static_cast<std::int64_t>(bytes_of_sweep_));
-    else
+    } else {
       events_.push(now_ns, sweep_.sweeps() ? Kind::NoAnswer : Kind::NoAnswerTcp);
+    }
+    reported_echo_ = echoed;
     text_of_sweep_.clear();
+    echo_of_sweep_ = false;
     bytes_of_sweep_ = 0;
   }
   if (sweep_.current() != before) {

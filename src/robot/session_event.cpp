@@ -21,6 +21,9 @@ const char* to_string(SessionEventKind kind) {
     case SessionEventKind::OtherDevice:
       return "robot line answers, but not in ARCOS: text such as '{text}'; check that robot.address is the "
              "robot's";
+    case SessionEventKind::LineEchoes:
+      return "robot line echoes what heeld sends: a loop-back plug or local echo, no robot; check that "
+             "robot.address is the robot's, and its cable";
     case SessionEventKind::OtherBytes:
       return "robot line answers, but not in ARCOS: {} bytes came; check that robot.address is "
              "the robot's, and its cable";
@@ -83,6 +86,7 @@ bool is_warning(SessionEventKind kind) {
     case SessionEventKind::NoAnswer:
     case SessionEventKind::NoAnswerTcp:
     case SessionEventKind::OtherDevice:
+    case SessionEventKind::LineEchoes:
     case SessionEventKind::OtherBytes:
     case SessionEventKind::ModelUnknown:
     case SessionEventKind::ModelConflict:

@@ -17,6 +17,7 @@ enum class SessionEventKind : std::uint8_t {
   NoAnswer,      ///< at any rate
   NoAnswerTcp,   ///< over TCP, where the rate is not ours
   OtherDevice,   ///< text comes, and nothing in ARCOS
+  LineEchoes,    ///< what heeld sends comes back
   OtherBytes,    ///< value: how many come in a sweep, no text and nothing in ARCOS
   Synchronised,  ///< the robot has said what it is, and may be driven
   ModelUnknown,  ///< it is refused; ModelChoice says why

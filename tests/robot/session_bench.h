@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstring>
+#include <deque>
 #include <vector>
 
 #include "robot/arcos_session.h"
@@ -30,6 +31,7 @@ class SessionBench {
   void tick() {
     now_ns += kTick_ns;
     const Bytes sent = robot.speak(now_ns);
+    echo(now_ns);
     const bool understood = robot.baud == 0 || robot.baud == session.wanted_baud();
     if (understood && line_up) session.receive(sent, now_ns);
     VelocityCommand command;
@@ -43,6 +45,7 @@ class SessionBench {
     const auto bytes = session.send(command, now_ns);
     EXPECT_EQ(state_bytes(), before_send) << "send() must not change the state that the tick used";
     if (line_up) robot.receive(bytes, baud, now_ns);
+    for (const std::uint8_t byte : bytes) echoed.push_back({now_ns + echo_after_ns, byte});
     SessionEvent event;
     while (session.next_event(event)) events.push_back(event);
   }
@@ -70,11 +73,28 @@ class SessionBench {
   ArcosSession session;
   std::vector<SessionEvent> events;
   bool line_up = true;
+  bool line_echoes = false;       ///< what the session sends comes back, before what the robot says
+  TimeNs echo_after_ns = 0;       ///< more than a tick
+  std::size_t echo_piece = 1000;  ///< at most so many bytes of it a tick
   double v_m_s = 0.0;
   double yaw_rate_rad_s = 0.0;
   TimeNs command_lifetime_ns = 200 * kNsPerMs;
 
  private:
+  struct EchoedByte {
+    TimeNs t_ns = 0;
+    std::uint8_t byte = 0;
+  };
+  void echo(TimeNs t_ns) {
+    Bytes due;
+    while (line_echoes && !echoed.empty() && due.size() < echo_piece && echoed.front().t_ns <= t_ns) {
+      due.push_back(echoed.front().byte);
+      echoed.pop_front();
+    }
+    if (line_up) session.receive(due, t_ns);
+  }
+  std::deque<EchoedByte> echoed;
+
   std::array<std::uint8_t, sizeof(RobotState)> state_bytes() const {
     std::array<std::uint8_t, sizeof(RobotState)> bytes{};
     std::memcpy(bytes.data(), &session.state(), bytes.size());

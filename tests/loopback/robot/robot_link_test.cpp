@@ -32,7 +32,8 @@ using test::RobotThread;
 
 class LinkBench {
  public:
-  explicit LinkBench(const std::string& address) : link(config(address)) {}
+  explicit LinkBench(const std::string& address) : LinkBench(config(address)) {}
+  explicit LinkBench(const RobotConfig& config) : link(config) {}
   static RobotConfig config(const std::string& address) {
     RobotConfig config;
     config.address = address;
@@ -205,6 +206,14 @@ class UnreadPty {
     return {first, carried_.end()};
   }
 
+  /// Sends back at most `most` bytes of what the line has carried.
+  void echo(std::size_t most) {
+    std::array<std::uint8_t, 512> chunk{};
+    const ssize_t size = read(master_, chunk.data(), std::min(most, chunk.size()));
+    if (size <= 0) return;
+    EXPECT_EQ(write(master_, chunk.data(), static_cast<std::size_t>(size)), size);
+  }
+
  private:
   int master_ = -1, slave_ = -1;
   std::string path_;
@@ -217,6 +226,22 @@ TEST(RobotLinkOverPty, ALineThatTakesNothingForASecondIsLost) {
   ASSERT_TRUE(bench.run_until(LinkPhase::Syncing));
   pty.fill();
   EXPECT_TRUE(bench.run_until(LinkPhase::Lost));
+}
+
+TEST(RobotLinkOverPty, ALoopBackPlugIsNamed) {
+  for (const std::size_t most : {512u, 5u}) {
+    UnreadPty pty;
+    RobotConfig config = LinkBench::config(pty.address());
+    config.model = "p3at-sh";
+    LinkBench bench(config);
+    std::vector<SessionEventKind> said;
+    EXPECT_TRUE(bench.run_until([&] {
+      pty.echo(most);
+      for (SessionEvent event; bench.link.next_event(event);) said.push_back(event.kind);
+      return std::find(said.begin(), said.end(), SessionEventKind::LineEchoes) != said.end();
+    })) << most;
+    EXPECT_EQ(std::count(said.begin(), said.end(), SessionEventKind::Synchronised), 0) << most;
+  }
 }
 
 TEST(RobotLinkOverPty, ShutdownSendsTheRestOfAPacketBeforeStop) {
