@@ -69,10 +69,14 @@ LockstepSettings troubled_walk() {
 struct HowItWent : LockstepObserver {
   double moved_m = 0.0, turned_rad = 0.0;
   bool turned_away = false;
+  TimeNs t_turning_ns = 0;  ///< when the robot first turned faster than 0.2 rad/s
+  TimeNs t_noticed_ns = 0;
   void on_tick(const TickRecord& tick, const LockstepTruth& truth) override {
     moved_m = std::hypot(truth.robot.pose.x_m + 1.8, truth.robot.pose.y_m - 0.6);
     turned_rad = std::max(turned_rad, std::abs(truth.robot.pose.heading_rad));
-    turned_away = turned_away || tick.stop_reason == StopReason::TurnsAway;
+    if (t_turning_ns == 0 && std::abs(truth.robot.yaw_rate_rad_s) > 0.2) t_turning_ns = truth.t_ns;
+    if (t_noticed_ns == 0 && tick.stop_reason == StopReason::TurnsAway) t_noticed_ns = truth.t_ns;
+    turned_away = t_noticed_ns != 0;
   }
 };
 
@@ -104,9 +108,21 @@ TEST(Lockstep, FollowsByATurnedCameraThatTheConfigurationKnows) {
 TEST(Lockstep, ATurnedCameraThatTheConfigurationDoesNotKnowStopsTheRobot) {
   if (test::kSanitized)
     GTEST_SKIP() << "the person leaves the small picture before; TurnMonitor.StopsWithin… runs the same code";
-  const HowItWent run = with_a_turned_camera(picture_turn(180, false), 0, false);
-  EXPECT_TRUE(run.turned_away);
-  EXPECT_LT(run.turned_rad, 0.45) << "the robot needs 0.2 s and 0.1 rad to stop turning";
+  struct Wrong {
+    const char* what;
+    PictureTurn mounted;
+    bool mirror;
+  };
+  for (const Wrong& wrong : {Wrong{"upside down", picture_turn(180, false), false},
+                             Wrong{"mirrored", picture_turn(0, true), false},
+                             Wrong{"mirrored by the configuration", picture_turn(0, false), true}}) {
+    SCOPED_TRACE(wrong.what);
+    const HowItWent run = with_a_turned_camera(wrong.mounted, 0, wrong.mirror);
+    EXPECT_TRUE(run.turned_away);
+    ASSERT_GT(run.t_turning_ns, 0);
+    EXPECT_LE(seconds_from_ns(run.t_noticed_ns - run.t_turning_ns), 0.5);
+    EXPECT_LT(run.turned_rad, 0.45) << "the robot needs 0.2 s and 0.1 rad to stop turning";
+  }
 }
 
 TEST(Lockstep, RepeatsToTheBitAndDiffersBySeed) {
