@@ -89,6 +89,25 @@ TEST(PictureBounds, ASmallOrSlowChangeOfExposureIsNoHunting) {
   expect_none(changes(0.35, 2.0), 6.0);
 }
 
+TEST(PictureBounds, OneUprightEdgeOfTwoTimesIsNotInterlaced) {
+  // A door frame and its upper half: up to 58 of the places that are looked at have an upright edge.
+  const Light door = [](double x, double y, int picture) {
+    const double seen_x = x + 3.0 * picture + (static_cast<int>(y) % 2 != 0 ? 4.0 : 0.0);
+    return static_cast<int>(seen_x) % 640 < 320 ? 60.0 : 200.0;
+  };
+  expect_none(door, 2.0);
+}
+
+TEST(PictureBounds, FewBlurredEdgesAreNotOutOfFocus) {
+  // A soft shadow on a wall whose texture is weak: about 30 of the places looked at are on its edge.
+  const Light shadow = [](double x, double y, int) {
+    if (y < 60.0 || y > 180.0) return static_cast<int>(x) / 16 % 2 == 0 ? 100.0 : 122.0;
+    const double strength = std::exp(-(y - 120.0) * (y - 120.0) / 800.0);
+    return 110.0 + 100.0 * strength * std::tanh((x - 165.0) / 14.0);
+  };
+  expect_none(shadow, 4.0, 0.0);
+}
+
 TEST(PictureBounds, FewPicturesOfTwoTimesAreNotInterlaced) {
   const Room room(7, 8.0);
   expect_none(
