@@ -92,7 +92,11 @@ void write_file_atomically(const std::string& path, std::string_view bytes) {
 
 void require_regular_file(const std::string& path) {
   struct stat status {};
-  if (stat(path.c_str(), &status) != 0) throw file_error(path, "cannot read");
+  if (stat(path.c_str(), &status) != 0) {
+    if (path.find("://") != std::string::npos)
+      throw Error(path + ": cannot read an address (expected a file on this computer)");
+    throw file_error(path, "cannot read");
+  }
   if (!S_ISREG(status.st_mode)) throw Error(path + ": cannot read: expected a regular file");
 }
 

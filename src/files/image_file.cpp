@@ -18,6 +18,7 @@
 #include "files/jpeg_decoder.h"
 #include "files/natural_order.h"
 #include "files/orientation.h"
+#include "files/other_file_kind.h"
 #include "files/picture_depth.h"
 #include "files/png_picture.h"
 #include "files/pnm_picture.h"
@@ -148,6 +149,10 @@ GreyImage decode_bytes(std::string& bytes, int least_white) {
                     "; save or export it as JPEG or PNG)";
     return image;
   }
+  if (const std::string other = other_file_kind(file); !other.empty()) {
+    image.problem = other + ": expected " + kReadableKinds;
+    return image;
+  }
   const int orientation = orientation_in_file(file);
   int significant_bits = 0;
   cv::Mat raw;
@@ -184,6 +189,11 @@ bool has_one_of(const Endings& endings, const std::string& path) {
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
+// Beside each picture on a stick, macOS leaves "._NAME", which is none.
+bool is_hidden(const fs::path& path) {
+  return path.filename().string().starts_with('.');
+}
+
 }  // namespace
 
 bool is_image_file(const std::string& path) {
@@ -199,7 +209,7 @@ std::vector<std::string> images_in_folder(const std::string& folder, std::error_
   std::vector<std::string> images;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string path = entry.path().string();
-    if (entry.is_regular_file() && is_image_file(path)) images.push_back(path);
+    if (entry.is_regular_file() && !is_hidden(entry.path()) && is_image_file(path)) images.push_back(path);
   }
   std::sort(images.begin(), images.end(), natural_less);
   return images;

@@ -16,6 +16,8 @@ extern "C" {
 #include <string_view>
 #include <utility>
 
+#include "files/other_file_kind.h"
+
 namespace heel {
 namespace {
 
@@ -69,6 +71,7 @@ bool VideoFile::open_file(const std::string& path) {
   const int error = avformat_open_input(&opened, ("file:" + path).c_str(), nullptr, &options);
   av_dict_free(&options);
   if (error < 0) {
+    if (std::string other = other_file_kind_of(path); !other.empty()) return fail(std::move(other));
     return fail(begins_as_mp4(path) ? "its index is missing: cut short, or still being written"
                                     : "no video that FFmpeg knows");
   }

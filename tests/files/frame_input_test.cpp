@@ -174,5 +174,45 @@ TEST_F(FrameInputTest, AnInterlacedVideoIsNotedOnce) {
   EXPECT_EQ(input.notes(), (std::vector<std::string>{note, note})) << "one for each input";
 }
 
+TEST_F(FrameInputTest, HiddenFilesOfAFolderAreNoPictures) {
+  std::filesystem::create_directory(folder_.file("stick"));
+  image("stick/a.png", 10);
+  test::write_text(folder_.file("stick/._a.png"), std::string("\0\x05\x16\x07", 4));
+  FrameInput input({folder_.file("stick")}, 5.0);
+  InputFrame frame;
+  EXPECT_TRUE(input.next(frame));
+  EXPECT_FALSE(input.next(frame));
+}
+
+TEST_F(FrameInputTest, WhatStandsInAPicturesPlaceIsNamed) {
+  struct Other {
+    std::string bytes, named;
+  };
+  const std::vector<Other> others{
+      {"", "an empty file"},
+      {"version https://git-lfs.github.com/spec/v1\noid sha256:4d", "a Git LFS pointer"},
+      {"\r\n<!DOCTYPE html>\n<html>", "a web page"},
+      {"<HTML><head>", "a web page"},
+      {"#ROSBAG V2.0\n", "a ROS bag"},
+      {"\x89MCAP0\r\n", "a ROS bag"},
+      {"SQLite format 3", "a ROS bag"},
+      {"PK\x03\x04walk.png", "a compressed archive"},
+      {"\x1f\x8b\x08", "a compressed archive"}};
+  for (const Other& other : others) {
+    for (const char* name : {"walk.png", "walk.mp4", "walk"}) {
+      const std::string path = test::write_text(folder_.file(name), other.bytes);
+      const std::string line = test::complaint_of([&] {
+        FrameInput input({path}, 5.0);
+        InputFrame frame;
+        input.next(frame);
+      });
+      EXPECT_THAT(line, ::testing::HasSubstr(other.named)) << name;
+      EXPECT_THAT(line, ::testing::StartsWith(path));
+    }
+  }
+  EXPECT_THAT(test::complaint_of([] { FrameInput({"http://camera/walk.mp4"}, 5.0); }),
+              ::testing::HasSubstr("expected a file on this computer"));
+}
+
 }  // namespace
 }  // namespace heel
