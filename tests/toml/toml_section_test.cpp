@@ -27,6 +27,23 @@ std::string message(const std::string& text, const Read& read) {
   return "";
 }
 
+TEST(Toml, WhatProgramsForTextMakeOfAFileIsNamed) {
+  const auto said = [](const std::string& text) { return message(text, [](TomlSection&) {}); };
+  const auto names = [&](const std::string& text, const std::string& cause) {
+    return said(text).find(cause) != std::string::npos && said(text).starts_with("f.toml:");
+  };
+  EXPECT_TRUE(names(std::string("\xff\xfe[\0a\0]\0", 8), "UTF-16")) << said("\xff\xfe");
+  EXPECT_TRUE(
+      names("x = 1\n# K\xfc"
+            "che\n",
+            "save it as that"));
+  EXPECT_TRUE(names("x = 1\nname = \u201cyard\u201d\n", "straight quotes"));
+  EXPECT_TRUE(names("x = 1\nspeed = 0,5\n", "a point in a number"));
+  EXPECT_TRUE(names("x = 1\nspeed = [0,5\n", "(expected TOML)"));
+  EXPECT_TRUE(names("# 0,5 \u201cyard\u201d\nspeed : 1\n", "(expected TOML)")) << "on another line";
+  EXPECT_EQ(said("\xef\xbb\xbfspeed = 1\r\n"), "") << "a byte order mark, and line ends of Windows";
+}
+
 TEST(TomlSection, GivesValuesAndFallbacks) {
   const toml::table table = parse_toml(
       "speed = 2\ncount = 3\nname = 'x'\non = true\ncorners = [1, 2.5]\nfaults = ['a', "
