@@ -12,6 +12,7 @@
 #include "files/camera_info.h"
 #include "files/template_file.h"
 #include "heel/error.h"
+#include "robot/robot_address.h"
 #include "vision/template/turned_template.h"
 
 namespace heel {
@@ -64,6 +65,7 @@ void check_against_camera(const Config& config, const CameraModel& camera) {
 Inputs load_inputs(const Config& config) {
   Inputs inputs;
   const CameraModel camera = read_camera_model(config.camera.info);
+  parse_robot_address(config.robot.address);  // throws for one that cannot be understood
   check_pace(config.camera);
   check_frame_size(config.camera, camera);
   const PictureTurn turn = picture_turn(config.camera.rotate, config.camera.mirror);

@@ -22,8 +22,19 @@ int number_of(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() ? value : -1;
 }
 
+/// Where a rate begins that is written as other programs want it, DEVICE:BAUD or DEVICE,BAUD; npos: nowhere.
+std::size_t rate_after_other_sign(std::string_view rest) {
+  const auto sign = rest.find_last_of(":,");
+  if (sign == std::string_view::npos) return sign;
+  const bool is_rate = std::find(kRobotBauds.begin(), kRobotBauds.end(), number_of(rest.substr(sign + 1))) !=
+                       kRobotBauds.end();
+  return is_rate ? sign + 1 : std::string_view::npos;
+}
+
 /// PATH or PATH@BAUD.
 void parse_line(std::string_view rest, RobotAddress& address) {
+  if (const auto rate = rate_after_other_sign(rest); rate != std::string_view::npos)
+    refuse(address.text, fmt::format("expected @{} for the rate", rest.substr(rate)));
   const auto at = rest.rfind('@');
   address.path = rest.substr(0, at);
   if (at == std::string_view::npos) return;
@@ -36,6 +47,7 @@ void parse_line(std::string_view rest, RobotAddress& address) {
 }
 
 void parse_tcp(std::string_view rest, RobotAddress& address) {
+  if (rest.starts_with("//")) refuse(address.text, "'//' is not needed (expected tcp:HOST:PORT)");
   const auto colon = rest.rfind(':');
   if (colon == std::string_view::npos) refuse(address.text, "no port (expected tcp:HOST:PORT)");
   address.host = rest.substr(0, colon);
@@ -55,6 +67,7 @@ void parse_tcp(std::string_view rest, RobotAddress& address) {
 RobotAddress parse_robot_address(const std::string& text) {
   RobotAddress address;
   address.text = text;
+  if (text.starts_with(' ') || text.ends_with(' ')) refuse(text, "a space at an end of it (expected none)");
   const auto colon = text.find(':');
   const std::string_view scheme = std::string_view(text).substr(0, colon);
   const std::string_view rest =

@@ -34,6 +34,7 @@ TEST(SourceAddress, WrongAddressesAreNamedWithWhatIsExpected) {
   EXPECT_THAT(complaint_about("/dev/video0"),
               AllOf(HasSubstr("'/dev/video0'"), HasSubstr("expected v4l2:PATH")));
   EXPECT_THAT(complaint_about("usb:0"), AllOf(HasSubstr("unknown kind 'usb'"), HasSubstr("sim:NAME")));
+  EXPECT_THAT(complaint_about("rtsp://10.0.0.2/stream"), HasSubstr("no stream from a network"));
   EXPECT_THAT(complaint_about("file:"), HasSubstr("nothing after the colon"));
   EXPECT_THAT(complaint_about(""), HasSubstr("no kind before a colon"));
 }

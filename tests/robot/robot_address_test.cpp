@@ -15,6 +15,8 @@ TEST(RobotAddress, Serial) {
   EXPECT_EQ(address.baud, 38400);
   EXPECT_EQ(parse_robot_address("serial:/dev/ttyS0").baud, 38400);
   EXPECT_EQ(parse_robot_address("serial:/dev/a@b@115200").path, "/dev/a@b");
+  EXPECT_EQ(parse_robot_address("serial:/dev/by-path/usb-0:1:1.0").path, "/dev/by-path/usb-0:1:1.0");
+  EXPECT_EQ(parse_robot_address("serial:/dev/by path/a").path, "/dev/by path/a");
 }
 
 TEST(RobotAddress, PtyAndTcp) {
@@ -49,6 +51,11 @@ TEST(RobotAddress, WrongAddressesAreNamedWithWhatIsExpected) {
       {"serial:/dev/ttyUSB0@9600x", "'9600x' is not a baud rate"},
       {"pty:/tmp/robot@300", "'300' is not a baud rate"},
       {"pty:", "expected a path after 'pty:'"},
+      {"serial:/dev/ttyUSB0:9600", "expected @9600"},
+      {"serial:/dev/ttyUSB0,57600", "expected @57600"},
+      {"serial:/dev/ttyUSB0 ", "a space at an end"},
+      {" tcp:host:8101", "a space at an end"},
+      {"tcp://host:8101", "expected tcp:HOST:PORT"},
       {"tcp:host", "no port"},
       {"tcp::8101", "no host"},
       {"tcp:host:", "'' is not a port"},

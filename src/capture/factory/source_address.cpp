@@ -35,6 +35,7 @@ SourceAddress parse_source_address(const std::string& address) {
     if (rest.empty()) refuse(address, "nothing after the colon");
     return {value, std::move(rest)};
   }
+  if (address.find("://") != std::string::npos) refuse(address, "heel reads no stream from a network");
   refuse(address, fmt::format("unknown kind '{}'", kind));
 }
 

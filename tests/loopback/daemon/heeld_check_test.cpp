@@ -187,6 +187,16 @@ TEST(HeeldCheck, AFileCameraMustRunInRealTime) {
   EXPECT_THAT(outcome.err, HasSubstr("camera.file_speed: 0 (expected more than 0"));
 }
 
+TEST(HeeldCheck, TheRobotsAddressIsUnderstood) {
+  const Scene scene(1);
+  std::string text = read_text(scene.write_config());
+  const std::size_t at = text.find("address = \"");
+  text.replace(at, text.find('\n', at) - at, "address = \"tcp:10.0.0.2\"");
+  const Outcome outcome = heeld({"--config", write_text(scene.path("no_port.toml"), text), "--check"});
+  EXPECT_EQ(outcome.status, kExitConfiguration);
+  EXPECT_THAT(outcome.err, HasSubstr("robot address 'tcp:10.0.0.2': no port (expected tcp:HOST:PORT)"));
+}
+
 TEST(HeeldCheck, AMissingConfigurationIsNamed) {
   const Outcome outcome = heeld({"--config", "/nowhere.toml"});
   EXPECT_EQ(outcome.status, kExitConfiguration);
