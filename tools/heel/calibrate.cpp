@@ -170,7 +170,7 @@ void add_calibrate_command(CLI::App& app) {
                    "circles: half the distance of two circles of a row")
       ->required()
       ->type_name("M")
-      ->check(number_from(1e-4, 10.0));
+      ->check(metres_from(1e-4, 10.0));
   command->add_option("-o,--output", options->output, "camera file to write")
       ->required()
       ->type_name("CAM.yaml");

@@ -26,6 +26,8 @@ void add_criteria_options(CLI::App& command, evaluation::FollowCriteria& criteri
 
 /// Accepts finite numbers from `least` to `most`. (CLI::Range accepts "nan".)
 CLI::Validator number_from(double least, double most);
+/// The same of lengths. A refusal says what a number would be in metres if it was meant as millimetres.
+CLI::Validator metres_from(double least, double most);
 /// Accepts whole numbers from 0. `kind` is what a refusal says was expected: "a frame number".
 CLI::Validator whole_number(const std::string& kind);
 /// Accepts finite numbers of seconds above 0.

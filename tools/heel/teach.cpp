@@ -230,7 +230,7 @@ void add_teach_command(CLI::App& app) {
       ->add_option("--distance", options->distance_m, "from the camera to the back, metres, along the view")
       ->required()
       ->type_name("M")
-      ->check(number_from(0.1, 100.0));
+      ->check(metres_from(0.1, 100.0));
   command
       ->add_option("--yaw", options->yaw_deg,
                    "how far the person is turned in the view: 0 from behind (default), 90 walking to the\n"
