@@ -29,6 +29,11 @@ std::string unconvertible_text(AVPixelFormat format) {
   return fmt::format("pixel format {}, which heel cannot convert", name == nullptr ? "unknown" : name);
 }
 
+void use_one_field(cv::Mat& picture) {
+  keep_one_field(picture.data, static_cast<std::uint32_t>(picture.cols),
+                 static_cast<std::uint32_t>(picture.rows), picture.step);
+}
+
 struct FreeScaler {
   void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
 };
@@ -43,7 +48,7 @@ struct VideoReader::Decoder {
   JpegDecoder jpeg;
   bool is_jpeg = false;     // Motion-JPEG, of which FFmpeg gives damaged frames without saying so
   cv::Mat bgr, stored;      // stored: of Motion-JPEG, the frame
-  bool interlaced = false;  // of a frame so far, or as the header says
+  bool interlaced = false;  // of a frame so far, or as the header says: frames of some kinds cannot say so
   std::string problem;
   std::string unconvertible;  // why a frame that was decoded could not be given; empty: none
 
@@ -151,6 +156,7 @@ void VideoReader::Decoder::stamp(std::int64_t pts) {
 /// By BGR, so that grey values are those that OpenCV gives for this video.
 bool VideoReader::Decoder::convert(cv::Mat& grey) {
   if (is_jpeg) {
+    if (interlaced) use_one_field(stored);
     shown_picture(stored, file.orientation()).copyTo(grey);
     return true;
   }
@@ -168,10 +174,7 @@ bool VideoReader::Decoder::convert(cv::Mat& grey) {
   const bool as_stored = file.orientation() == kAsStored;
   cv::Mat& picture = as_stored ? grey : stored;
   cv::cvtColor(bgr, picture, cv::COLOR_BGR2GRAY);
-  if (frame->interlaced_frame != 0) {
-    keep_one_field(picture.data, static_cast<std::uint32_t>(picture.cols),
-                   static_cast<std::uint32_t>(picture.rows), picture.step);
-  }
+  if (interlaced) use_one_field(picture);
   if (!as_stored) grey = shown_picture(stored, file.orientation());
   return true;
 }

@@ -234,26 +234,31 @@ TEST_F(Videos, InMatroskaWithoutASizeAreJudgedByTheirTimes) {
 }
 
 TEST_F(Videos, OfInterlacedFramesGiveOneField) {
-  MadeVideo video = walk("fields.mp4", 2);
+  MadeVideo video = walk("fields.mkv", 2);
   // The upper field of each frame is bright on the left, the lower one on the right.
   for (cv::Mat& grey : video.greys) {
     grey.setTo(60);
-    for (int y = 0; y < grey.rows; ++y)
-      grey.row(y).colRange(y % 2 == 0 ? 0 : kVideoWidth_px / 2,
-                           y % 2 == 0 ? kVideoWidth_px / 2 : kVideoWidth_px) = 200;
+    for (int y = 0; y < grey.rows; ++y) grey.row(y).colRange(y % 2 * 32, y % 2 * 32 + 32) = 200;
   }
-  for (const bool interlaced : {false, true}) {
-    video.interlaced = interlaced;
-    write_video(video);
-    ASSERT_TRUE(reader.open(video.path));
-    cv::Mat grey;
-    ASSERT_TRUE(reader.read(grey));
-    for (int y = 4; y < kVideoHeight_px - 4; ++y) {
-      const bool lower_shown = !interlaced && y % 2 == 1;
-      EXPECT_NEAR(grey.at<std::uint8_t>(y, 8), lower_shown ? 60 : 200, 30) << y;
-      EXPECT_NEAR(grey.at<std::uint8_t>(y, kVideoWidth_px - 8), lower_shown ? 200 : 60, 30) << y;
+  for (const bool jpeg : {false, true}) {
+    for (const char* says : {"nothing", "frames", "header"}) {
+      SCOPED_TRACE(std::string(says) + (jpeg ? ", Motion-JPEG" : ""));
+      if (jpeg && says == std::string("frames")) continue;
+      video.jpeg = jpeg;
+      video.interlaced = says == std::string("frames");
+      video.header_interlaced = says == std::string("header");
+      const bool interlaced = video.interlaced || video.header_interlaced;
+      write_video(video);
+      ASSERT_TRUE(reader.open(video.path));
+      cv::Mat grey;
+      ASSERT_TRUE(reader.read(grey));
+      for (int y = 4; y < kVideoHeight_px - 4; ++y) {
+        const bool lower_shown = !interlaced && y % 2 == 1;
+        EXPECT_NEAR(grey.at<std::uint8_t>(y, 8), lower_shown ? 60 : 200, 30) << y;
+        EXPECT_NEAR(grey.at<std::uint8_t>(y, kVideoWidth_px - 8), lower_shown ? 200 : 60, 30) << y;
+      }
+      EXPECT_EQ(reader.note(), interlaced ? "interlaced: every second row is used" : "");
     }
-    EXPECT_EQ(reader.note(), interlaced ? "interlaced: every second row is used" : "");
   }
 }
 

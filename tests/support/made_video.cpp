@@ -71,12 +71,16 @@ class Writer {
   }
   void open_codec() {
     const bool raw = video_.raw_format != nullptr;
-    const AVCodec* encoder = avcodec_find_encoder(raw ? AV_CODEC_ID_RAWVIDEO : AV_CODEC_ID_MPEG4);
+    const AVCodec* encoder = avcodec_find_encoder(raw           ? AV_CODEC_ID_RAWVIDEO
+                                                  : video_.jpeg ? AV_CODEC_ID_MJPEG
+                                                                : AV_CODEC_ID_MPEG4);
     require(encoder != nullptr, "no encoder");
     codec_ = avcodec_alloc_context3(encoder);
     codec_->width = video_.greys.front().cols;
     codec_->height = video_.greys.front().rows;
-    codec_->pix_fmt = raw ? av_get_pix_fmt(video_.raw_format) : AV_PIX_FMT_YUV420P;
+    codec_->pix_fmt = raw           ? av_get_pix_fmt(video_.raw_format)
+                      : video_.jpeg ? AV_PIX_FMT_YUVJ420P
+                                    : AV_PIX_FMT_YUV420P;
     codec_->time_base = {1, video_.ticks_per_s};
     codec_->max_b_frames = video_.b_frames;
     codec_->gop_size = 10;
@@ -95,6 +99,7 @@ class Writer {
     stream_ = avformat_new_stream(file_, nullptr);
     avcodec_parameters_from_context(stream_->codecpar, codec_);
     stream_->time_base = codec_->time_base;
+    if (video_.header_interlaced) stream_->codecpar->field_order = AV_FIELD_TT;
     if (video_.display_abcd.empty()) return;
     auto* matrix = reinterpret_cast<std::int32_t*>(
         av_stream_new_side_data(stream_, AV_PKT_DATA_DISPLAYMATRIX, 9 * sizeof(std::int32_t)));

@@ -18,6 +18,8 @@ struct MadeVideo {
   double last_shown_s = 0.0;         ///< how long the last frame is shown; 0: as long as the one before it
   bool index_first = false;          ///< of an MP4 file, so that it can be read when its end is missing
   bool interlaced = false;           ///< its frames say that they are two fields, row by row
+  bool header_interlaced = false;    ///< its header says so
+  bool jpeg = false;                 ///< Motion-JPEG, whose frames cannot say so
   const char* raw_format = nullptr;  ///< FFmpeg's pixel format of black frames, not coded; null: MPEG-4
 };
 
