@@ -1,6 +1,4 @@
-// Sources whose libraries would burden every heeld: FFmpeg and OpenCV for files (60 MB of memory), libcamera
-// with its tracing threads (25 MB). Each is a module, a shared object beside the programs, that is loaded
-// when a camera address asks for it.
+// The sources whose libraries are loaded only when a camera address asks for them (src/shared_module).
 #pragma once
 
 #include <memory>
