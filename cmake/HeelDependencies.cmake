@@ -20,6 +20,12 @@ pkg_check_modules(SYSTEMD REQUIRED IMPORTED_TARGET libsystemd)
 pkg_check_modules(PROMETHEUS REQUIRED IMPORTED_TARGET prometheus-cpp-core)
 pkg_check_modules(NLOPT REQUIRED IMPORTED_TARGET nlopt)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+# Paho's client for MQTT, with TLS. Debian's has no pkg-config file, and its CMake package wants OpenSSL's headers too.
+find_path(PAHO_INCLUDE_DIR MQTTClient.h REQUIRED)
+find_library(PAHO_LIBRARY paho-mqtt3cs REQUIRED)
+add_library(paho UNKNOWN IMPORTED)
+set_target_properties(paho PROPERTIES
+  IMPORTED_LOCATION ${PAHO_LIBRARY} INTERFACE_INCLUDE_DIRECTORIES ${PAHO_INCLUDE_DIR})
 option(HEEL_WITH_LIBCAMERA "Cameras through libcamera, where it is installed" ON)
 if(HEEL_WITH_LIBCAMERA)
   pkg_check_modules(LIBCAMERA IMPORTED_TARGET libcamera)

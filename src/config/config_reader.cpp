@@ -45,6 +45,33 @@ bool is_host_name(std::string_view text) {
   return !text.empty() && text.size() <= 253 && std::all_of(text.begin(), text.end(), fits);
 }
 
+/// tcp://broker:1883 or ssl://[::1]:8883; empty: none.
+bool is_broker(std::string_view text) {
+  if (text.empty()) return true;
+  if (!text.starts_with("tcp://") && !text.starts_with("ssl://")) return false;
+  text.remove_prefix(6);
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) return false;
+  const std::string_view port_text = text.substr(colon + 1);
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(port_text.data(), port_text.data() + port_text.size(), port);
+  if (error != std::errc() || end != port_text.data() + port_text.size() || port == 0) return false;
+  return is_host_name(text.substr(0, colon)) || (text.starts_with('[') && is_listen_address(text));
+}
+
+/// One line of text.
+bool is_line(std::string_view text) {
+  const auto fits = [](char c) { return static_cast<unsigned char>(c) >= ' ' && c != 0x7f; };
+  return text.size() <= 128 && std::all_of(text.begin(), text.end(), fits);
+}
+
+/// No wildcard, no level without a name, and none of the broker's own topics.
+bool is_topic(std::string_view text) {
+  return !text.empty() && is_line(text) && text.find_first_of("+#") == std::string_view::npos &&
+         text.front() != '$' && text.front() != '/' && text.back() != '/' &&
+         text.find("//") == std::string_view::npos;
+}
+
 bool text_is_valid(const ConfigKey& key, std::string_view text) {
   switch (key.text) {
     case ConfigText::Choice:
@@ -55,6 +82,12 @@ bool text_is_valid(const ConfigKey& key, std::string_view text) {
       return is_listen_address(text);
     case ConfigText::Name:
       return is_host_name(text);
+    case ConfigText::Broker:
+      return is_broker(text);
+    case ConfigText::Topic:
+      return is_topic(text);
+    case ConfigText::Text:
+      return is_line(text);
     case ConfigText::Address: {
       const auto colon = text.find(':');
       return colon != std::string_view::npos && colon + 1 < text.size() &&

@@ -64,6 +64,10 @@ constexpr ConfigKey address(Name section, Name name, std::string* (*field)(Confi
                             Name effect) {
   return {section, name, field, "", 0, 0, ConfigText::Address, schemes, No, Tighter::None, effect};
 }
+constexpr ConfigKey line(Name section, Name name, std::string* (*field)(Config&), ConfigText text,
+                         Name effect) {
+  return {section, name, field, "", 0, 0, text, "", No, Tighter::None, effect};
+}
 
 constexpr ConfigSection kSections[] = {
     {"camera", "The camera and its position on the robot."},
@@ -78,6 +82,9 @@ constexpr ConfigSection kSections[] = {
     {"operator", "The commands of operators."},
     {"view",
      "The page for browsers, and what monitoring reads: docs/page.md. Off until there is an address."},
+    {"mqtt",
+     "The status for an MQTT broker, never a command from it: docs/how-to/mqtt.md. Off until there is an "
+     "address."},
     {"runtime", "The process: log, start-up and real-time priorities."},
 };
 
@@ -208,6 +215,13 @@ const ConfigKey kKeys[] = {
     number(HEEL_KEY(view, picture_hz), "Hz", {0.1, 30}, No, "Largest rate of the pictures that the page shows. None is made while nobody looks."),
     number(HEEL_KEY(view, picture_quality), "", {10, 95}, No, "Quality of these JPEG pictures."),
 
+    line(HEEL_KEY(mqtt, address), ConfigText::Broker, "The MQTT broker to which the status goes: tcp://HOST:1883, or ssl://HOST:8883 for TLS. With an empty text nothing is published."),
+    line(HEEL_KEY(mqtt, topic), ConfigText::Topic, "The status is published at this topic followed by /status, and whether heeld is there at this topic followed by /online. {host} stands for this computer's name. Each robot needs a topic of its own."),
+    line(HEEL_KEY(mqtt, user), ConfigText::Text, "The name that the broker knows this robot by; with an empty text it is given none."),
+    path(HEEL_KEY(mqtt, password_file), "File with the password of mqtt.user; with an empty name the systemd credential mqtt-password, when there is one."),
+    path(HEEL_KEY(mqtt, ca_file), "File with the certificates (PEM) of the authorities that may vouch for a broker at ssl://; with an empty name those that the system trusts."),
+    number(HEEL_KEY(mqtt, period_s), "s", {0.1, 3600}, No, "The status is published this often, and at once when the state or its reason changes."),
+
     choice(HEEL_KEY(runtime, log_level), "trace|debug|info|warn|error", Yes, "Lowest level of the messages that are logged."),
     choice(HEEL_KEY(runtime, ready_after), "all|robot|start", No, "When systemd receives READY: all is after the robot has answered and the first frame has come, robot is after the robot has answered, start is at once."),
     flag(HEEL_KEY(runtime, realtime), No, "Whether to request real-time priorities and locked memory; if they are refused, heeld logs a warning and continues."),
@@ -238,6 +252,12 @@ constexpr ConfigRelation kRelations[] = {
      "must be at least two periods of control.rate_hz"},
     {"gate.v_max_m_s", [](const Config& c) { return c.gate.v_max_m_s * 1000.0 <= c.robot.v_limit_mm_s; },
      "must not be larger than robot.v_limit_mm_s"},
+    {"mqtt.password_file",
+     [](const Config& c) { return c.mqtt.password_file.empty() || !c.mqtt.user.empty(); },
+     "is the password of mqtt.user, which must not be empty then"},
+    {"mqtt.ca_file",
+     [](const Config& c) { return c.mqtt.ca_file.empty() || c.mqtt.address.starts_with("ssl://"); },
+     "is for an mqtt.address that begins with ssl://"},
 };
 
 constexpr RemovedConfigKey kRemovedKeys[] = {

@@ -27,6 +27,9 @@ enum class ConfigText : std::uint8_t {
   Address,  ///< SCHEME:REST; a path after v4l2:, file:, serial: or pty: is relative as for Path
   Listen,   ///< IP:PORT to listen at; empty: none
   Name,     ///< of a host
+  Broker,   ///< tcp://HOST:PORT or ssl://HOST:PORT; empty: none
+  Topic,    ///< of MQTT, as text that no broker refuses
+  Text,     ///< a line of any text
 };
 
 enum class Reload : std::uint8_t {

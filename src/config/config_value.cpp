@@ -68,6 +68,10 @@ std::string expected_value(const ConfigKey& key) {
   if (type == "paths") return fmt::format("at most {} paths in quotes, as [\"a\", \"b\"]", key.max);
   if (type == "names") return fmt::format("at most {} names of hosts in quotes, as [\"a\", \"b\"]", key.max);
   if (type == "listen") return "IP:PORT in quotes, as \"127.0.0.1:8080\", or \"\"";
+  if (type == "broker")
+    return "tcp://HOST:PORT or ssl://HOST:PORT in quotes, as \"tcp://broker.example:1883\", or \"\"";
+  if (type == "topic") return "names between slashes in quotes, without + and #, as \"heel/robot-1\"";
+  if (type == "text") return "one line of text in quotes, at most 128 bytes";
   if (type == "address") return listed(key, ":…", " or ") + ", in quotes";
   if (type == "choice") return listed(key, "", " or ");
   return fmt::format("a {}number {}…{}{}{}", type == "int" ? "whole " : "", key.min, key.max,
@@ -81,6 +85,8 @@ std::string value_range(const ConfigKey& key) {
   if (type == "paths") return fmt::format("{}…{} paths", key.min, key.max);
   if (type == "names") return fmt::format("{}…{} names", key.min, key.max);
   if (type == "listen") return "IP:PORT";
+  if (type == "broker") return "tcp://HOST:PORT, ssl://HOST:PORT";
+  if (type == "topic" || type == "text") return std::string(type);
   if (type == "address") return listed(key, ":…", ", ");
   if (type == "choice") return listed(key, "", ", ");
   return fmt::format("{}…{}{}", key.min, key.max, type == "int" ? ", whole" : "");
@@ -110,6 +116,12 @@ std::string_view type_name(const ConfigKey& key) {
       return "listen";
     case ConfigText::Name:
       return "name";
+    case ConfigText::Broker:
+      return "broker";
+    case ConfigText::Topic:
+      return "topic";
+    case ConfigText::Text:
+      return "text";
   }
   return "?";
 }

@@ -27,7 +27,8 @@ std::string value_range(const ConfigKey& key);
 /// file's value, "smaller" or "larger".
 std::string_view settable_values(const ConfigKey& key);
 
-/// "bool", "int", "real", "choice", "path", "address", "listen", "paths", "names".
+/// "bool", "int", "real", "choice", "path", "address", "listen", "broker", "topic", "text",
+/// "paths", "names".
 std::string_view type_name(const ConfigKey& key);
 
 /// The parts of "a|b|c".

@@ -146,6 +146,15 @@ struct ViewConfig {
   int picture_quality = 75;        ///< of their JPEG compression
 };
 
+struct MqttConfig {
+  std::string address;                ///< of the broker, tcp://HOST:PORT or ssl://HOST:PORT; empty: none
+  std::string topic = "heel/{host}";  ///< the topics begin with it; {host}: this computer's name
+  std::string user;                   ///< empty: the broker knows its clients by other means
+  std::string password_file;          ///< empty: the credential "mqtt-password" of systemd, when there is one
+  std::string ca_file;                ///< empty: the authorities that the system trusts
+  double period_s = 1.0;              ///< the status is published this often, and with every change of state
+};
+
 struct RuntimeConfig {
   std::string log_level = "info";
   std::string ready_after =
@@ -172,6 +181,7 @@ struct Config {
   TelemetryConfig telemetry;
   OperatorConfig operators;
   ViewConfig view;
+  MqttConfig mqtt;
   RuntimeConfig runtime;
 };
 

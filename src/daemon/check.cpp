@@ -11,6 +11,7 @@
 #include "config/config_text.h"
 #include "daemon/inputs.h"
 #include "heel/error.h"
+#include "operator/mqtt/broker_login.h"
 #include "operator/web/config_json.h"
 #include "operator/web/exposure.h"
 
@@ -53,8 +54,8 @@ void check_configuration(const std::string& path) {
   fmt::print("{}: {}×{} pixels, fx {:.1f}, fy {:.1f}\n", loaded.config.camera.info, inputs.camera.width_px,
              inputs.camera.height_px, inputs.camera.fx, inputs.camera.fy);
   for (const std::string& line : template_lines(loaded.config, inputs)) fmt::print("{}\n", line);
-  const std::string exposure = page_exposure(loaded.config.view);
-  if (!exposure.empty()) fmt::print("{}\n", exposure);
+  for (const std::string& exposure : {page_exposure(loaded.config.view), mqtt_exposure(loaded.config.mqtt)})
+    if (!exposure.empty()) fmt::print("{}\n", exposure);
   fmt::print("{}: valid\n", path);
 }
 

@@ -28,6 +28,7 @@
 #include "logging/logging.h"
 #include "logging/recent_log.h"
 #include "operator/local_socket.h"
+#include "operator/mqtt/mqtt_publisher.h"
 #include "operator/operator_server.h"
 #include "operator/settings.h"
 #include "operator/settings_loop.h"
@@ -102,9 +103,10 @@ class Daemon {
   const std::shared_ptr<RecentLog> log_;
   const ViewFacts view_facts_;
   LiveFeed live_feed_;
-  std::unique_ptr<ViewServer> view_;  // null: no page
+  std::unique_ptr<ViewServer> view_;     // null: no page
+  std::unique_ptr<MqttPublisher> mqtt_;  // null: no broker
   std::thread capture_thread_, vision_thread_, control_thread_, telemetry_thread_, settings_thread_,
-      operator_thread_, view_thread_;
+      operator_thread_, view_thread_, mqtt_thread_;
 
   std::uint64_t configurations_ = 0;  // taken over since the start; for the settings thread
   std::uint64_t reloads_started_ = 0, reloads_ended_ = 0;
@@ -163,6 +165,9 @@ Daemon::Daemon(LoadedConfig loaded, Signals& signals, std::shared_ptr<RecentLog>
   if (socket_)
     operators_ =
         std::make_unique<OperatorServer>(std::move(*socket_), control_port_, settings_, settings_loop_);
+  if (!loaded_.config.mqtt.address.empty())
+    mqtt_ =
+        std::make_unique<MqttPublisher>(loaded_.config.mqtt, MqttParts{settings_, telemetry_, control_port_});
   if (loaded_.config.view.address.empty()) return;
   const ViewParts parts{settings_,  telemetry_, control_port_, operators_.get(),
                         live_feed_, *log_,      view_facts_};
@@ -194,6 +199,7 @@ void Daemon::start() {
   settings_thread_ = start_thread(ThreadRole::Settings, [this] { settings_loop_.run(); });
   if (operators_) operator_thread_ = start_thread(ThreadRole::Operator, [this] { operators_->run(); });
   if (view_) view_thread_ = start_thread(ThreadRole::View, [this] { view_->run(); });
+  if (mqtt_) mqtt_thread_ = start_thread(ThreadRole::Mqtt, [this] { mqtt_->run(); });
   control_thread_ = start_thread(ThreadRole::Control, [this] { control_.run(); });
   vision_thread_ = start_thread(ThreadRole::Vision, [this] { vision_.run(); });
   capture_thread_ = start_thread(ThreadRole::Capture, [this] { capture_.run(); });
@@ -268,6 +274,7 @@ void Daemon::stop() {
   control_.stop();
   control_thread_.join();
   control_.shut_robot_down();  // in case its thread ended by an exception
+  if (mqtt_) mqtt_->stop();
   if (view_) {
     view_->stop();
     view_thread_.join();
@@ -286,6 +293,8 @@ void Daemon::stop() {
   telemetry_.stop();
   telemetry_thread_.join();
   view_.reset();
+  // Last, because it may wait for a broker, and longer for the look-up of its name.
+  if (mqtt_) mqtt_thread_.join();
   status_.send_kept();
   log_counters();
   spdlog::info("heeld stopped");

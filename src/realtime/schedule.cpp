@@ -108,6 +108,9 @@ Schedule make_schedule(const Config& config) {
       {.role = ThreadRole::View,
        .name = "heel-view",
        .does = "serves the page of view.address, where that is set"},
+      {.role = ThreadRole::Mqtt,
+       .name = "heel-mqtt",
+       .does = "publishes the status to the broker of mqtt.address, where that is set"},
       {.role = ThreadRole::Log, .name = "heel-log", .does = "writes the log"},
   }};
 }

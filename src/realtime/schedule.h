@@ -21,6 +21,7 @@ enum class ThreadRole : std::uint8_t {
   Operator,
   Settings,
   View,
+  Mqtt,
   Log
 };
 
@@ -35,7 +36,7 @@ struct ThreadPlan {
   bool hot = false;        ///< after start it does not allocate, lock, format text or cause a page fault
 };
 
-inline constexpr std::size_t kThreads = 10;
+inline constexpr std::size_t kThreads = 11;
 /// In the order of ThreadRole.
 using Schedule = std::array<ThreadPlan, kThreads>;
 

@@ -31,11 +31,11 @@ std::string with_name_behind_replaced(std::string text, std::string_view prefix,
   return text;
 }
 
-/// The host of "tcp:HOST:PORT"; one in brackets has colons itself.
-std::string with_tcp_hosts_replaced(std::string text) {
-  constexpr std::string_view kPrefix = "tcp:", kHost = "HOST";
-  for (std::size_t at = text.find(kPrefix); at != std::string::npos; at = text.find(kPrefix, at)) {
-    at += kPrefix.size();
+/// The host of "tcp:HOST:PORT" and "ssl://HOST:PORT"; one in brackets has colons itself.
+std::string with_hosts_replaced(std::string text, std::string_view prefix) {
+  constexpr std::string_view kHost = "HOST";
+  for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at)) {
+    at += prefix.size();
     const bool brackets = at < text.size() && text[at] == '[';
     const std::size_t end = brackets ? text.find(']', at) + 1 : text.find_first_of(":/\" \n\t'\\,;@()", at);
     if (end == std::string::npos || end <= at || text[end] != ':') continue;
@@ -53,7 +53,8 @@ void Redaction::add_word(const std::string& name, const std::string& instead) {
 std::string Redaction::applied(std::string_view text) const {
   std::string result = with_name_behind_replaced(std::string(text), "/home/", "USER");
   result = with_name_behind_replaced(std::move(result), "/by-id/", "DEVICE");
-  result = with_tcp_hosts_replaced(std::move(result));
+  for (const char* prefix : {"tcp:", "tcp://", "ssl://"})
+    result = with_hosts_replaced(std::move(result), prefix);
   for (const auto& [word, instead] : words_) result = with_word_replaced(std::move(result), word, instead);
   return result;
 }
@@ -72,8 +73,9 @@ std::string Redaction::applied_to_toml(std::string_view toml) const {
     end = std::min(end, toml.size());
     const std::string_view inside = toml.substr(begin + 1, end - begin - 1);
     const bool names = quote == '#' || inside.find_first_of("/:@.") != std::string_view::npos;
+    const bool user = quote != '#' && !inside.empty() && result.ends_with("\nuser = ");
     result += quote;
-    result += names ? applied(inside) : std::string(inside);
+    result += user ? "USER" : names ? applied(inside) : std::string(inside);
     if (end < toml.size()) result += toml[end];
     at = end + 1;
   }

@@ -155,6 +155,37 @@ TEST(ConfigLoad, ThePageListensAtAnAddressInNumbersAndItsNamesAreThoseOfHosts) {
               ElementsAre(HasSubstr("(expected at most 16 names of hosts in quotes")));
 }
 
+TEST(ConfigLoad, TheBrokerIsATcpOrTlsAddressAndItsTopicAndUserAreALine) {
+  const Config config = parse_config(
+                            "[mqtt]\naddress = \"ssl://broker.example:8883\"\ntopic = \"site/robot 1\"\n"
+                            "user = \"anna@site\"\npassword_file = \"pw\"\nca_file = \"ca.pem\"\n",
+                            "/etc/heel/heel.toml")
+                            .config;
+  EXPECT_EQ(config.mqtt.address, "ssl://broker.example:8883");
+  EXPECT_EQ(config.mqtt.password_file, "/etc/heel/pw");
+  EXPECT_EQ(config.mqtt.ca_file, "/etc/heel/ca.pem");
+  const auto about = [](const std::string& key, const std::string& value) {
+    return complaints_about("[mqtt]\n" + key + " = " + value + "\n");
+  };
+  const auto quoted = [](const char* text) { return std::string("\"") + text + "\""; };
+  for (const char* good : {"", "tcp://10.0.0.7:1883", "tcp://[::1]:1883"})
+    EXPECT_THAT(about("address", quoted(good)), ElementsAre()) << good;
+  for (const char* bad : {"broker:1883", "tcp://broker", "tcp://broker:0", "tcp://:1883", "tcp://a b:1",
+                          "tcp://broker:99999", "mqtt://broker:1883", "ssl://[::1:8883", "tcp://a/b:1"})
+    EXPECT_THAT(about("address", quoted(bad)), ElementsAre(HasSubstr("f.toml:2:11: mqtt.address: "))) << bad;
+  for (const char* bad : {"", "a/#", "+/b", "/a", "a/", "a//b", "$SYS/a", "a\\u0001"})
+    EXPECT_THAT(about("topic", quoted(bad)), ElementsAre(HasSubstr("f.toml:2:9: mqtt.topic: "))) << bad;
+  EXPECT_THAT(about("user", quoted("a\\nb")), ElementsAre(HasSubstr("f.toml:2:8: mqtt.user: ")));
+  EXPECT_THAT(about("period_s", "0"), ElementsAre(HasSubstr("2:12: mqtt.period_s: 0 (expected a number")));
+}
+
+TEST(ConfigLoad, APasswordNeedsAUserAndAnAuthorityNeedsTls) {
+  EXPECT_THAT(complaints_about("[mqtt]\npassword_file = \"pw\"\n"),
+              ElementsAre(HasSubstr("f.toml:2:1: mqtt.password_file: \"pw\" (is the password of mqtt.user")));
+  EXPECT_THAT(complaints_about("[mqtt]\naddress = \"tcp://a:1\"\nca_file = \"ca\"\n"),
+              ElementsAre(HasSubstr("f.toml:3:1: mqtt.ca_file: \"ca\" (is for an mqtt.address")));
+}
+
 TEST(ConfigLoad, PathsInAddressesAreRelativeToTheFile) {
   for (const char* scheme : {"serial", "pty"}) {
     const std::string text = std::string("[robot]\naddress = \"") + scheme + ":dev/robot\"\n";

@@ -48,6 +48,8 @@ TEST(Redaction, OfAConfigurationOnlyPathsAndAddressesChange) {
                 "pictures = \"jpeg\"\nshirts = [\"/srv/anna/\\\"robot\\\".heel\", 'anna.heel']\n"),
             "# of X\n[robot]\naddress = \"tcp:HOST:8101\"\nx = [1, 2] # X's\n"
             "pictures = \"jpeg\"\nshirts = [\"/srv/X/\\\"X\\\".heel\", 'X.heel']\n");
+  EXPECT_EQ(redaction.applied_to_toml("[mqtt]\nuser = \"otto\"\n[x]\nuser = \"\"\n"),
+            "[mqtt]\nuser = \"USER\"\n[x]\nuser = \"\"\n");
   EXPECT_EQ(redaction.applied_to_toml("robot = \"robot/"), "robot = \"X/") << "an end in the middle";
 }
 
@@ -56,6 +58,8 @@ TEST(Redaction, ReplacesHostsOfTcpAddresses) {
   EXPECT_EQ(redaction.applied(
                 "tcp:10.0.0.7:8101, tcp:[fe80::1]:8101 and tcp:anna.local:1; over tcp: no rates, tcp:"),
             "tcp:HOST:8101, tcp:HOST:8101 and tcp:HOST:1; over tcp: no rates, tcp:");
+  EXPECT_EQ(redaction.applied("tcp://broker.anna.example:1883, ssl://[fe80::1]:8883 and https://a.org:80"),
+            "tcp://HOST:1883, ssl://HOST:8883 and https://a.org:80");
 }
 
 TEST(Redaction, MessagesKeepTheirMembersAndEnumerators) {

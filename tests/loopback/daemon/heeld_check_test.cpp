@@ -73,6 +73,18 @@ TEST(HeeldCheck, WhoCanReachThePageIsSaid) {
               HasSubstr("none: cannot be read: No such file or directory"));
 }
 
+TEST(HeeldCheck, WhereTheStatusGoesByMqttIsSaid) {
+  const Scene scene(1);
+  const auto check = [&](const std::string& mqtt) {
+    return heeld({"--config", scene.write_config({.sections = "[mqtt]\n" + mqtt}), "--check"});
+  };
+  EXPECT_THAT(check("").out, Not(HasSubstr("the status goes to")));
+  EXPECT_THAT(check("address = \"tcp://broker:1883\"\n").out, HasSubstr("without encryption"));
+  const Outcome outcome = check("address = \"ssl://broker:8883\"\nuser = \"a\"\npassword_file = \"none\"\n");
+  EXPECT_EQ(outcome.status, kExitConfiguration);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("mqtt.password_file: "), HasSubstr("none: cannot be read")));
+}
+
 TEST(HeeldCheck, AllErrorsOfAFileAreReported) {
   const Scene scene(1);
   const std::string config = scene.write_config({.sections = "[gate]\nv_max = 0.5\nseparation_m = -1\n"});

@@ -54,7 +54,9 @@ TEST_F(RealTimeHeeld, KeepsToItsTableOfThreads) {
   if (test::kThreadSanitizer)
     GTEST_SKIP() << "this sanitizer has a thread of its own, and makes vision too slow";
   if (test::answer_to_fifo_request(1) != 0) GTEST_SKIP() << "real-time priorities are not granted here";
-  start_following(live_config(true, "core_vision = 0\n", "[view]\naddress = \"127.0.0.1:0\"\n"));
+  start_following(
+      live_config(true, "core_vision = 0\n",
+                  "[view]\naddress = \"127.0.0.1:0\"\n[mqtt]\naddress = \"tcp://127.0.0.1:1\"\n"));
   const std::map<std::string, ThreadFigures> before = by_name(threads_of(daemon_->pid()));
   test::sleep_s(2.0);
   const std::map<std::string, ThreadFigures> after = by_name(threads_of(daemon_->pid()));

@@ -21,6 +21,7 @@ namespace heel {
 namespace {
 
 using nlohmann::json;
+using test::eventually;
 using test::monotonic_s;
 using test::PageClient;
 using test::SocketClient;
