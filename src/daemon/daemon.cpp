@@ -293,10 +293,10 @@ void Daemon::stop() {
   telemetry_.stop();
   telemetry_thread_.join();
   view_.reset();
-  // Last, because it may wait for a broker, and longer for the look-up of its name.
-  if (mqtt_) mqtt_thread_.join();
   status_.send_kept();
   log_counters();
+  // Last, because it may wait for a broker, and longer for the look-up of its name.
+  if (mqtt_) mqtt_thread_.join();
   spdlog::info("heeld stopped");
 }
 

@@ -9,6 +9,7 @@
 
 namespace heel {
 
+/// For a connection. Stopping heeld must take less than TimeoutStopSec of its service.
 inline constexpr TimeNs kBrokerPatience_ns = 3 * kNsPerS;
 
 struct BrokerLogin {

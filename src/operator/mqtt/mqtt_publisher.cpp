@@ -131,11 +131,14 @@ void MqttPublisher::lost(const std::string& reason) {
 void MqttPublisher::leave() {
   if (!connected_) return;
   const TimeNs end_ns = monotonic_now_ns() + kFarewell_ns;
-  if (line_->publish(topic_ + "/online", "offline")) {
-    while (!line_->confirmed() && monotonic_now_ns() < end_ns && line_->serve(kLook_ns)) {
-    }
-  }
-  line_->disconnect();
+  const auto is_confirmed = [&] {
+    while (!line_->confirmed())
+      if (monotonic_now_ns() > end_ns || !line_->serve(kLook_ns)) return false;
+    return true;
+  };
+  // A broker that does not confirm it publishes the will, because the connection then ends without a
+  // farewell.
+  if (is_confirmed() && line_->publish(topic_ + "/online", "offline") && is_confirmed()) line_->disconnect();
 }
 
 }  // namespace heel

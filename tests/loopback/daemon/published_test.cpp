@@ -213,6 +213,22 @@ TEST_F(PublishedHeeld, ABrokerThatHangsIsGivenUpAndFoundAgain) {
   EXPECT_TRUE(reader.hears(kOnline, "online")) << logs();
 }
 
+TEST_F(PublishedHeeld, EndsInTimeWhileTheBrokerHangsWhichSaysLaterThatItIsGone) {
+  MqttBroker broker;
+  broker.start();
+  const MqttReader reader(broker);
+  drive(mqtt_config(broker.address(), "period_s = 0.1\n"));
+  ASSERT_TRUE(reader.hears(kOnline, "online")) << logs();
+  broker.signal(SIGSTOP);
+  test::sleep_s(0.5);  // a status is on its way
+  const double begin_s = monotonic_s();
+  daemon_->signal(SIGTERM);
+  EXPECT_EQ(daemon_->wait(), 0) << logs();
+  EXPECT_LT(monotonic_s() - begin_s, 5.0) << "systemd kills it then (TimeoutStopSec)";
+  broker.signal(SIGCONT);
+  EXPECT_TRUE(reader.hears(kOnline, "offline")) << logs();
+}
+
 /// Connections are taken by the kernel, and nobody answers.
 TEST_F(PublishedHeeld, APeerThatNeverAnswersIsNamedAndItDrivesOnAndEndsInTime) {
   const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);

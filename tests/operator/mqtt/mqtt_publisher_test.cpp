@@ -158,6 +158,18 @@ TEST_F(MqttPublisherTest, StopsAtOnceWhileItWaitsForTheNextAttempt) {
   EXPECT_TRUE(broker_.all().empty());
 }
 
+TEST_F(MqttPublisherTest, LeavesTheFarewellToTheWillOfABrokerThatHangs) {
+  begin(0.1);
+  ASSERT_TRUE(eventually([this] { return !texts("site/robot/status").empty(); }));
+  broker_.set(&test::PlayedBroker::confirms, false);
+  test::sleep_s(0.2);
+  const double begin_s = test::monotonic_s();
+  end();
+  EXPECT_LT(test::monotonic_s() - begin_s, 2.0);
+  EXPECT_THAT(texts("site/robot/online"), ::testing::ElementsAre("online"));
+  EXPECT_FALSE(broker_.left);
+}
+
 TEST(MqttRetry, PausesDoubleUpToHalfAMinute) {
   Backoff backoff;
   for (const TimeNs expected_s : {1, 2, 4, 8, 16, 30, 30}) EXPECT_EQ(backoff.next(), expected_s * kNsPerS);

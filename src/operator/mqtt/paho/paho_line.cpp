@@ -11,7 +11,7 @@
 namespace heel {
 namespace {
 
-constexpr int kKeepAlive_s = 10;  // a broker that is silent for twice as long is gone
+constexpr int kKeepAlive_s = 5;  // a broker that is silent for twice as long is gone
 constexpr int kConnectTimeout_s = static_cast<int>(kBrokerPatience_ns / kNsPerS);
 constexpr int kQos = 1;
 
@@ -46,6 +46,7 @@ std::string PahoLine::connect() {
   options.keepAliveInterval = kKeepAlive_s;
   options.connectTimeout = kConnectTimeout_s;
   options.cleansession = 1;
+  options.reliable = 0;  // publish() must not wait for the confirmation of the message before
   options.will = &will;
   if (!login_.user.empty()) options.username = login_.user.c_str();
   if (!login_.password.empty()) options.password = login_.password.c_str();

@@ -10,10 +10,13 @@
 #include <cstring>
 #include <memory>
 
-#include "operator/mqtt/broker_line.h"
+#include "heel/time.h"
 
 namespace heel {
 namespace {
+
+// The MQTT library has waited long enough already.
+constexpr TimeNs kLook_ns = 500 * kNsPerMs;
 
 /// 0 when connected, else an errno.
 int try_to_connect(const addrinfo& to) {
@@ -23,7 +26,7 @@ int try_to_connect(const addrinfo& to) {
   if (error == EINPROGRESS) {
     pollfd entry{fd, POLLOUT, 0};
     socklen_t size = sizeof(error);
-    if (poll(&entry, 1, static_cast<int>(kBrokerPatience_ns / kNsPerMs)) <= 0) {
+    if (poll(&entry, 1, static_cast<int>(kLook_ns / kNsPerMs)) <= 0) {
       error = ETIMEDOUT;
     } else {
       getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size);
