@@ -43,6 +43,7 @@ void add_what_it_holds(Json& answer, const std::string& path) {
                       {"fy", inputs.camera.fy}};
   answer["templates"] = template_lines(loaded.config, inputs);
   answer["page"] = page_exposure(loaded.config.view);
+  answer["mqtt"] = mqtt_exposure(loaded.config.mqtt);
 }
 
 }  // namespace

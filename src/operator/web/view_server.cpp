@@ -40,7 +40,7 @@ tcp::endpoint endpoint_of(const std::string& address) {
 }  // namespace
 
 struct ViewServer::Impl {
-  Impl(const ViewConfig& config, const ViewParts& parts, PageFiles files)
+  Impl(const ViewConfig& config, const ViewParts& parts, PageFiles files, const Token& token)
       : address(config.address),
         exposure(page_exposure(config)),
         context{
@@ -48,11 +48,11 @@ struct ViewServer::Impl {
             parts.operators,
             parts.settings,
             parts.telemetry,
-            Token::read(config.token_file),
+            token,
             LiveHub(parts.feed, parts.log, parts.facts, parts.settings.view().file.robot.model,
                     config.picture_quality),
             HttpAnswers({parts.settings, parts.telemetry, parts.feed, context.hub, parts.log, parts.facts},
-                        std::move(files), context.token.set())},
+                        std::move(files), token.set())},
         feed(parts.feed),
         acceptor(context.io),
         look_timer(context.io),
@@ -116,7 +116,7 @@ void ViewServer::Impl::look() {
 }
 
 ViewServer::ViewServer(const ViewConfig& config, const ViewParts& parts, PageFiles files)
-    : impl_(std::make_unique<Impl>(config, parts, std::move(files))) {}
+    : impl_(std::make_unique<Impl>(config, parts, std::move(files), Token::read(config.token_file))) {}
 
 ViewServer::~ViewServer() {
   impl_->feed.on_news(nullptr);
