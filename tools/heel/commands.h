@@ -35,8 +35,8 @@ CLI::Validator duration_s();
 
 void add_calibrate_command(CLI::App& app);
 void add_teach_command(CLI::App& app);
-void add_preflight_command(CLI::App& app);
 void add_pose_command(CLI::App& app);
+void add_preflight_command(CLI::App& app);
 void add_features_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
 void add_tune_command(CLI::App& app);

@@ -19,8 +19,8 @@ using namespace heel::cli;
 void add_commands(CLI::App& app) {
   add_calibrate_command(app);
   add_teach_command(app);
-  add_preflight_command(app);
   add_pose_command(app);
+  add_preflight_command(app);
   add_features_command(app);
   add_simulate_command(app);
   add_tune_command(app);
