@@ -1,4 +1,4 @@
-#include "loopback/daemon/mqtt_broker.h"
+#include "loopback/mqtt/mqtt_broker.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>

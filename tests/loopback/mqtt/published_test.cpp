@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "evaluation/metrics/process_figures.h"
-#include "loopback/daemon/mqtt_broker.h"
 #include "loopback/daemon/operated_heeld.h"
+#include "loopback/mqtt/mqtt_broker.h"
 #include "realtime/schedule.h"
 #include "support/socket_client.h"
 #include "support/temporary_folder.h"
