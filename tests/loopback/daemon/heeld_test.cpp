@@ -143,8 +143,11 @@ TEST_F(Heeld, ASecondProgramOnTheLineIsToldWhoHasItAndTheFirstDrivesOn) {
       << second.output();
   second.signal(SIGTERM);
   EXPECT_EQ(second.wait(), 0);
-  // It may have rested while the second one took the processor; its line it has had all the time.
-  EXPECT_TRUE(starts_to_drive()) << logs();
+  // It may have rested while the second one took the processor, and under the thread sanitizer its vision may
+  // be too late for long; its line it has had all the time.
+  if (!test::kThreadSanitizer) {
+    EXPECT_TRUE(starts_to_drive()) << logs();
+  }
   EXPECT_EQ(occurrences(daemon_->output(), "robot synchronised"), 1) << logs();
   EXPECT_EQ(occurrences(robot_->output(), "closed"), 0) << logs();
 }
