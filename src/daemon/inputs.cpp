@@ -75,7 +75,9 @@ Inputs load_inputs(const Config& config) {
   inputs.shirts = read_templates(config.target);
   for (std::size_t i = 0; i < inputs.shirts.size(); ++i) {
     const std::string& file = template_file(config.target, i);
+    const bool was_turned = inputs.shirts[i].turned;
     inputs.shirts[i] = template_for_turned(inputs.shirts[i], camera, turn);
+    inputs.turned_with_camera.push_back(inputs.shirts[i].turned && !was_turned);
     if (inputs.shirts[i].distance_m <= 0.0) {
       throw Error(file + ": has no distance (expected one" +
                   (i == 0 ? ", or target.distance_m)" : ": teach it again with --distance)"));
@@ -94,8 +96,12 @@ std::vector<std::string> template_lines(const Config& config, const Inputs& inpu
     const ShirtTemplate& shirt = inputs.shirts[i];
     const std::string turned =
         shirt.yaw_rad == 0.0 ? "" : fmt::format(", turned by {:.0f}°", shirt.yaw_rad * kDegPerRad);
-    lines.push_back(fmt::format("{}: taken at {:.2f} m{}; {}", template_file(config.target, i),
-                                shirt.distance_m, turned, verdict_text(inputs.verdicts[i])));
+    const char* with_camera = inputs.turned_with_camera[i]
+                                  ? "; turned with the camera's pictures, by which it was taught before they "
+                                    "were turned: if it was taught upright, teach it again"
+                                  : "";
+    lines.push_back(fmt::format("{}: taken at {:.2f} m{}; {}{}", template_file(config.target, i),
+                                shirt.distance_m, turned, verdict_text(inputs.verdicts[i]), with_camera));
   }
   return lines;
 }

@@ -17,6 +17,7 @@ struct Inputs {
   CameraModel camera;
   std::vector<ShirtTemplate> shirts;      ///< read_templates()
   std::vector<TemplateVerdict> verdicts;  ///< one for each
+  std::vector<bool> turned_with_camera;   ///< one for each: as template_for_turned()
 };
 
 /// Throws heel::Error with one line that names the file and what is wrong with it.

@@ -20,6 +20,22 @@ Error file_error(const std::string& path, const std::string& what) {
   return Error(path + ": " + what + ": " + std::strerror(errno));
 }
 
+/// The file that `path` leads to: a symbolic link stays one, and what it links to is replaced. Throws for
+/// what is no ordinary file: it would be gone.
+std::string file_behind(const std::string& path) {
+  namespace fs = std::filesystem;
+  constexpr int kMostLinks = 8;
+  fs::path file = path;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(file, error)); ++i)
+    file = file.parent_path() / fs::read_symlink(file, error);
+  const fs::file_status status = fs::status(file, error);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw Error(path + ": cannot write: it is a " + (fs::is_directory(status) ? "folder" : "device or pipe") +
+                " (expected the name of a file)");
+  return file.string();
+}
+
 /// A new file beside the final one; removed at the end unless it was renamed to it.
 class TemporaryFile {
  public:
@@ -81,7 +97,8 @@ void sync_folder_of(const std::string& path) {
 
 }  // namespace
 
-void write_file_atomically(const std::string& path, std::string_view bytes) {
+void write_file_atomically(const std::string& name, std::string_view bytes) {
+  const std::string path = file_behind(name);
   TemporaryFile temporary(path);
   if (!temporary.write_all(bytes) || !temporary.set_mode(path) || !temporary.sync() ||
       !temporary.rename_to(path)) {

@@ -108,17 +108,23 @@ const AVPacket* VideoFile::next_packet() {
     const int error = av_read_frame(file_.get(), packet_.get());
     if (error < 0) {
       ended_ = true;
-      cut_in_a_packet_ = cut_in_a_packet_ || error != AVERROR_EOF;
+      cut_in_a_packet_ = cut_in_a_packet_ || error != AVERROR_EOF || bytes_follow_the_last_frame();
       break;
     }
     if (packet_->stream_index != stream_->index) continue;
     cut_in_a_packet_ = (packet_->flags & AV_PKT_FLAG_CORRUPT) != 0;
     if (cut_in_a_packet_) continue;
     ++packets_;
+    if (is_format(*file_, "yuv4mpegpipe")) raw_frames_end_ = avio_tell(file_->pb);
     longest_packet_s_ = std::max(longest_packet_s_, seconds(packet_->duration));
     return packet_.get();
   }
   return nullptr;
+}
+
+/// FFmpeg drops a part of a frame at the end of a Y4M file without a word.
+bool VideoFile::bytes_follow_the_last_frame() const {
+  return raw_frames_end_ > 0 && avio_size(file_->pb) > raw_frames_end_;
 }
 
 double VideoFile::rate_hz() const {

@@ -61,6 +61,7 @@ class VideoFile {
   bool open_file(const std::string& path);
   bool open_stream();
   void read_orientation();
+  bool bytes_follow_the_last_frame() const;
 
   std::unique_ptr<AVFormatContext, FreeBy<avformat_close_input>> file_;
   std::unique_ptr<AVPacket, FreeBy<av_packet_free>> packet_{av_packet_alloc()};
@@ -72,6 +73,7 @@ class VideoFile {
   bool cut_in_a_packet_ = false;
   std::uint64_t packets_ = 0;
   double longest_packet_s_ = 0.0;
+  std::int64_t raw_frames_end_ = 0;  // of a Y4M file, in bytes; 0: of another one, or no frame yet
 };
 
 }  // namespace heel

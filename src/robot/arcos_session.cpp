@@ -124,8 +124,10 @@ void ArcosSession::lose_line(TimeNs now_ns) {
 std::span<const std::uint8_t> ArcosSession::close(TimeNs now_ns) {
   out_.clear();
   if (step_ != Step::NoLine) {
-    out_.append(arcos::encode_plain(CommandId::Stop));
-    out_.append(arcos::encode_integer(CommandId::Sonar, 0));
+    if (state_.phase != LinkPhase::Refused) {  // that one was never opened, and may be anything
+      out_.append(arcos::encode_plain(CommandId::Stop));
+      out_.append(arcos::encode_integer(CommandId::Sonar, 0));
+    }
     out_.append(arcos::encode_plain(CommandId::Close));
     events_.push(now_ns, Kind::Closed);
   }

@@ -85,5 +85,29 @@ TEST(AtomicFile, AFailureLeavesNoTemporaryFile) {
   EXPECT_THAT(names_in(folder.path()), ElementsAre("taken"));
 }
 
+TEST(AtomicFile, ALinkStaysOneAndWhatItLinksToIsWritten) {
+  const test::TemporaryFolder folder;
+  namespace fs = std::filesystem;
+  test::write_text(folder.file("there"), "before");
+  fs::create_symlink("there", folder.file("link"));
+  write_file_atomically(folder.file("link"), "after");
+  EXPECT_TRUE(fs::is_symlink(folder.file("link")));
+  EXPECT_EQ(test::read_text(folder.file("there")), "after");
+  fs::create_symlink("not yet", folder.file("dangling"));
+  write_file_atomically(folder.file("dangling"), "new");
+  EXPECT_TRUE(fs::is_symlink(folder.file("dangling")));
+  EXPECT_EQ(test::read_text(folder.file("not yet")), "new");
+}
+
+TEST(AtomicFile, WhatIsNoFileIsNotReplaced) {
+  const test::TemporaryFolder folder;
+  ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  EXPECT_EQ(test::complaint_of([&] { write_file_atomically(folder.file("pipe"), "x"); }),
+            folder.file("pipe") + ": cannot write: it is a device or pipe (expected the name of a file)");
+  EXPECT_TRUE(std::filesystem::is_fifo(folder.file("pipe")));
+  EXPECT_EQ(test::complaint_of([&] { write_file_atomically(folder.path().string(), "x"); }),
+            folder.path().string() + ": cannot write: it is a folder (expected the name of a file)");
+}
+
 }  // namespace
 }  // namespace heel

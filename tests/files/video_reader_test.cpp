@@ -48,6 +48,18 @@ std::string as_webm(std::string bytes, const std::string& name) {
   return bytes;
 }
 
+/// A Y4M file of so many frames, cut by so many bytes.
+void write_y4m(const std::string& path, int frames, std::size_t cut) {
+  std::string bytes = "YUV4MPEG2 W64 H48 F20:1 Ip A1:1 C420jpeg\n";
+  for (int i = 0; i < frames; ++i) {
+    const cv::Mat grey = made_frame(i);
+    bytes += "FRAME\n" + std::string(reinterpret_cast<const char*>(grey.data), grey.total()) +
+             std::string(grey.total() / 2, '\x80');
+  }
+  bytes.resize(bytes.size() - cut);
+  test::write_text(path, bytes);
+}
+
 class Videos : public ::testing::Test {
  protected:
   MadeVideo walk(const std::string& name, int frames, double period_s = 0.05) {
@@ -330,6 +342,21 @@ TEST_F(Videos, OfPublicReportsAreRight) {
   EXPECT_LT(cv::norm(grey, turned, cv::NORM_INF), 2.0);
   EXPECT_EQ(times_of(reports + "video-cut-short/cuttail.mkv").size(), 20u);
   EXPECT_EQ(reader.missing(), "ends after 20 of 40 frames");
+}
+
+TEST_F(Videos, ARawVideoThatEndsInsideAFrameIsCut) {
+  for (const std::size_t cut : {std::size_t{0}, std::size_t{1}, std::size_t{2000}, std::size_t{4610}}) {
+    SCOPED_TRACE(cut);
+    const std::string path = folder.file("raw.y4m");
+    write_y4m(path, 5, cut);
+    VideoReader video;
+    ASSERT_TRUE(video.open(path)) << video.problem();
+    int frames = 0;
+    for (cv::Mat grey; video.read(grey); ++frames)  // of the range 16 to 235
+      EXPECT_NEAR(grey.at<std::uint8_t>(40, 60), (40 + 2 * frames - 16) * 255 / 219, 2);
+    EXPECT_EQ(frames, cut == 0 ? 5 : 4);
+    EXPECT_EQ(video.missing(), cut == 0 ? "" : "ends after 4 frames, inside a frame");
+  }
 }
 
 }  // namespace

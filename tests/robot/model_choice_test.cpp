@@ -233,6 +233,10 @@ TEST(ArcosSessionModel, ARobotThatIsNotKnownIsNeverOpened) {
   expect_never_driven(bench);
   EXPECT_EQ(bench.count(Kind::ModelUnknown), 1) << "one line, not one for each attempt";
   EXPECT_STREQ(bench.session.state().kind.subclass.data(), "create");
+  const std::span<const std::uint8_t> farewell = bench.session.close(bench.now_ns);
+  EXPECT_THAT(std::vector(farewell.begin(), farewell.end()),
+              testing::ElementsAreArray(arcos::encode_plain(arcos::CommandId::Close).bytes()))
+      << "and nothing else, also at the end";
 }
 
 TEST(ArcosSessionModel, AConflictAndAMissingNameAreRefused) {

@@ -82,7 +82,7 @@ class Look {
 };
 
 PreflightStep not_there(PreflightStep step, const Error& error, const char* advice) {
-  return step.fail(error.what(), advice);
+  return step.fail(error.what(), advice_on(error.what(), advice));
 }
 
 /// Pictures as the camera sends them, copied.

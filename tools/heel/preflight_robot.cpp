@@ -100,7 +100,8 @@ bool require_running(TickedLink& link, const Config& config, PreflightStep& step
   const bool answered = link.connect();
   const std::string note = link.last_note();
   if (!answered) {
-    step.fail(config.robot.address + ": " + (note.empty() ? "robot does not answer" : note), kNoRobot);
+    step.fail(note.empty() ? config.robot.address + ": robot does not answer" : note,
+              advice_on(note, kNoRobot));
     return false;
   }
   if (link.state().phase == LinkPhase::Refused) {

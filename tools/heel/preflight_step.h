@@ -31,6 +31,15 @@ struct PreflightStep {
   }
 };
 
+/// What to do about `problem`, which may say itself that another program has the device.
+inline std::string advice_on(const std::string& problem, const char* otherwise) {
+  const bool in_use = problem.find("in use by") != std::string::npos;
+  const bool not_allowed = problem.find("Permission denied") != std::string::npos;
+  return in_use        ? "end that program; heeld: systemctl stop heeld"
+         : not_allowed ? "do what it says, or ask as root"
+                       : otherwise;
+}
+
 /// Set by SIGINT and SIGTERM: the robot is stopped and nothing more is begun.
 inline std::atomic<bool> g_preflight_interrupted{false};
 

@@ -80,6 +80,8 @@ FrameResult FileSource::wait_frame(TimeNs timeout_ns, FrameView& frame) {
   const TimeNs t_call_ns = monotonic_now_ns();
   if (!decoded_) {
     const FrameResult result = decode_next();
+    if (result == FrameResult::EndOfStream && !wait_for_end_of_last_frame(t_call_ns + timeout_ns))
+      return FrameResult::Timeout;
     if (result != FrameResult::Frame) return result;
   }
   const TimeNs t_capture_ns = due_ns();
@@ -88,6 +90,7 @@ FrameResult FileSource::wait_frame(TimeNs timeout_ns, FrameView& frame) {
     if (monotonic_now_ns() < t_capture_ns) return FrameResult::Timeout;
   }
   decoded_ = false;
+  t_last_ns_ = t_capture_ns;
   const cv::Mat& grey = decoder_->grey;
   frame.header = {.sequence = next_ - 1,
                   .t_capture_ns = t_capture_ns,
@@ -96,6 +99,14 @@ FrameResult FileSource::wait_frame(TimeNs timeout_ns, FrameView& frame) {
   frame.grey = grey.data;
   frame.stride_bytes = static_cast<std::uint32_t>(grey.step);
   return FrameResult::Frame;
+}
+
+/// The last frame lasts as long as any other, so that a file that starts again keeps its pace.
+bool FileSource::wait_for_end_of_last_frame(TimeNs until_ns) const {
+  if (file_speed_ <= 0.0 || next_ == 0) return true;
+  const TimeNs end_ns = t_last_ns_ + ns_from_seconds(1.0 / (own_rate_hz_ * file_speed_));
+  sleep_until_ns(std::min(end_ns, until_ns));
+  return monotonic_now_ns() >= end_ns;
 }
 
 FrameResult FileSource::decode_next() {

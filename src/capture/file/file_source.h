@@ -37,6 +37,7 @@ class FileSource final : public FrameSource {
   OpenResult open_video();
   FrameResult decode_next();
   TimeNs due_ns();
+  bool wait_for_end_of_last_frame(TimeNs until_ns) const;
 
   std::string path_;
   double image_rate_hz_;
@@ -52,6 +53,7 @@ class FileSource final : public FrameSource {
   TimeNs origin_ns_ = 0;
   double t_origin_s_ = 0.0;
   bool has_origin_ = false;
+  TimeNs t_last_ns_ = 0;  ///< due time of the last frame given
 };
 
 }  // namespace heel

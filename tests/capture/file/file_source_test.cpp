@@ -73,7 +73,25 @@ TEST_F(FileSourceTest, OneImageIsOneFrame) {
   FrameView frame;
   ASSERT_EQ(source.wait_frame(0, frame), FrameResult::Frame);
   EXPECT_EQ(frame.grey[0], 77);
-  EXPECT_EQ(source.wait_frame(0, frame), FrameResult::EndOfStream);
+  EXPECT_EQ(source.wait_frame(kNsPerS, frame), FrameResult::EndOfStream);
+}
+
+TEST_F(FileSourceTest, TheLastFrameLastsAPeriodSoThatALoopKeepsItsPace) {
+  FileSource source(image("one.png", 77), 5.0, 2.0);
+  FrameView frame;
+  TimeNs last_ns = 0;
+  for (int round = 0; round < 3; ++round) {
+    ASSERT_EQ(source.open(), OpenResult::Opened) << source.problem();
+    ASSERT_EQ(source.wait_frame(0, frame), FrameResult::Frame);
+    if (round > 0) {
+      EXPECT_GE(frame.header.t_capture_ns - last_ns, 100 * kNsPerMs) << "5 Hz, twice as fast";
+    }
+    last_ns = frame.header.t_capture_ns;
+    FrameResult result = source.wait_frame(kNsPerMs, frame);
+    EXPECT_EQ(result, FrameResult::Timeout) << "not yet";
+    while (result == FrameResult::Timeout) result = source.wait_frame(kNsPerMs, frame);
+    EXPECT_EQ(result, FrameResult::EndOfStream);
+  }
 }
 
 TEST_F(FileSourceTest, AVideosOwnRateTimesTheSpeed) {

@@ -130,6 +130,13 @@ TEST(HeeldCheck, JsonHasTheValuesOrTheErrorsOfAFile) {
   EXPECT_EQ(heeld({"--config", scene.write_config(), "--json"}).status, kExitUsage) << "without --check";
 }
 
+TEST(HeeldCheck, ATemplateThatIsTurnedWithTheCameraIsSaidToBe) {
+  const Scene scene(1);
+  EXPECT_THAT(heeld({"--config", scene.write_config({.camera = "rotate = 180\n"}), "--check"}).out,
+              HasSubstr("turned with the camera's pictures"));
+  EXPECT_THAT(heeld({"--config", scene.write_config(), "--check"}).out, Not(HasSubstr("turned with")));
+}
+
 TEST(HeeldCheck, FilesItRefersToAreLoaded) {
   const Scene scene(1);
   std::filesystem::remove(scene.path("shirt.heel"));
