@@ -105,30 +105,15 @@ CalibrationJson json_of(const BoardViews& found, const Calibration& result, cons
   return json;
 }
 
-/// The images of folders among them, in natural order.
-std::vector<std::string> all_images(const std::vector<std::string>& inputs) {
-  std::vector<std::string> images;
-  for (const std::string& input : inputs) {
-    if (!std::filesystem::is_directory(input)) {
-      images.push_back(input);
-      continue;
-    }
-    std::error_code error;
-    const std::vector<std::string> inside = images_in_folder(input, error);
-    if (error) throw Error(input + ": cannot read the folder: " + error.message());
-    if (inside.empty()) throw Error(input + ": no image in this folder (expected at least one)");
-    images.insert(images.end(), inside.begin(), inside.end());
-  }
-  return images;
-}
-
 void run_calibrate(const CalibrateOptions& options) {
   const Board board{parse_corners(options.board), options.square_m, parse_pattern(options.pattern)};
   if (board.pattern == Pattern::AsymmetricCircles && board.corners.height % 2 == 0)
     throw Error("--board: '" + options.board +
                 "' (expected an odd number of rows of asymmetric circles, e.g. 4x11: an even one "
                 "looks the same upside down)");
-  const std::vector<std::string> images = all_images(options.images);
+  const BoardImages pictures(options.images);
+  for (const std::string& problem : pictures.problems()) fmt::print(stderr, "heel calibrate: {}\n", problem);
+  const std::vector<std::string>& images = pictures.files();
   commandline::Progress progress("images searched", images.size());
   BoardViews found = find_board(images, board, kMinViews, [&](const SearchedImage& searched) {
     progress.clear();
@@ -151,11 +136,14 @@ void add_calibrate_command(CLI::App& app) {
   auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command = app.add_subcommand(
       "calibrate",
-      "Camera calibration from photographs of a board; writes ROS camera_info YAML.\n"
+      "Camera calibration from photographs or videos of a board; writes ROS camera_info YAML.\n"
       "Take ten to twenty views at the resolution that heel will use, with fixed focus. The board\n"
       "should fill much of the image, reach its corners, and be tilted up to 45 degrees each way. A\n"
       "chessboard may be cut by the edge of the image, where two images or more show it as a whole.");
-  command->add_option("images", options->images, "photographs of the board, or folders of them")
+  command
+      ->add_option(
+          "images", options->images,
+          "photographs of the board, folders of them, or videos, of which the sharpest frames\nare taken")
       ->required()
       ->type_name("IMAGES");
   command

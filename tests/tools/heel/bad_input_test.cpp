@@ -183,7 +183,7 @@ TEST(BadInput, OfCalibrateIsRefused) {
        "--square: '25' (expected metres, 0.0001…10; 25 mm are 0.025)"},
       {{"calibrate", f.at("words.txt"), "--board", "9x6", "--square", "0.03", "-o", f.at("c.yaml")},
        "heel calibrate: ",
-       "words.txt: not a whole image"},
+       "words.txt: not an image or video"},
       {{"calibrate", "--board", "9x6", "--square", "0.03", "-o", f.at("c.yaml")},
        "heel calibrate: ",
        "images"},
