@@ -50,8 +50,9 @@ inline std::atomic<bool> g_preflight_interrupted{false};
 PreflightStep check_camera(const Config& config);
 /// The camera's calibration: it exists, and is of pictures of this size.
 PreflightStep check_calibration(const Config& config);
-/// The template is usable; with a camera that shows the person: it is found, upright, and as far as it says.
+/// The template is usable.
 PreflightStep check_shirt(const Config& config);
+/// The shirt is found in the camera's pictures as they are mounted; else the mounting in which it is.
 PreflightStep check_person(const Config& config);
 /// The robot answers, is one that heel knows, its battery is charged, its sonars are heard. It stands still.
 PreflightStep check_robot(const Config& config);
