@@ -164,11 +164,14 @@ void RefBytes::pack(std::span<const Descriptor> descriptors, std::span<const std
 
 CurBytes::CurBytes(std::size_t max_count)
     : data_(hwy::AllocateAligned<std::int8_t>(padded(std::max<std::size_t>(1, max_count)) * kDescriptorSize)),
-      offsets_(hwy::AllocateAligned<std::int16_t>(padded(std::max<std::size_t>(1, max_count)))) {}
+      offsets_(hwy::AllocateAligned<std::int16_t>(padded(std::max<std::size_t>(1, max_count)))) {
+  errors_.reserve(max_count);
+}
 
 void CurBytes::pack(std::span<const Descriptor> descriptors, std::span<const std::int32_t> index) {
   count_ = index.size();
   centre_ = mean_of(descriptors, index);
+  errors_.clear();
   max_error_ = 0.f;
   constexpr std::size_t kAtOnce = 8;
   static_assert(kBlock % kAtOnce == 0);
@@ -177,6 +180,7 @@ void CurBytes::pack(std::span<const Descriptor> descriptors, std::span<const std
     for (std::size_t m = 0; m < kAtOnce && first + m < count_; ++m) {
       const Descriptor& descriptor = descriptors[static_cast<std::size_t>(index[first + m])];
       members[m] = round_to_steps(descriptor, centre_, kCurSteps);
+      errors_.push_back(members[m].error);
       max_error_ = std::max(max_error_, members[m].error);
       offsets_[first + m] =
           static_cast<std::int16_t>(RefBytes::kOffset * members[m].sum + in_product_units(members[m].excess));

@@ -69,6 +69,7 @@ class CurBytes {
   /// For each member, in product units modulo 2¹⁶: what RefBytes::kOffset adds to its products, plus (|b'|² −
   /// |b|²) / 2.
   const std::int16_t* offsets() const { return offsets_.get(); }
+  float error(std::size_t i) const { return errors_[i]; }  ///< |b' − b|, of rounding and clipping
   float max_error() const { return max_error_; }
 
   static constexpr std::size_t padded(std::size_t count) { return (count + kBlock - 1) / kBlock * kBlock; }
@@ -78,6 +79,7 @@ class CurBytes {
   DescriptorCentre centre_{};
   hwy::AlignedFreeUniquePtr<std::int8_t[]> data_;
   hwy::AlignedFreeUniquePtr<std::int16_t[]> offsets_;
+  std::vector<float> errors_;
   float max_error_ = 0.f;
 };
 

@@ -62,15 +62,22 @@ struct Matcher::Impl {
   struct Candidate {
     std::int32_t ref = 0, cur = -1;
     float product = -2.f;
-    float second = -2.f;  // a lower bound of the second largest
     std::int16_t byte_product = kAbsentProduct;
   };
-  // The byte products of one ref with all curs, and a bound of the error of the distances they represent.
+  // The byte products of one ref with all curs. `ref_error` is of the ref alone; `error` bounds that of every
+  // distance in the row.
   struct Row {
     const Descriptor& ref;
     std::span<const std::int16_t> products;
     TwoLargest largest;
+    float ref_error;
     float error;
+  };
+  // The largest exact product of a row, and a lower bound of the next.
+  struct LargestExact {
+    std::int32_t place = -1;
+    float product = -2.f;
+    float next = -2.f;
   };
 
   Impl(std::size_t ref_capacity, std::size_t cur_capacity, const MatchSettings& given)
@@ -95,9 +102,9 @@ struct Matcher::Impl {
     return distance_of(best) < settings.ratio * distance_of(second);
   }
   bool cannot_pass_ratio(const Row& row) const;
-  bool passes_ratio(const Row& row, const Candidate& nearest, const FeatureSet& cur);
-  Candidate nearest_of(const Row& row, const FeatureSet& cur);
-  std::span<const std::int32_t> places_near(const Row& row, std::int16_t largest);
+  bool passes_ratio(const Row& row, const LargestExact& nearest, const FeatureSet& cur);
+  LargestExact largest_exact(const Row& row, std::int16_t largest, std::int32_t left_out,
+                             const FeatureSet& cur);
   bool is_nearest_of_cur(const Candidate& candidate, const FeatureSet& ref, const FeatureSet& cur) const;
 
   std::size_t padded() const { return CurBytes::padded(std::max<std::size_t>(1, max_cur)); }
@@ -113,51 +120,54 @@ struct Matcher::Impl {
   std::vector<Candidate> candidates;
 };
 
-/// All places where the largest exact product can be, if `largest` is the largest byte product of those
-/// considered.
-std::span<const std::int32_t> Matcher::Impl::places_near(const Row& row, std::int16_t largest) {
-  const float distance = distance_of(product_bounds(largest, row.error).lower) + row.error;
-  const float limit =
-      std::floor((1.f - 0.5f * distance * distance - kFloatError) * kProductUnit) - kUnitError;
-  const auto above = static_cast<std::int16_t>(std::max(limit, float{kAbsentProduct}));
-  return {places.data(), places_above(row.products, above, places.data())};
-}
-
 bool Matcher::Impl::cannot_pass_ratio(const Row& row) const {
   return cur_members.size() > 1 && !passes_ratio(product_bounds(row.largest.first, row.error).upper,
                                                  product_bounds(row.largest.second, row.error).lower);
 }
 
-/// Among equals the first is nearest.
-Matcher::Impl::Candidate Matcher::Impl::nearest_of(const Row& row, const FeatureSet& cur) {
-  Candidate nearest;
-  for (const std::int32_t place : places_near(row, row.largest.first)) {
-    const auto member = static_cast<std::size_t>(place);
-    const float product = inner_product(row.ref, descriptor_of(cur, cur_members[member]));
-    nearest.second = std::max(nearest.second, std::min(product, nearest.product));
-    if (product <= nearest.product) continue;
-    nearest.product = product;
-    nearest.cur = place;
-    nearest.byte_product = row.products[member];
+/// Among the places of a row but `left_out`, of whose byte products `largest` is the largest; of equals the
+/// first. The exact product of that place is a sharp bound: few others can reach it.
+Matcher::Impl::LargestExact Matcher::Impl::largest_exact(const Row& row, std::int16_t largest,
+                                                         std::int32_t left_out, const FeatureSet& cur) {
+  const auto exact = [&](std::int32_t place) {
+    return inner_product(row.ref, descriptor_of(cur, cur_members[static_cast<std::size_t>(place)]));
+  };
+  const auto places_above_product = [&](float limit) {
+    const auto above = static_cast<std::int16_t>(std::max(limit, float{kAbsentProduct}));
+    return std::span<const std::int32_t>(places.data(), places_above(row.products, above, places.data()));
+  };
+  float least = -1.f;
+  for (const std::int32_t place : places_above_product(static_cast<float>(largest) - 1.f)) {
+    if (place == left_out || row.products[static_cast<std::size_t>(place)] != largest) continue;
+    least = exact(place);
+    break;
   }
-  return nearest;
+  const float distance = distance_of(least) + row.error;
+  LargestExact found;
+  for (const std::int32_t place : places_above_product(
+           std::floor((1.f - 0.5f * distance * distance - kFloatError) * kProductUnit) - kUnitError)) {
+    const auto member = static_cast<std::size_t>(place);
+    if (place == left_out ||
+        product_bounds(row.products[member], row.ref_error + cur_bytes.error(member)).upper < least)
+      continue;
+    const float product = exact(place);
+    found.next = std::max(found.next, std::min(product, found.product));
+    if (product <= found.product) continue;
+    found.product = product;
+    found.place = place;
+  }
+  return found;
 }
 
-bool Matcher::Impl::passes_ratio(const Row& row, const Candidate& nearest, const FeatureSet& cur) {
+bool Matcher::Impl::passes_ratio(const Row& row, const LargestExact& nearest, const FeatureSet& cur) {
   if (cur_members.size() < 2) return true;
-  if (!passes_ratio(nearest.product, nearest.second)) return false;
-  const bool largest = nearest.byte_product == row.largest.first;
+  if (!passes_ratio(nearest.product, nearest.next)) return false;
+  const bool largest = row.products[static_cast<std::size_t>(nearest.place)] == row.largest.first;
   const std::int16_t others = largest ? row.largest.second : row.largest.first;
   const Bounds second = product_bounds(others, row.error);
   if (passes_ratio(nearest.product, second.upper)) return true;
   if (!passes_ratio(nearest.product, second.lower)) return false;
-  float exact = -2.f;
-  for (const std::int32_t place : places_near(row, others)) {
-    if (place == nearest.cur) continue;
-    const std::int32_t member = cur_members[static_cast<std::size_t>(place)];
-    exact = std::max(exact, inner_product(row.ref, descriptor_of(cur, member)));
-  }
-  return passes_ratio(nearest.product, exact);
+  return passes_ratio(nearest.product, largest_exact(row, others, nearest.place, cur).product);
 }
 
 void Matcher::Impl::find_candidates(const FeatureSet& ref, const FeatureSet& cur) {
@@ -171,12 +181,13 @@ void Matcher::Impl::find_candidates(const FeatureSet& ref, const FeatureSet& cur
     keep_two_largest(products.get(), tile, stride, cur_first.get(), cur_second.get());
     for (std::size_t i = first; i < first + tile; ++i) {
       const std::span<const std::int16_t> of_ref(products.get() + (i - first) * stride, stride);
-      const Row row{descriptor_of(ref, ref_members[i]), of_ref, two_largest(of_ref),
+      const Row row{descriptor_of(ref, ref_members[i]), of_ref, two_largest(of_ref), ref_bytes.error(i),
                     error_with(ref_bytes.error(i))};
       if (cannot_pass_ratio(row)) continue;
-      Candidate nearest = nearest_of(row, cur);
-      nearest.ref = static_cast<std::int32_t>(i);
-      if (passes_ratio(row, nearest, cur)) candidates.push_back(nearest);
+      const LargestExact nearest = largest_exact(row, row.largest.first, -1, cur);
+      if (passes_ratio(row, nearest, cur))
+        candidates.push_back({static_cast<std::int32_t>(i), nearest.place, nearest.product,
+                              of_ref[static_cast<std::size_t>(nearest.place)]});
     }
   }
 }

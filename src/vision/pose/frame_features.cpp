@@ -9,15 +9,19 @@ FrameFeatures::Found::Found(int max_features) : grid(max_features, GuidedMatchSe
   undistorted_px.reserve(static_cast<std::size_t>(max_features));
 }
 
-FrameFeatures::FrameFeatures(const CameraModel& camera, const FeatureSettings& settings)
+FrameFeatures::FrameFeatures(const CameraModel& camera, const FeatureSettings& settings,
+                             int closer_look_features)
     : camera_(camera),
+      settings_(settings),
+      closer_look_features_(closer_look_features),
       extractor_(camera.width_px, camera.height_px, settings),
       found_{Found(settings.max_features), Found(settings.max_features), Found(settings.max_features)} {
   for (Found& found : found_) extractor_.reserve(found.features);
 }
 
 const FeatureGrid& FrameFeatures::find(const FrameView& frame, const ExpectedView& expected, Search search) {
-  FeatureSettings settings = extractor_.settings();
+  FeatureSettings settings = settings_;
+  if (search == Search::CloserLook) settings.max_features = closer_look_features_;
   settings.sigma_min_px = static_cast<float>(expected.sigma_min_px);
   settings.sigma_max_px = static_cast<float>(expected.sigma_max_px);
   settings.upsample = expected.upsample;

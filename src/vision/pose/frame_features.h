@@ -18,13 +18,14 @@ class FrameFeatures {
  public:
   enum class Search : std::size_t { WholeFrame, ExpectedView, CloserLook };
 
-  /// Memory is taken once, for frames of the camera's size and `settings.max_features`.
-  FrameFeatures(const CameraModel& camera, const FeatureSettings& settings);
+  /// Memory is taken once, for frames of the camera's size and `settings.max_features`. A closer look, whose
+  /// region is little larger than a back, finds at most `closer_look_features` of them.
+  FrameFeatures(const CameraModel& camera, const FeatureSettings& settings, int closer_look_features);
 
   FrameFeatures(const FrameFeatures&) = delete;
   FrameFeatures& operator=(const FrameFeatures&) = delete;
 
-  const FeatureSettings& settings() const { return extractor_.settings(); }
+  const FeatureSettings& settings() const { return settings_; }
 
   /// Valid until the next call with the same `search`.
   const FeatureGrid& find(const FrameView& frame, const ExpectedView& expected, Search search);
@@ -45,6 +46,8 @@ class FrameFeatures {
   };
 
   CameraModel camera_;
+  FeatureSettings settings_;
+  int closer_look_features_;
   FeatureExtractor extractor_;
   std::array<Found, 3> found_;  // by Search
   StageTimes* times_ = nullptr;

@@ -114,7 +114,9 @@ PoseEstimate with_view(PoseEstimate pose, const ViewDetection& seen, const Refer
 }  // namespace
 
 struct PoseEstimator::Impl {
-  Impl(const ShirtTemplate& shirt, const CameraModel& current_camera, const VisionConfig& config);
+  /// `config` with the budget of the whole frame.
+  Impl(const ShirtTemplate& shirt, const CameraModel& current_camera, const VisionConfig& config,
+       int closer_look_features);
 
   PoseEstimate estimate(const FrameView& frame, const ExpectedView& search, FrameFeatures::Search kind);
   PoseEstimate estimate_part(const FrameView& frame, int part);
@@ -146,13 +148,14 @@ struct PoseEstimator::Impl {
 };
 
 PoseEstimator::Impl::Impl(const ShirtTemplate& shirt, const CameraModel& current_camera,
-                          const VisionConfig& config)
+                          const VisionConfig& config, int closer_look_features)
     : camera(current_camera),
       reference(shirt, config),
       K_cur(camera.K()),
       K_cur_inverse(K_cur.inverse()),
       range(magnification_range(shirt, camera, config)),
-      frame_features(camera, frame_feature_settings(shirt, reference.set, range, config)),
+      frame_features(camera, frame_feature_settings(shirt, reference.set, range, config),
+                     closer_look_features),
       view_predictor(reference, camera, config, frame_features.settings()),
       matcher(reference.set, config.max_features, static_cast<float>(config.match_ratio)),
       plane_fitter(reference, frame_shape_limits(range), config),
@@ -175,12 +178,12 @@ PoseEstimate PoseEstimator::Impl::estimate_part(const FrameView& frame, int part
   PoseEstimate pose = not_found_yet(frame);
   marks.inliers = 0;
   if (!fits_camera(frame)) return with_reason(pose, PoseReason::WrongFrameSize);
-  const FeatureGrid& features =
-      frame_features.find(frame, view_predictor.part(part), FrameFeatures::Search::ExpectedView);
+  const ExpectedView expected = view_predictor.part(part);
+  const FeatureGrid& features = frame_features.find(frame, expected, FrameFeatures::Search::ExpectedView);
   pose.frame_features = static_cast<std::uint32_t>(features.features().features.size());
   if (pose.frame_features < kHomographyPairs) return with_reason(pose, PoseReason::TooFewFeatures);
-  pose =
-      with_view(with_reason(pose, PoseReason::NoHomography), view_search.search(frame, features), reference);
+  pose = with_view(with_reason(pose, PoseReason::NoHomography),
+                   view_search.search(frame, magnified(features, expected)), reference);
   mark(workspace.times, VisionStage::Motion);
   return pose;
 }
@@ -198,7 +201,7 @@ PoseEstimate PoseEstimator::Impl::estimate(const FrameView& frame, const Expecte
   pose = steps(pose, frame, features, search, workspace);
   if (!pose.found()) {
     marks.inliers = 0;
-    pose = with_view(pose, view_search.search(frame, features), reference);
+    pose = with_view(pose, view_search.search(frame, magnified(features, search)), reference);
   }
   mark(workspace.times, VisionStage::Motion);
   return pose;
@@ -260,7 +263,8 @@ std::optional<PlaneMotion> PoseEstimator::Impl::choose(const PlaneMotions& motio
 
 PoseEstimator::PoseEstimator(const ShirtTemplate& shirt, const CameraModel& camera,
                              const VisionConfig& config)
-    : impl_(std::make_unique<Impl>(shirt, camera, with_feature_budget(camera, config))) {}
+    : impl_(std::make_unique<Impl>(shirt, camera, with_feature_budget(camera, config), config.max_features)) {
+}
 PoseEstimator::~PoseEstimator() = default;
 PoseEstimator::PoseEstimator(PoseEstimator&&) noexcept = default;
 PoseEstimator& PoseEstimator::operator=(PoseEstimator&&) noexcept = default;

@@ -70,7 +70,7 @@ bool SecondPlaceSearch::shows_second_place(const FrameView& frame, const Feature
     if (fit.found()) fit = plane_fitter_.fit_guided(fit, matcher_, outside, work);
     if (fit.found() && fit.certainty >= enough && elsewhere(fit.H_cur_from_ref)) return true;
   }
-  const ViewDetection seen = view_search_.search(frame, outside);
+  const ViewDetection seen = view_search_.search(frame, {outside, 1.0});
   return seen.found() && seen.certainty >= enough && elsewhere(seen.H_cur_from_ref);
 }
 

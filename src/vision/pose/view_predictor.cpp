@@ -28,6 +28,9 @@ constexpr double kBudgetWidth_px = 640.0;
 constexpr double kLargestInPart_px = 3.0;
 // Below this magnification few of the template's features are as large as the smallest filter.
 constexpr double kSmallMagnification = 0.8;
+// A candidate whose longer side is larger shows enough features as it is, however small its features are
+// beside those of a template that was taught from a large picture.
+constexpr double kSmallCandidate_px = 240.0;
 
 }  // namespace
 
@@ -86,8 +89,11 @@ ExpectedView ViewPredictor::near(const Eigen::Matrix3d& H_cur_from_ref, double d
 
 ExpectedView ViewPredictor::near_candidate(const Eigen::Matrix3d& H_cur_from_ref) const {
   const Eigen::AlignedBox2d box = outline_box(H_cur_from_ref);
-  return around(H_cur_from_ref, box, Eigen::Vector2d::Constant(kCandidateMargin * box.sizes().maxCoeff()),
-                kCandidateScaleMargin);
+  const double side_px = box.sizes().maxCoeff();
+  ExpectedView view = around(H_cur_from_ref, box, Eigen::Vector2d::Constant(kCandidateMargin * side_px),
+                             kCandidateScaleMargin);
+  view.upsample = view.upsample && side_px < kSmallCandidate_px;
+  return view;
 }
 
 /// Of the template under H, in the frame.

@@ -57,11 +57,15 @@ ViewSearch::ViewSearch(const ShirtTemplate& shirt, const ReferenceView& referenc
       voter_(views_, surface, shirt.camera, camera, config.max_features),
       confirmer_(views_, surface, shirt.camera, camera, config.max_features) {}
 
-ViewDetection ViewSearch::search(const FrameView& frame, const FeatureGrid& found_features) {
+MagnifiedFeatures magnified(const FeatureGrid& grid, const ExpectedView& expected) {
+  return {grid, expected.upsample ? UpsampledRegion::kFactor : 1.0};
+}
+
+ViewDetection ViewSearch::search(const FrameView& frame, const MagnifiedFeatures& found) {
   ViewDetection detection;
   if (views_.empty()) return detection;
-  for (const FrontalMotion& candidate : voter_.candidates(found_features)) {
-    detection = confirm(frame, candidate);
+  for (const FrontalMotion& candidate : voter_.candidates(found.grid)) {
+    detection = confirm(frame, found, candidate);
     if (detection.found()) break;
   }
   return detection;
@@ -71,7 +75,8 @@ bool ViewSearch::plausible(const Eigen::Matrix3d& H_cur_from_ref) const {
   return H_cur_from_ref.allFinite() && plausible_shape(H_cur_from_ref, reference_.outline_px, shape_limits_);
 }
 
-ViewDetection ViewSearch::confirm(const FrameView& frame, const FrontalMotion& candidate) {
+ViewDetection ViewSearch::confirm(const FrameView& frame, const MagnifiedFeatures& found,
+                                  const FrontalMotion& candidate) {
   ViewDetection detection;
   const Eigen::Matrix3d H_candidate = plane_homography(K_cur_, candidate, reference_.K_inverse);
   detection.reason = PoseReason::ImplausibleShape;
@@ -79,10 +84,12 @@ ViewDetection ViewSearch::confirm(const FrameView& frame, const FrontalMotion& c
 
   ExpectedView near = predictor_.near_candidate(H_candidate);
   near.sigma_min_px = std::max(predictor_.whole_frame().sigma_min_px, kSmallerFeatures * near.sigma_min_px);
-  const FeatureGrid& features = features_.find(frame, near, FrameFeatures::Search::CloserLook);
-  const double magnification = near.upsample ? UpsampledRegion::kFactor : 1.0;
-  const std::optional<ConfirmedView> confirmed = confirmer_.confirm(candidate, features, magnification);
   detection.reason = PoseReason::TooFewInliers;
+  // A back so large shows itself without the closer look, which only finds more of it.
+  if (!near.upsample && !confirmer_.confirm(candidate, found.grid, found.magnification)) return detection;
+  const MagnifiedFeatures look =
+      magnified(features_.find(frame, near, FrameFeatures::Search::CloserLook), near);
+  const std::optional<ConfirmedView> confirmed = confirmer_.confirm(candidate, look.grid, look.magnification);
   if (!confirmed) return detection;
   detection.inliers = static_cast<std::uint32_t>(confirmed->pairs.size());
   detection.view_features = static_cast<std::uint32_t>(confirmed->view_features);
@@ -95,7 +102,7 @@ ViewDetection ViewSearch::confirm(const FrameView& frame, const FrontalMotion& c
   if (!pose) return detection;
   pose = patch_refiner_.refine_turned(frame, surface_, *pose, kOtherTurns_rad, kViewPatchRounds);
   if (std::abs(yaw_of_rotation(pose->motion.R_cur_from_ref)) > kMirrored_rad) {
-    const std::optional<SurfacePose> mirrored = refine_mirrored(frame, features, magnification, *pose);
+    const std::optional<SurfacePose> mirrored = refine_mirrored(frame, look, *pose);
     if (mirrored && mirrored->score > pose->score) pose = mirrored;
   }
   if (pose->agreement < kMinAgreement || pose->patches < kMinPatches) return detection;
@@ -108,14 +115,16 @@ ViewDetection ViewSearch::confirm(const FrameView& frame, const FrontalMotion& c
 
 /// From the mirror image of `pose` in the line of sight, with its own pairs where there are any: those of the
 /// other pose hold it back.
-std::optional<SurfacePose> ViewSearch::refine_mirrored(const FrameView& frame, const FeatureGrid& features,
-                                                       double magnification, const SurfacePose& pose) {
+std::optional<SurfacePose> ViewSearch::refine_mirrored(const FrameView& frame,
+                                                       const MagnifiedFeatures& features,
+                                                       const SurfacePose& pose) {
   const FrontalProblem problem{{}, reference_.K, K_cur_, {}, reference_.centre_px, surface_};
   const PlaneMotion mirrored = mirrored_motion(problem, pose.motion);
   FrontalMotion start;
   start.R_cur_from_ref = mirrored.R_cur_from_ref;
   start.t_over_d = mirrored.t_over_d;
-  const std::optional<ConfirmedView> confirmed = confirmer_.confirm(start, features, magnification);
+  const std::optional<ConfirmedView> confirmed =
+      confirmer_.confirm(start, features.grid, features.magnification);
   std::optional<SurfacePose> by_patches = patch_refiner_.refine(frame, surface_, {}, start, kViewPatchRounds);
   if (!confirmed) return by_patches;
   const std::optional<SurfacePose> with_pairs =

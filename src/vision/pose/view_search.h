@@ -27,6 +27,15 @@
 
 namespace heel {
 
+/// Features of a frame, and how much the picture was enlarged in which they were found.
+struct MagnifiedFeatures {
+  const FeatureGrid& grid;
+  double magnification;  ///< 1, or UpsampledRegion::kFactor
+};
+
+/// Of the features found where `expected` says.
+MagnifiedFeatures magnified(const FeatureGrid& grid, const ExpectedView& expected);
+
 /// A back that a view of the template has shown.
 struct ViewDetection {
   PoseReason reason = PoseReason::NoHomography;  ///< Found, or the gate that the last candidate did not pass
@@ -50,13 +59,14 @@ class ViewSearch {
   ViewSearch(const ViewSearch&) = delete;
   ViewSearch& operator=(const ViewSearch&) = delete;
 
-  /// `found_features`: of `frame`; not those of a closer look, which are replaced.
-  ViewDetection search(const FrameView& frame, const FeatureGrid& found_features);
+  /// `found`: of `frame`; not those of a closer look, which are replaced.
+  ViewDetection search(const FrameView& frame, const MagnifiedFeatures& found);
 
  private:
-  ViewDetection confirm(const FrameView& frame, const FrontalMotion& candidate);
-  std::optional<SurfacePose> refine_mirrored(const FrameView& frame, const FeatureGrid& features,
-                                             double magnification, const SurfacePose& pose);
+  ViewDetection confirm(const FrameView& frame, const MagnifiedFeatures& found,
+                        const FrontalMotion& candidate);
+  std::optional<SurfacePose> refine_mirrored(const FrameView& frame, const MagnifiedFeatures& features,
+                                             const SurfacePose& pose);
   bool plausible(const Eigen::Matrix3d& H_cur_from_ref) const;
 
   const ReferenceView& reference_;

@@ -70,6 +70,25 @@ void halve_contrast(cv::Mat& region) {
   region.convertTo(region, -1, 0.5, 40.0);
 }
 
+/// Of pictures three times as wide and high.
+CameraModel enlarged(CameraModel camera) {
+  constexpr int kTimes = 3;
+  const auto place_px = [](double px) { return kTimes * (px + 0.5) - 0.5; };
+  camera.width_px *= kTimes;
+  camera.height_px *= kTimes;
+  camera.fx *= kTimes;
+  camera.fy *= kTimes;
+  camera.cx = place_px(camera.cx);
+  camera.cy = place_px(camera.cy);
+  return camera;
+}
+
+cv::Mat enlarged(const cv::Mat& frame, const CameraModel& camera) {
+  cv::Mat large;
+  cv::resize(frame, large, {camera.width_px, camera.height_px}, 0.0, 0.0, cv::INTER_CUBIC);
+  return large;
+}
+
 bool on_the_left(const PoseEstimate& pose) {
   return pose.position_m[0] < 0.0;
 }
@@ -112,6 +131,21 @@ TEST(SecondPlaceSearch, ASearchThatFindsTwoRefuses) {
     EXPECT_GT(ambiguous, 0) << other.name;
     const PoseEstimate alone = tracker.estimate(frame_at(ours, 34));
     EXPECT_TRUE(alone.found() && on_the_left(alone)) << other.name << ": ours alone again";
+  }
+}
+
+/// Backs so large that no closer look enlarges them.
+TEST(SecondPlaceSearch, ASearchOfALargeFrameThatFindsTwoRefuses) {
+  const ShirtTemplate taught = shirt();
+  const CameraModel camera = enlarged(robot_camera());
+  const cv::Mat ours = back(taught, 0.2, kOurs_x, 1.6);
+  for (const Other& other : fewer_if_sanitized(others_that_match(), 1)) {
+    PoseTracker tracker(taught, camera, VisionConfig{});
+    const cv::Mat both = enlarged(side_by_side(ours, other.frame), camera);
+    const PoseEstimate pose = tracker.estimate(frame_at(both, 0));
+    EXPECT_EQ(pose.reason, PoseReason::Ambiguous) << other.name;
+    const PoseEstimate alone = tracker.estimate(frame_at(enlarged(ours, camera), 30));
+    EXPECT_TRUE(alone.found() && on_the_left(alone)) << other.name;
   }
 }
 
