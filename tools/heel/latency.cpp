@@ -1,4 +1,5 @@
-// heel latency: where the time goes between a frame's exposure and the command that it leads to.
+// heel latency: where the time goes between a frame's exposure and the command that it leads to; with a light
+// that is switched, also what the camera adds.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -7,11 +8,14 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "config/config_load.h"
+#include "evaluation/metrics/light_response.h"
 #include "evaluation/reports/latency_figures.h"
 #include "evaluation/reports/plots.h"
 #include "files/atomic_file.h"
 #include "files/image_file.h"
 #include "heel/error.h"
+#include "light_latency.h"
 
 namespace heel::cli {
 namespace {
@@ -20,8 +24,14 @@ using evaluation::LatencyFigures;
 using evaluation::LatencyHop;
 using LatencyJson = nlohmann::ordered_json;
 
+constexpr int kFewestSwitches = 4, kMostSwitches = 1000;
+
 struct LatencyOptions {
   std::string recording;
+  bool light = false;
+  std::string config_file;
+  std::string lamp;
+  int switches = 20;
   bool json = false;
   std::string picture;
 };
@@ -69,7 +79,56 @@ std::string table_of(const LatencyFigures& figures) {
              goal_ms(figures));
 }
 
+LatencyJson json_of(const LightHop& hop) {
+  return {{"name", hop.name}, {"p50_ms", hop.p50_ms}, {"p99_ms", hop.p99_ms}, {"max_ms", hop.max_ms}};
+}
+
+LatencyJson json_of(const LightFigures& figures) {
+  LatencyJson json{{"camera", figures.camera},
+                   {"switches", figures.switches},
+                   {"seen", figures.seen},
+                   {"tiles", figures.tiles},
+                   {"contrast", figures.contrast},
+                   {"with_vision", figures.no_vision.empty()},
+                   {"control_period_ms", figures.period_ms}};
+  for (const LightHop& hop : figures.hops) json["hops"].push_back(json_of(hop));
+  json["light_to_dequeued"] = json_of(figures.to_dequeued);
+  json["total"] = json_of(figures.total);
+  return json;
+}
+
+std::string row(const LightHop& hop) {
+  return fmt::format("{:<22} {:>8.2f} {:>8.2f} {:>8.2f}\n", hop.name, hop.p50_ms, hop.p99_ms, hop.max_ms);
+}
+
+std::string table_of(const LightFigures& figures) {
+  std::string text = fmt::format(
+      "{}\n{} of {} switches seen, in {} of {} parts of the picture, {:.0f} grey levels\n{:<22} {:>8} {:>8} "
+      "{:>8}\n",
+      figures.camera, figures.seen, figures.switches, figures.tiles,
+      evaluation::kTileColumns * evaluation::kTileRows, figures.contrast, "ms", "p50", "p99", "max");
+  for (const LightHop& hop : figures.hops) text += row(hop);
+  text += row(figures.to_dequeued) + row(figures.total);
+  if (!figures.no_vision.empty()) text += "vision is not included: " + figures.no_vision + "\n";
+  return text;
+}
+
+void run_light(const LatencyOptions& options) {
+  if (!options.recording.empty())
+    throw Error(options.recording + ": given with --light (expected one of the two)");
+  if (!options.picture.empty()) throw Error("--picture: given with --light (expected with a recording)");
+  if (options.config_file.empty()) throw Error("--config: missing (expected with --light)");
+  const LightFigures figures =
+      measure_light(load_config(options.config_file).config, options.lamp, options.switches);
+  std::cout << (options.json ? json_of(figures).dump(2) + "\n" : table_of(figures));
+}
+
 void run_latency(const LatencyOptions& options) {
+  if (options.light) return run_light(options);
+  for (const auto& [name, value] :
+       {std::pair{"--config", options.config_file}, std::pair{"--lamp", options.lamp}})
+    if (!value.empty()) throw Error(fmt::format("{}: given without --light", name));
+  if (options.recording.empty()) throw Error("a recording: missing (expected one, or --light)");
   if (!options.picture.empty()) require_writable_image_name(options.picture);
   const LatencyFigures figures = evaluation::latency_of(options.recording);
   if (figures.commands == 0) throw Error(figures.file + ": no frame has become a command");
@@ -88,12 +147,28 @@ void add_latency_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("latency",
                                          "How long each frame took from its exposure to the last byte of the "
                                          "command that used it, by hop: median,\n"
-                                         "99th percentile and longest");
+                                         "99th percentile and longest. With --light and without a recording: "
+                                         "how long a real camera takes to\n"
+                                         "show a light that is switched, and the command that would follow. "
+                                         "Stop heeld first; the robot is\n"
+                                         "not touched.");
   command
       ->add_option("recording", options->recording,
                    "a recording (*.mcap), or a folder of which the newest one is taken")
-      ->required()
       ->type_name("RECORDING");
+  command->add_flag("--light", options->light,
+                    "measure the configured camera: it must see the light, and little else may change");
+  command->add_option("--config", options->config_file, "with --light: the daemon's configuration file")
+      ->type_name("FILE");
+  command
+      ->add_option("--lamp", options->lamp,
+                   "with --light: a file that switches it, such as /sys/class/leds/NAME/brightness\n"
+                   "(default: this terminal turns white and black)")
+      ->type_name("FILE");
+  command->add_option("--switches", options->switches, "with --light: how often the light is switched")
+      ->type_name("N")
+      ->check(CLI::Range(kFewestSwitches, kMostSwitches))
+      ->capture_default_str();
   command->add_flag("--json", options->json, "one JSON object (default: a table)");
   command
       ->add_option("--picture", options->picture,
