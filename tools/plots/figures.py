@@ -5,6 +5,7 @@ from functools import partial
 import conditions
 import error_map
 import hard_cases
+import laws
 import overview
 import real_video
 import reliability
@@ -25,6 +26,7 @@ MODULES = (
     run_frames,
     overview,
     hard_cases,
+    laws,
     replay,
     response,
     walk,
