@@ -27,6 +27,7 @@ struct ExpectedView {
   double sigma_min_px = 0.0, sigma_max_px = 0.0;
   bool upsample = false;  ///< it is small there: FeatureSettings::upsample
   bool tracking = false;  ///< expected from an earlier frame; one from the same frame is a second look
+  bool unsure = false;    ///< which way it was turned in that earlier frame: read it as in a search
   // The motion of that earlier frame, as in PoseEstimate; the start of the pose while tracking.
   std::array<double, 9> R_cur_from_ref{};
   std::array<double, 3> t_over_d{};

@@ -8,6 +8,7 @@
 
 #include "vision/pose/alternative_hypotheses.h"
 #include "vision/pose/average_back.h"
+#include "vision/pose/other_minimum.h"
 
 namespace heel {
 namespace {
@@ -61,13 +62,13 @@ BackPose BackPoseSelector::estimate(const PlaneSolution& plane, TemplateMatcher&
   if (curve) curve = patch_refiner_.refine_turned(frame.view, curved_, *curve, kTurns_rad, patch_rounds);
   const double advantage =
       explanation(plane.inliers.size(), of_plane) / explanation(of_curve.pairs.size(), of_curve.pose);
-  if (!(advantage >= kPlaneAdvantage))
-    return {curve ? frontal_pose(*curve) : of_curve.pose, of_curve.pairs.size()};
+  const auto by_patches = [&] { return better_minimum(patch_refiner_, frame.view, problem, *curve); };
+  if (!(advantage >= kPlaneAdvantage)) return {curve ? by_patches() : of_curve.pose, of_curve.pairs.size()};
 
   const std::optional<SurfacePose> flat =
       patch_refiner_.refine(frame.view, flat_, plane.inliers, of_plane.motion, patch_rounds);
   if (curve && !(flat && flat->residual_px < kBoardResidual * curve->residual_px))
-    return {frontal_pose(*curve), of_curve.pairs.size()};
+    return {by_patches(), of_curve.pairs.size()};
   if (flat) return {frontal_pose(*flat), plane.inliers.size()};
   const AlternativeHypothesis curved{of_curve.pose.motion, std::pow(advantage, -kAdvantageExponent)};
   inflate_covariance({&curved, 1}, of_plane);

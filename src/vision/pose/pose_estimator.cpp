@@ -236,7 +236,7 @@ PoseEstimate PoseEstimator::Impl::steps(PoseEstimate pose, const FrameView& fram
   if (!motion) return with_reason(pose, PoseReason::NoValidMotion);
   const PlaneSolution plane{fit.inliers, fit.H_cur_from_ref, *motion};
   const FrameContent content{frame, frame_grid};
-  const BackPose back = search.tracking
+  const BackPose back = search.tracking && !search.unsure
                             ? back_pose_selector.estimate_next(last_motion(search), plane, matcher, content)
                             : back_pose_selector.estimate(plane, matcher, content, kSearchPatchRounds);
   return with_back_pose(with_inliers_of_back(pose, back.pairs), back.pose, reference);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/angles.h"
 #include "vision/pose/yaw_filter.h"
 
 namespace heel {
@@ -11,6 +12,8 @@ namespace {
 constexpr TimeNs kMaxPredictionAge_ns = kNsPerS / 2;
 // The same person moves less between two frames, as a share of the shirt's width.
 constexpr double kContinuedShare = 0.5;
+// A single frame's yaw has a deviation of 2 to 6 degrees, or it may be that of the other minimum.
+constexpr double kUnsure_rad = 8.0 * kRadPerDeg;
 // After as many frames a track is no mistake.
 constexpr int kFramesOfTrack = 3;
 
@@ -117,6 +120,7 @@ PoseEstimate PoseTracker::estimate_frame(const FrameView& frame) {
   if (expected_.has_region) {
     ExpectedView expected = estimator_.expected_view(last_found_, frame.header.t_capture_ns);
     expected.tracking = true;
+    expected.unsure = last_found_.frame_yaw_sigma_rad > kUnsure_rad;
     const Region& region = expected.region;
     expected_.region_px = {region.x_px, region.y_px, region.x_px + region.width_px,
                            region.y_px + region.height_px};

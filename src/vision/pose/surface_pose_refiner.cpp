@@ -40,6 +40,15 @@ double median(std::array<double, Size>& values, std::size_t count) {
 
 }  // namespace
 
+FrontalMotion turned(const FrontalMotion& motion, double turn_rad, const BackSurface& surface) {
+  const Eigen::Vector3d middle(surface.axis_x, surface.axis_y, 1.0);
+  FrontalMotion start;
+  start.R_cur_from_ref =
+      Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()).toRotationMatrix() * motion.R_cur_from_ref;
+  start.t_over_d = motion.t_over_d + (motion.R_cur_from_ref - start.R_cur_from_ref) * middle;
+  return start;
+}
+
 FrontalPose frontal_pose(const SurfacePose& pose) {
   FrontalPose frontal;
   frontal.motion = frontal.other = pose.motion;
@@ -122,13 +131,9 @@ SurfacePose SurfacePoseRefiner::refine_turned(const FrameView& frame, const Back
                                               int rounds) {
   SurfacePose best = pose;
   if (pose.agreement >= kSufficientAgreement) return best;
-  const Eigen::Vector3d middle(surface.axis_x, surface.axis_y, 1.0);
   for (const double turn_rad : turns_rad) {
-    FrontalMotion start;
-    start.R_cur_from_ref =
-        Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitY()).toRotationMatrix() * pose.motion.R_cur_from_ref;
-    start.t_over_d = pose.motion.t_over_d + (pose.motion.R_cur_from_ref - start.R_cur_from_ref) * middle;
-    const std::optional<SurfacePose> other = refine(frame, surface, {}, start, rounds);
+    const std::optional<SurfacePose> other =
+        refine(frame, surface, {}, turned(pose.motion, turn_rad, surface), rounds);
     if (other && other->score > kBetter * best.score) best = *other;
   }
   return best;

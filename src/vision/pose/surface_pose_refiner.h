@@ -32,6 +32,9 @@ struct SurfacePose {
   double residual_px = 0.0;  ///< median distance of the aligned patches from where the pose puts them
 };
 
+/// `motion` turned about the middle of the surface, as the camera sees it; positive: to the image's right.
+FrontalMotion turned(const FrontalMotion& motion, double turn_rad, const BackSurface& surface);
+
 /// The same as a pose without alternatives.
 FrontalPose frontal_pose(const SurfacePose& pose);
 

@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "heel/motion.h"
 #include "vision/features/upsampled_region.h"
+#include "vision/pose/other_minimum.h"
 
 namespace heel {
 namespace {
@@ -101,14 +103,14 @@ ViewDetection ViewSearch::confirm(const FrameView& frame, const MagnifiedFeature
   detection.reason = PoseReason::PatchesDisagree;
   if (!pose) return detection;
   pose = patch_refiner_.refine_turned(frame, surface_, *pose, kOtherTurns_rad, kViewPatchRounds);
-  if (std::abs(yaw_of_rotation(pose->motion.R_cur_from_ref)) > kMirrored_rad) {
-    const std::optional<SurfacePose> mirrored = refine_mirrored(frame, look, *pose);
-    if (mirrored && mirrored->score > pose->score) pose = mirrored;
-  }
+  std::optional<SurfacePose> mirrored;
+  if (std::abs(yaw_of_rotation(pose->motion.R_cur_from_ref)) > kMirrored_rad)
+    mirrored = refine_mirrored(frame, look, *pose);
+  if (mirrored && mirrored->score > pose->score) std::swap(pose, mirrored);
   if (pose->agreement < kMinAgreement || pose->patches < kMinPatches) return detection;
 
   detection.H_cur_from_ref = plane_homography(K_cur_, pose->motion, reference_.K_inverse);
-  detection.pose = frontal_pose(*pose);
+  detection.pose = mirrored ? weighed(*pose, *mirrored) : frontal_pose(*pose);
   detection.reason = plausible(detection.H_cur_from_ref) ? PoseReason::Found : PoseReason::ImplausibleShape;
   return detection;
 }
