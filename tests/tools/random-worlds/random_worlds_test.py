@@ -15,6 +15,7 @@ PROGRAM = SOURCE / "tools/random-worlds"
 
 def load():
     sys.dont_write_bytecode = True
+    sys.path.insert(0, str(PROGRAM.parent))
     loader = importlib.machinery.SourceFileLoader("random_worlds", str(PROGRAM))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader("random_worlds", loader))
     loader.exec_module(module)
