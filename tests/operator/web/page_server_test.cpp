@@ -1,6 +1,7 @@
 // The page's server over a real socket: files, live data, the operators' protocol, settings and metrics.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <spdlog/spdlog.h>
 
 #include <cstdint>
 #include <map>
