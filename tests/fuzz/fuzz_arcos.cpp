@@ -3,7 +3,6 @@
 //   * division of the bytes into other reads changes nothing;
 //   * a decoded packet, encoded and decoded again, is the same.
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <vector>
 
@@ -12,15 +11,13 @@
 #include "arcos/other_packets.h"
 #include "arcos/parser.h"
 #include "arcos/sip.h"
+#include "fuzz/require.h"
 
 namespace {
 
 using arcos::DecodeResult;
+using heel::test::require;
 using Body = std::vector<std::uint8_t>;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 template <typename Packet, typename Decode, typename Encode>
 void round_trip(std::span<const std::uint8_t> body, Decode decode, Encode encode) {

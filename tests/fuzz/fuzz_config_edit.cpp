@@ -2,20 +2,17 @@
 // the text is refused, or afterwards it has these values and every other one as before, and nothing is gone
 // but the old values.
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "config/config_edit.h"
+#include "fuzz/require.h"
 #include "heel/error.h"
 
 namespace {
 
 using namespace heel;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using heel::test::require;
 
 std::size_t newlines_in(const std::string& text) {
   std::size_t count = 0;

@@ -5,11 +5,11 @@
 //   * a request is good, or has one line of error and no effect but its id;
 //   * every answer is one line.
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "fuzz/require.h"
 #include "operator/answers.h"
 #include "operator/line_buffer.h"
 #include "operator/request.h"
@@ -17,10 +17,7 @@
 namespace {
 
 using namespace heel;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using heel::test::require;
 
 std::vector<std::string> lines_of(std::string_view bytes, std::size_t piece) {
   LineBuffer buffer(kMaxRequestBytes);

@@ -3,10 +3,10 @@
 // set becomes a good request or one that is refused in one line, and an origin is not ours that only begins
 // like ours.
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "fuzz/require.h"
 #include "operator/request.h"
 #include "operator/web/foxglove_messages.h"
 #include "operator/web/origin.h"
@@ -15,10 +15,7 @@
 namespace {
 
 using namespace heel;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using heel::test::require;
 
 void check_names(const std::string& text) {
   const std::vector<std::string> names = {"robot.example"};

@@ -1,17 +1,15 @@
 // Any bytes as a picture. In addition to the sanitizers' checks: there is a grey picture in one block of
 // memory, or a problem in one line.
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 
 #include "files/image_file.h"
 #include "fuzz/memory_file.h"
+#include "fuzz/require.h"
 
 namespace {
 
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using heel::test::require;
 
 }  // namespace
 

@@ -10,15 +10,13 @@
 
 #include "arcos/command_codec.h"
 #include "arcos/parser.h"
+#include "fuzz/require.h"
 #include "robot/arcos_session.h"
 
 namespace {
 
 using namespace heel;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using heel::test::require;
 
 void check_output(const ArcosSession& session, std::span<const std::uint8_t> bytes,
                   const RobotConfig& config) {

@@ -2,18 +2,16 @@
 // later than the one before it.
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 
 #include "files/video_reader.h"
 #include "fuzz/memory_file.h"
+#include "fuzz/require.h"
 
 namespace {
 
-constexpr int kMaxFrames = 50;
+using heel::test::require;
 
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+constexpr int kMaxFrames = 50;
 
 }  // namespace
 

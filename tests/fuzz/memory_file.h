@@ -8,6 +8,9 @@
 #include <cstdlib>
 #include <string>
 
+#include "fuzz/require.h"
+#include "heel/error.h"
+
 namespace heel::test {
 
 class MemoryFile {
@@ -24,5 +27,16 @@ class MemoryFile {
  private:
   int fd_;
 };
+
+/// Calls `read(path)` for a file of these bytes. It returns, or refuses the file in one line.
+template <typename Read>
+void require_read_or_refused(const std::uint8_t* data, std::size_t size, Read read) {
+  const MemoryFile file(data, size);
+  try {
+    read(file.path());
+  } catch (const Error& error) {
+    require(std::string(error.what()).find('\n') == std::string::npos);
+  }
+}
 
 }  // namespace heel::test
