@@ -4,72 +4,25 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
-#include "capture/v4l2/device_users.h"
 #include "capture/v4l2/scripted_v4l2_device.h"
+#include "capture/v4l2/v4l2_source_fixture.h"
 #include "support/allocation_count.h"
-#include "support/process.h"
-#include "support/temporary_folder.h"
 
 namespace heel {
 namespace {
 
+using test::kHeight;
+using test::kWidth;
+using test::luma;
 using test::ScriptedCamera;
 using test::ScriptedFrame;
 using test::ScriptedV4l2Device;
+using test::V4l2SourceTest;
 using testing::HasSubstr;
-
-constexpr std::uint32_t kWidth = 8;
-constexpr std::uint32_t kHeight = 4;
-
-std::uint8_t luma(std::uint32_t x, std::uint32_t y, std::uint32_t sequence) {
-  return static_cast<std::uint8_t>(x * 5 + y * 41 + sequence * 3);
-}
-
-class V4l2SourceTest : public testing::Test {
- protected:
-  V4l2SourceTest() {
-    config_.width_px = kWidth;
-    config_.height_px = kHeight;
-  }
-
-  V4l2Source make() { return {"/dev/scripted", config_, std::make_unique<ScriptedV4l2Device>(camera_)}; }
-
-  void expect_frame(V4l2Source& source, std::uint32_t driver_sequence) {
-    ASSERT_EQ(source.wait_frame(0, frame_), FrameResult::Frame) << source.problem();
-    ASSERT_EQ(frame_.header.width_px, kWidth);
-    ASSERT_EQ(frame_.header.height_px, kHeight);
-    for (std::uint32_t y = 0; y < kHeight; ++y) {
-      for (std::uint32_t x = 0; x < kWidth; ++x) {
-        ASSERT_EQ(frame_.grey[y * frame_.stride_bytes + x], luma(x, y, driver_sequence)) << x << ',' << y;
-      }
-    }
-  }
-
-  // A grey frame in the camera's format (two bytes a pixel: YUYV, three: RGB), with the camera's row padding.
-  ScriptedFrame made(std::uint32_t sequence, std::uint32_t pixel_bytes) const {
-    const std::uint32_t stride = kWidth * pixel_bytes + camera_.padding;
-    ScriptedFrame frame{.bytes = std::vector<std::uint8_t>(stride * kHeight, 0xee), .sequence = sequence};
-    for (std::uint32_t y = 0; y < kHeight; ++y) {
-      for (std::uint32_t x = 0; x < kWidth; ++x) {
-        const auto pixel = frame.bytes.begin() + y * stride + x * pixel_bytes;
-        std::fill_n(pixel, pixel_bytes == 3 ? 3 : 1, luma(x, y, sequence));
-      }
-    }
-    return frame;
-  }
-  void give(std::uint32_t sequence, std::uint32_t pixel_bytes = 2) {
-    camera_.frames.push_back(made(sequence, pixel_bytes));
-  }
-
-  ScriptedCamera camera_;
-  CameraConfig config_;
-  FrameView frame_;
-};
 
 TEST_F(V4l2SourceTest, FramesOfEachUncompressedFormatAndStride) {
   for (const auto& [format, pixel_bytes] : {std::pair{V4L2_PIX_FMT_YUYV, 2u},
@@ -181,45 +134,6 @@ TEST_F(V4l2SourceTest, ShortAndOverlongBuffersAreRefusedAndNotRead) {
   expect_frame(source, 2);
 }
 
-v4l2_buffer stamped(std::uint32_t flags, TimeNs t_ns) {
-  v4l2_buffer buffer{};
-  buffer.flags = flags;
-  buffer.timestamp = {t_ns / kNsPerS, t_ns % kNsPerS / kNsPerUs};
-  return buffer;
-}
-
-TEST(V4l2CaptureTime, FollowsTheFlagsAndRefusesImplausibleStamps) {
-  constexpr TimeNs kArrived = 100 * kNsPerS;
-  constexpr TimeNs kStamp = kArrived - 30 * kNsPerMs;
-  constexpr TimeNs kExposure = 8 * kNsPerMs;
-  constexpr std::uint32_t kMonotonic = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
-  constexpr std::uint32_t kStart = kMonotonic | V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
-  EXPECT_EQ(capture_time_ns(stamped(kMonotonic, kStamp), 0, kArrived), kStamp);
-  EXPECT_EQ(capture_time_ns(stamped(kStart, kStamp), kExposure, kArrived), kStamp + kExposure / 2);
-  EXPECT_EQ(capture_time_ns(stamped(kMonotonic, kStamp), kExposure, kArrived), kStamp - kExposure / 2);
-  EXPECT_EQ(capture_time_ns(stamped(V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN, kStamp), 0, kArrived), kArrived);
-  EXPECT_EQ(capture_time_ns(stamped(V4L2_BUF_FLAG_TIMESTAMP_COPY, kStamp), 0, kArrived), kArrived);
-  EXPECT_EQ(capture_time_ns(stamped(kMonotonic, kArrived + kNsPerMs), 0, kArrived), kArrived)
-      << "in the future";
-  EXPECT_EQ(capture_time_ns(stamped(kMonotonic, kArrived - 2 * kNsPerS), 0, kArrived), kArrived) << "stale";
-}
-
-TEST(V4l2CaptureTime, RefusesStampsNearTheOverflowOf64BitNanoseconds) {
-  constexpr TimeNs kArrived = 100 * kNsPerS;
-  // The last full second of 64-bit nanoseconds, the first negative ones after it, and seconds that do not
-  // fit.
-  for (const std::int64_t t_s :
-       {std::int64_t{9223372036}, std::int64_t{-9223372037}, std::numeric_limits<std::int64_t>::min(),
-        std::numeric_limits<std::int64_t>::max()}) {
-    v4l2_buffer buffer = stamped(V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC, 0);
-    buffer.timestamp.tv_sec = t_s;
-    EXPECT_EQ(capture_time_ns(buffer, 0, kArrived), kArrived) << t_s;
-  }
-  for (const TimeNs t_ns : {std::numeric_limits<TimeNs>::min(), std::numeric_limits<TimeNs>::max()}) {
-    EXPECT_FALSE(is_plausible_stamp(t_ns, kArrived)) << t_ns;
-  }
-}
-
 TEST_F(V4l2SourceTest, EveryErrorOfTheDeviceMeansLostAndItCanBeOpenedAgain) {
   V4l2Source source = make();
   int lives = 0;
@@ -270,93 +184,6 @@ TEST_F(V4l2SourceTest, ACameraThatTakesLongToStartGivesItsFrames) {
   while (result == FrameResult::Timeout) result = source.wait_frame(100 * kNsPerMs, frame_);
   EXPECT_EQ(result, FrameResult::Frame) << source.problem();
   EXPECT_EQ(camera_.opened, 1);
-}
-
-TEST(StallWatch, GrowsWithEachOpeningThatGaveNoFrame) {
-  StallWatch watch;
-  for (const TimeNs allowed_s : {4, 8, 16, 16}) {
-    watch.opened(0);
-    EXPECT_FALSE(watch.stalled(allowed_s * kNsPerS));
-    EXPECT_TRUE(watch.stalled(allowed_s * kNsPerS + 1));
-  }
-  watch.frame(100 * kNsPerS);
-  EXPECT_TRUE(watch.stalled(102 * kNsPerS + 1));
-  watch.opened(0);
-  EXPECT_TRUE(watch.stalled(4 * kNsPerS + 1)) << "a frame has shown that the camera works";
-}
-
-TEST_F(V4l2SourceTest, FormatsWithoutUsbBandwidthAreLeftOut) {
-  camera_.formats = {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_MJPEG};
-  camera_.without_bandwidth = {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_YUYV};
-  V4l2Source source = make();
-  ASSERT_EQ(source.open(), OpenResult::Opened) << source.problem();
-  EXPECT_EQ(camera_.format, std::uint32_t{V4L2_PIX_FMT_MJPEG});
-  EXPECT_THAT(source.description(), HasSubstr("MJPG 8x4"));
-
-  camera_.without_bandwidth.insert(V4L2_PIX_FMT_MJPEG);
-  EXPECT_EQ(source.open(), OpenResult::Absent);
-  EXPECT_THAT(source.problem(), testing::AllOf(HasSubstr("too little USB bandwidth for 8x4"),
-                                               HasSubstr("as GREY, YUYV, MJPG")));
-  EXPECT_EQ(camera_.unmapped, camera_.mapped);
-
-  config_.format = "YUYV";
-  V4l2Source named = make();
-  EXPECT_EQ(named.open(), OpenResult::Absent);
-  EXPECT_THAT(named.problem(), HasSubstr("USB bandwidth"));
-  EXPECT_EQ(camera_.format, std::uint32_t{V4L2_PIX_FMT_YUYV}) << "a named format is not replaced";
-}
-
-TEST_F(V4l2SourceTest, ThatAnotherProgramUsesTheCameraIsSaidWithItsName) {
-  const test::TemporaryFolder folder;
-  const std::string path = test::write_text(folder.file("camera"), "");
-  const test::Process other({"sleep", "600"});
-  EXPECT_EQ(programs_holding(path), "");
-  const test::Process holder({"/bin/sh", "-c", "exec 9<" + path + "; exec sleep 600"});
-  EXPECT_TRUE(test::eventually([&] { return programs_holding(path).starts_with("sleep (process "); }));
-  camera_.errors = {{VIDIOC_S_FMT, EBUSY}};
-  V4l2Source source(path, config_, std::make_unique<ScriptedV4l2Device>(camera_));
-  EXPECT_EQ(source.open(), OpenResult::Absent);
-  EXPECT_THAT(source.problem(), HasSubstr("; in use by sleep (process "));
-}
-
-TEST_F(V4l2SourceTest, OpeningGivesAbsentOrRefusedWithTheReason) {
-  V4l2Source source = make();
-  camera_.open_error = ENOENT;
-  EXPECT_EQ(source.open(), OpenResult::Absent);
-  EXPECT_THAT(source.problem(), HasSubstr("v4l2:/dev/scripted: cannot be opened: No such file"));
-  camera_.open_error = EACCES;
-  EXPECT_EQ(source.open(), OpenResult::Refused);
-  EXPECT_THAT(source.problem(), HasSubstr("Permission denied (expected a user of the group video"));
-  camera_.open_error = ENOTTY;
-  EXPECT_EQ(source.open(), OpenResult::Refused);
-  EXPECT_THAT(source.problem(), HasSubstr("is not a device"));
-  camera_.open_error = 0;
-  camera_.errors = {{VIDIOC_REQBUFS, EBUSY}};
-  EXPECT_EQ(source.open(), OpenResult::Absent);
-  EXPECT_THAT(source.problem(), HasSubstr("another program is using it"));
-  camera_.errors = {{VIDIOC_STREAMON, EINVAL}};
-  EXPECT_EQ(source.open(), OpenResult::Absent);
-  EXPECT_THAT(source.problem(), HasSubstr("does not start streaming"));
-  camera_.errors.clear();
-  camera_.most_buffers = 1;
-  EXPECT_EQ(source.open(), OpenResult::Refused);
-  EXPECT_THAT(source.problem(), HasSubstr("gives 1 buffer(s)"));
-  camera_.most_buffers = 3;
-  config_.rate_hz = 30.0;
-  EXPECT_EQ(source.open(), OpenResult::Opened);
-  EXPECT_THAT(source.description(), HasSubstr("Scripted camera, YUYV 8x4 at 30 Hz"));
-  EXPECT_EQ(camera_.unmapped, camera_.mapped - 3);
-}
-
-TEST_F(V4l2SourceTest, AFileThatIsNotADeviceIsRefused) {
-  V4l2Source file("/etc/hostname", config_);
-  EXPECT_EQ(file.open(), OpenResult::Refused);
-  EXPECT_THAT(file.problem(), HasSubstr("is not a device"));
-  V4l2Source null("/dev/null", config_);
-  EXPECT_EQ(null.open(), OpenResult::Refused);
-  EXPECT_THAT(null.problem(), HasSubstr("is not a V4L2 device"));
-  V4l2Source missing("/dev/heel-no-such-camera", config_);
-  EXPECT_EQ(missing.open(), OpenResult::Absent);
 }
 
 TEST_F(V4l2SourceTest, GivingUncompressedFramesDoesNotAllocate) {

@@ -2,13 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <csignal>
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <sstream>
 
 #include "loopback/heel-sim/raw_client.h"
+#include "loopback/heel-sim/running_sim.h"
 #include "support/process.h"
 #include "support/temporary_folder.h"
 #include "support/text.h"
@@ -21,35 +19,18 @@ using test::eventually;
 using test::i16_at;
 using test::is_moving_sip;
 using test::is_sip;
+using test::kClose;
+using test::kConfig;
+using test::kEnable;
+using test::kOpen;
+using test::kVel;
 using test::monotonic_s;
+using test::motors_on;
 using test::occurrences;
-using test::Process;
 using test::RawClient;
+using test::RunningSim;
 using test::sleep_s;
 using test::TemporaryFolder;
-
-constexpr int kOpen = 1, kClose = 2, kEnable = 4, kVel = 11, kConfig = 18, kHostBaud = 50;
-
-bool motors_on(const Bytes& sip) {
-  return (sip.at(16) & 1) != 0;
-}
-
-/// A running heel-sim; `address` is what it announced.
-struct Sim {
-  Sim(const std::string& robot, std::vector<std::string> options = {}) : process(arguments(robot, options)) {
-    if (!process.says("\n")) return;
-    const std::string line = process.output();
-    const std::size_t start = line.find("ready at ");
-    if (start != std::string::npos) address = line.substr(start + 9, line.find('\n', start) - start - 9);
-  }
-  static std::vector<std::string> arguments(const std::string& robot, std::vector<std::string> options) {
-    options.insert(options.begin(), {test::built_program("heel-sim"), "--robot", robot});
-    return options;
-  }
-
-  Process process;
-  std::string address;
-};
 
 /// Both kinds of line, by name.
 class HeelSim : public testing::TestWithParam<const char*> {
@@ -63,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(Lines, HeelSim, testing::Values("pty", "tcp"),
                          [](const auto& line) { return std::string(line.param); });
 
 TEST_P(HeelSim, SyncsOpensMovesStopsByWatchdogResumesAndCloses) {
-  Sim sim(robot());
+  RunningSim sim(robot());
   RawClient client = RawClient::at(sim.address);
   ASSERT_TRUE(client.sync()) << sim.process.output();
   const std::string echo(client.packets.back().begin() + 1, client.packets.back().end());
@@ -97,7 +78,7 @@ TEST_P(HeelSim, SyncsOpensMovesStopsByWatchdogResumesAndCloses) {
 }
 
 TEST_P(HeelSim, AfterAClientLeavesTheNextOneFindsTheRobotOpen) {
-  Sim sim(robot());
+  RunningSim sim(robot());
   {
     RawClient first = RawClient::at(sim.address);
     ASSERT_TRUE(first.sync());
@@ -113,7 +94,7 @@ TEST_P(HeelSim, AfterAClientLeavesTheNextOneFindsTheRobotOpen) {
 }
 
 TEST_P(HeelSim, AClientDoesNotReceiveBytesSentBeforeItConnected) {
-  Sim sim(robot());
+  RunningSim sim(robot());
   {
     RawClient first = RawClient::at(sim.address);
     ASSERT_TRUE(first.sync());
@@ -133,7 +114,7 @@ TEST_P(HeelSim, AClientDoesNotReceiveBytesSentBeforeItConnected) {
 }
 
 TEST_P(HeelSim, AnUnfinishedHandshakeIsDiscardedWhenItsClientLeaves) {
-  Sim sim(robot());
+  RunningSim sim(robot());
   for (int i = 0; i < 3; ++i) {
     RawClient client = RawClient::at(sim.address);
     EXPECT_TRUE(client.sync()) << "client " << i;
@@ -143,7 +124,7 @@ TEST_P(HeelSim, AnUnfinishedHandshakeIsDiscardedWhenItsClientLeaves) {
 }
 
 TEST_P(HeelSim, PacketsTakeTheTransmissionTimeOfTheLine) {
-  Sim sim(robot());
+  RunningSim sim(robot());
   RawClient client = RawClient::at(sim.address);
   ASSERT_TRUE(client.sync());
   double longest_wait_s = 1.0;  // beyond the transmission time; a busy machine may delay some attempts
@@ -161,7 +142,7 @@ TEST_P(HeelSim, PacketsTakeTheTransmissionTimeOfTheLine) {
 }
 
 TEST_P(HeelSim, FaultsOfTheCommandLineHappen) {
-  Sim sim(robot(), {"--fault", "left_open@0", "--fault", "bumper@0.2=4"});
+  RunningSim sim(robot(), {"--fault", "left_open@0", "--fault", "bumper@0.2=4"});
   ASSERT_TRUE(sim.process.says("fault bumper"));
   RawClient client = RawClient::at(sim.address);
   const auto bumped = [](const Bytes& body) { return is_sip(body) && body.at(13) == 4 << 1; };
@@ -170,7 +151,7 @@ TEST_P(HeelSim, FaultsOfTheCommandLineHappen) {
 
 TEST_P(HeelSim, TruthHasARowEvery20Ms) {
   const std::string path = folder.file("truth.csv");
-  Sim sim(robot(), {"--truth", path, "--duration", "5", "--exact", "--fault", "left_open@0=300"});
+  RunningSim sim(robot(), {"--truth", path, "--duration", "5", "--exact", "--fault", "left_open@0=300"});
   ASSERT_NE(sim.address, "");
   {
     const RawClient client = RawClient::at(sim.address);
@@ -197,194 +178,6 @@ TEST_P(HeelSim, TruthHasARowEvery20Ms) {
   EXPECT_GT(rows.back()[column["robot_x_m"]], 0.1);
   EXPECT_EQ(rows.back()[column["robot_x_m"]], rows.back()[column["odom_x_m"]]);
 }
-
-TEST(HeelSimOnPty, KeepsItsRateAndAtAnotherRateBytesAreDamagedInBothDirections) {
-  TemporaryFolder folder;
-  Sim sim("pty:" + folder.file("robot"));
-  RawClient client = RawClient::at(sim.address);
-  client.set_rate(B38400);
-  for (int i = 0; i < 3; ++i) {
-    client.send(0);
-    client.listen(0.2);
-  }
-  EXPECT_TRUE(client.packets.empty());
-  client.set_rate(B9600);
-  client.listen(0.4);
-  EXPECT_TRUE(client.sync());
-  client.send(kOpen);
-  ASSERT_FALSE(client.next_sip().empty());
-  client.set_rate(B115200);
-  EXPECT_TRUE(eventually([&] {
-    client.packets.clear();
-    const std::size_t before = client.raw.size();
-    client.listen(0.5);
-    return client.packets.empty() && client.raw.size() > before;
-  })) << "expected bytes without a good packet";
-}
-
-TEST(HeelSimOnPty, ChangesItsRateAsTheAriaClientAsks) {
-  TemporaryFolder folder;
-  Sim sim("pty:" + folder.file("robot"));
-  RawClient client = RawClient::at(sim.address);
-  client.set_rate(B9600);
-  ASSERT_TRUE(client.sync());
-  client.send(kOpen, 1);
-  // The robot returns to the old rate when the client, on a busy machine, is too late at the new one.
-  bool kept = false;
-  for (int i = 0; i < 10 && !kept; ++i) {
-    client.set_rate(B9600);
-    ASSERT_FALSE(client.next_sip().empty());
-    client.send(kHostBaud, 2);
-    sleep_s(0.01);
-    client.set_rate(B38400);
-    sleep_s(0.01);
-    client.send(0);
-    kept = !client.next_sip(0.9).empty();
-  }
-  EXPECT_TRUE(kept);
-  EXPECT_TRUE(sim.process.says("baud 38400"));
-  for (int i = 0; i < 20; ++i) ASSERT_FALSE(client.next_sip().empty()) << "SIP " << i;
-}
-
-TEST(HeelSimOnPty, FallsBackToItsBootRateAfterCloseUnlessItIsToldToStay) {
-  for (const bool stays : {false, true}) {
-    TemporaryFolder folder;
-    Sim sim("pty:" + folder.file("robot"), {"--after-close", stays ? "stay" : "fall-back"});
-    RawClient client = RawClient::at(sim.address);
-    client.set_rate(B9600);
-    ASSERT_TRUE(client.sync());
-    client.send(kOpen, 1);
-    ASSERT_FALSE(client.next_sip().empty());
-    client.send(kHostBaud, 2);
-    ASSERT_TRUE(sim.process.says("baud 38400"));
-    client.set_rate(B38400);
-    ASSERT_TRUE(eventually([&] {  // a rate of the terminal is read once a millisecond
-      client.send(kClose, 1);
-      return sim.process.output().find("closed") != std::string::npos;
-    }));
-    client.set_rate(stays ? B38400 : B9600);
-    EXPECT_TRUE(client.sync());
-    EXPECT_EQ(sim.process.output().find("baud 9600") != std::string::npos, !stays);
-  }
-}
-
-TEST(HeelSimOnPty, TheSymlinkIsRemovedAtTheEndAndAnOldOneIsReplaced) {
-  TemporaryFolder folder;
-  const std::string path = folder.file("robot");
-  for (const int number : {SIGTERM, SIGINT, SIGHUP}) {
-    Sim sim("pty:" + path);
-    EXPECT_TRUE(std::filesystem::is_symlink(path));
-    sim.process.signal(number);
-    EXPECT_EQ(sim.process.wait(), 0);
-    EXPECT_FALSE(std::filesystem::is_symlink(path));
-  }
-  {
-    Sim killed("pty:" + path);
-    killed.process.signal(SIGKILL);
-    killed.process.wait();
-  }
-  EXPECT_TRUE(std::filesystem::is_symlink(path)) << "a killed process cannot remove it";
-  Sim again("pty:" + path);
-  RawClient client = RawClient::at(again.address);
-  EXPECT_TRUE(client.sync());
-}
-
-TEST(HeelSimOnPty, TheSymlinkOfAnotherProcessIsNotRemoved) {
-  TemporaryFolder folder;
-  const std::string path = folder.file("robot");
-  Sim sim("pty:" + path);
-  ASSERT_NE(sim.address, "");
-  std::filesystem::remove(path);
-  std::filesystem::create_symlink("/dev/null", path);  // what another program put there
-  sim.process.signal(SIGTERM);
-  EXPECT_EQ(sim.process.wait(), 0);
-  EXPECT_TRUE(std::filesystem::is_symlink(path));
-}
-
-TEST(HeelSimOnPty, ASecondHeelSimIsToldWhoServesThePathAndTheFirstGoesOn) {
-  TemporaryFolder folder;
-  const std::string path = folder.file("robot");
-  Sim first("pty:" + path);
-  RawClient client = RawClient::at(first.address);
-  ASSERT_TRUE(client.sync());
-  for (const std::string& same : {path, folder.path().string() + "/./robot"}) {
-    Sim second("pty:" + same);
-    EXPECT_EQ(second.process.wait(), 1);
-    EXPECT_NE(second.process.output().find("another heel-sim (process "), std::string::npos)
-        << second.process.output();
-  }
-  client.send(kOpen);
-  EXPECT_FALSE(client.next_sip().empty());
-  Sim elsewhere("pty:" + folder.file("robot2"));
-  EXPECT_NE(elsewhere.address, "");
-}
-
-TEST(HeelSimOnTcp, ASecondHeelSimCannotHaveThePort) {
-  Sim first("tcp:0");
-  Sim second(first.address);
-  EXPECT_EQ(second.process.wait(), 1);
-  EXPECT_NE(second.process.output().find("Address already in use (by another heel-sim?)"), std::string::npos)
-      << second.process.output();
-}
-
-TEST(HeelSimOnTcp, ASecondClientIsToldAndRefusedAndServedWhenTheFirstHasGone) {
-  Sim sim("tcp:0");
-  RawClient first = RawClient::at(sim.address);
-  ASSERT_TRUE(first.sync());
-  {
-    RawClient second = RawClient::at(sim.address);
-    EXPECT_TRUE(second.is_hung_up_on());
-    EXPECT_EQ(std::string(second.raw.begin(), second.raw.end()), "heel-sim: in use by another client\r\n");
-  }
-  EXPECT_TRUE(sim.process.says("another client refused"));
-  first.send(kOpen);
-  EXPECT_FALSE(first.next_sip().empty()) << "the first goes on";
-  first.hang_up();
-  ASSERT_TRUE(sim.process.says("client gone"));
-  RawClient third = RawClient::at(sim.address);
-  third.send(0);
-  EXPECT_FALSE(third.next_sip().empty()) << "the robot is still open";
-}
-
-struct BadOption {
-  std::string name;
-  std::vector<std::string> arguments;
-  std::string complaint;
-};
-void PrintTo(const BadOption& bad, std::ostream* out) {
-  *out << testing::PrintToString(bad.arguments);
-}
-class HeelSimOptions : public testing::TestWithParam<BadOption> {};
-
-TEST_P(HeelSimOptions, AreRefusedByNameAndExpectation) {
-  std::vector<std::string> argv = GetParam().arguments;
-  argv.insert(argv.begin(), test::built_program("heel-sim"));
-  Process process(argv);
-  EXPECT_GT(process.wait(), 0);
-  EXPECT_NE(process.output().find(GetParam().complaint), std::string::npos) << process.output();
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    CommandLines, HeelSimOptions,
-    testing::Values(
-        BadOption{"NoRobot", {}, "--robot"},
-        BadOption{"AnUnknownLine", {"--robot", "usb:1"}, "--robot usb:1: not an address (expected pty:PATH"},
-        BadOption{"APtyWithoutAPath", {"--robot", "pty:"}, "not an address (expected pty:PATH"},
-        BadOption{
-            "APortThatIsNoNumber", {"--robot", "tcp:seven"}, "'seven' is not a port (expected 0…65535)"},
-        BadOption{"APortTooGreat", {"--robot", "tcp:70000"}, "'70000' is not a port"},
-        BadOption{"AFileInPlaceOfALink", {"--robot", "pty:/proc/version"}, "exists and is not a symlink"},
-        BadOption{
-            "AFolderThatIsMissing", {"--robot", "pty:/no-such-folder/robot"}, "cannot make the symlink"},
-        BadOption{"ABaudRateThatArcosLacks", {"--robot", "tcp:0", "--boot-baud", "1200"}, "--boot-baud"},
-        BadOption{"AnUnknownRateAfterClose", {"--robot", "tcp:0", "--after-close", "keep"}, "--after-close"},
-        BadOption{"AnUnknownModel", {"--robot", "tcp:0", "--model", "roomba"}, "--model"},
-        BadOption{"AFaultWithoutAStart", {"--robot", "tcp:0", "--fault", "drop"}, "fault 'drop': no start"},
-        BadOption{"AnOptionMisspelt", {"--robot", "tcp:0", "--fualt", "drop@1"}, "--fualt"},
-        BadOption{"ATruthFileThatCannotBe",
-                  {"--robot", "tcp:0", "--truth", "/no-such-folder/t.csv"},
-                  "cannot write"}),
-    [](const auto& option) { return option.param.name; });
 
 }  // namespace
 }  // namespace heel
