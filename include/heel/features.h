@@ -86,7 +86,7 @@ class FeatureExtractor {
   void extract(const FrameView& frame, const Region& region, FeatureSet& out);
 
   /// From now on the end of each step is reported to `times`, which must outlive this; null: no reports.
-  void measure(StageTimes* times);
+  void report_stage_times(StageTimes* times);
 
  private:
   struct Impl;

@@ -70,7 +70,7 @@ class PoseEstimator {
   const PoseMarks& marks() const;
 
   /// From now on the end of each step is reported to `times`, which must outlive this; null: no reports.
-  void measure(StageTimes* times);
+  void report_stage_times(StageTimes* times);
 
  private:
   struct Impl;

@@ -38,7 +38,7 @@ class PoseTracker {
   PoseMarks marks() const;
 
   /// As PoseEstimator.
-  void measure(StageTimes* times) { estimator_.measure(times); }
+  void report_stage_times(StageTimes* times) { estimator_.report_stage_times(times); }
 
  private:
   PoseEstimate search(const FrameView& frame);

@@ -23,7 +23,7 @@ const cv::Scalar kDarkBlob(255, 160, 60);
 const cv::Scalar kLightBlob(60, 200, 255);
 
 constexpr int kShift = 4;  // fractional bits of OpenCV's coordinates: a sixteenth of a pixel
-cv::Point sub_pixel(const Eigen::Vector2d& px) {
+cv::Point in_sixteenths(const Eigen::Vector2d& px) {
   constexpr double kFar = 1e5;  // beyond any picture, within int
   return {static_cast<int>(std::lround(std::clamp(px.x(), -kFar, kFar) * (1 << kShift))),
           static_cast<int>(std::lround(std::clamp(px.y(), -kFar, kFar) * (1 << kShift)))};
@@ -53,7 +53,7 @@ std::vector<cv::Point> outline(const PoseEstimate& pose, const ShirtTemplate& sh
       const double share = static_cast<double>(i) / kPointsASide;
       const Eigen::Vector2d ref_px = (1.0 - share) * corners[side] + share * corners[side + 1];
       const Eigen::Vector3d cur = H * shirt.camera.undistort_px(ref_px).homogeneous();
-      points.push_back(sub_pixel(camera.distort_px(cur.hnormalized())));
+      points.push_back(in_sixteenths(camera.distort_px(cur.hnormalized())));
     }
   }
   return points;
@@ -123,7 +123,7 @@ cv::Mat draw_template(const ShirtTemplate& shirt, const FeatureSet& features) {
   cv::Mat picture;
   cv::cvtColor(enlarged, picture, cv::COLOR_GRAY2BGR);
   const auto place = [&](double x_px, double y_px) {
-    return sub_pixel({(x_px - cut.x + 0.5) * zoom - 0.5, (y_px - cut.y + 0.5) * zoom - 0.5});
+    return in_sixteenths({(x_px - cut.x + 0.5) * zoom - 0.5, (y_px - cut.y + 0.5) * zoom - 0.5});
   };
   cv::rectangle(picture, place(r.x_px, r.y_px), place(r.x_px + r.width_px, r.y_px + r.height_px), kFound, 2,
                 cv::LINE_AA, kShift);

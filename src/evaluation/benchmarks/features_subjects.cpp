@@ -37,7 +37,7 @@ class HeelFeatures : public FeatureCountingSubject {
       : FeatureCountingSubject(input, std::move(what)),
         extractor_(input.camera.width_px, input.camera.height_px, FeatureSettings{}) {
     extractor_.reserve(found_);
-    extractor_.measure(stage_times());
+    extractor_.report_stage_times(stage_times());
   }
 
  private:

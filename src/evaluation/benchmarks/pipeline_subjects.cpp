@@ -29,7 +29,7 @@ class HeelVision : public PipelineSubject {
  public:
   HeelVision(const BenchInput& input, Figure what)
       : PipelineSubject(std::move(what)), input_(input), vision_(made_of<Vision>(input)) {
-    vision_.measure(stage_times());
+    vision_.report_stage_times(stage_times());
   }
 
   double found_share() const override { return share(found_); }

@@ -12,7 +12,7 @@ namespace asio = boost::asio;
 void OperatorLink::open(int fd, Owner owner) {
   socket_.assign(asio::local::stream_protocol(), fd);
   owner_ = std::move(owner);
-  read();
+  read_answers();
 }
 
 void OperatorLink::close() {
@@ -36,7 +36,7 @@ void OperatorLink::write() {
                     });
 }
 
-void OperatorLink::read() {
+void OperatorLink::read_answers() {
   asio::async_read_until(
       socket_, asio::dynamic_buffer(answers_, kMaxBytes), '\n',
       [this, kept = owner_.kept.lock()](boost::system::error_code error, std::size_t count) {
@@ -46,7 +46,7 @@ void OperatorLink::read() {
         }
         owner_.answered(answers_.substr(0, count - 1));
         answers_.erase(0, count);
-        read();
+        read_answers();
       });
 }
 

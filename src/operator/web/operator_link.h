@@ -27,7 +27,7 @@ class OperatorLink {
  private:
   static constexpr std::size_t kMaxBytes = 256 * 1024;  // a status has a few thousand
 
-  void read();
+  void read_answers();
   void write();
 
   boost::asio::local::stream_protocol::socket socket_;

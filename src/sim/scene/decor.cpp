@@ -173,7 +173,7 @@ Canvas draw_shelf(std::uint64_t seed) {
   return canvas;
 }
 
-Canvas draw_screen(std::uint64_t seed) {
+Canvas draw_pin_board(std::uint64_t seed) {
   Random random(seed);
   Canvas canvas(512, 512, static_cast<float>(random.uniform(90, 150)));
   for (int i = 0; i < 22; ++i)

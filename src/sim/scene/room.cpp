@@ -190,11 +190,11 @@ void Room::add_shell(const Eigen::Vector2d& low, const Eigen::Vector2d& high, st
 void Room::add_objects(const RoomSettings& settings, const FloorPlan& plan, const Eigen::Vector2d& low,
                        const Eigen::Vector2d& high, std::uint64_t seed) {
   Random random(seed);
-  std::vector<const Texture*> crates, shelves, screens;
+  std::vector<const Texture*> crates, shelves, pin_boards;
   for (int i = 0; i < 3; ++i) {
     crates.push_back(&add_texture([&] { return draw_crate(derived_seed(seed, 20 + i)); }));
     shelves.push_back(&add_texture([&] { return draw_shelf(derived_seed(seed, 30 + i)); }));
-    screens.push_back(&add_texture([&] { return draw_screen(derived_seed(seed, 40 + i)); }));
+    pin_boards.push_back(&add_texture([&] { return draw_pin_board(derived_seed(seed, 40 + i)); }));
   }
   int placed = 0;
   // The number of tries is limited: a crowded room may not have space for all objects.
@@ -208,7 +208,7 @@ void Room::add_objects(const RoomSettings& settings, const FloorPlan& plan, cons
     const Texture* texture = crates[pick];
     if (kind > 0.65) {
       size = {random.uniform(1.0, 1.5), 0.06, random.uniform(1.5, 2.0)};
-      texture = screens[pick];
+      texture = pin_boards[pick];
     } else if (kind > 0.4) {
       size = {random.uniform(0.8, 1.2), 0.35, random.uniform(1.4, 2.2)};
       texture = shelves[pick];

@@ -120,7 +120,7 @@ void FeatureExtractor::set_settings(const FeatureSettings& settings) {
   impl_->settings.max_features = std::clamp(settings.max_features, 1, impl_->max_features);
 }
 
-void FeatureExtractor::measure(StageTimes* times) {
+void FeatureExtractor::report_stage_times(StageTimes* times) {
   impl_->times = times;
 }
 

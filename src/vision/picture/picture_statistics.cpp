@@ -51,7 +51,7 @@ struct LineSample {
   int places = 0, with_detail = 0;
   Slopes slopes;
 
-  double detail() const { return places == 0 ? 0.0 : static_cast<double>(with_detail) / places; }
+  double detail_share() const { return places == 0 ? 0.0 : static_cast<double>(with_detail) / places; }
 };
 
 /// `grey(i)`: the pixel at place i of a line of `length` pixels; `reach`: to each side of an edge.
@@ -84,7 +84,7 @@ void measure_edges(const FrameView& frame, int width, int height, PictureEdges& 
     sample_line([&](int i) { return grey_at(frame, i, y); }, width, reach, across);
     sample_line([&](int i) { return grey_at(frame, x, i); }, height, reach, down);
   }
-  out.detail = std::max(across.detail(), down.detail());
+  out.detail = std::max(across.detail_share(), down.detail_share());
   out.edge_blur_px = sharper(across.slopes.blur_px(), down.slopes.blur_px()) / scale;
 }
 

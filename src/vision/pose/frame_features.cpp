@@ -37,9 +37,9 @@ const FeatureGrid& FrameFeatures::find(const FrameView& frame, const ExpectedVie
   return found.grid;
 }
 
-void FrameFeatures::measure(StageTimes* times) {
+void FrameFeatures::report_stage_times(StageTimes* times) {
   times_ = times;
-  extractor_.measure(times);
+  extractor_.report_stage_times(times);
 }
 
 }  // namespace heel

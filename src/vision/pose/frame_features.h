@@ -34,7 +34,7 @@ class FrameFeatures {
   const FeatureGrid& last(Search search) const { return found_[static_cast<std::size_t>(search)].grid; }
 
   /// As PoseEstimator.
-  void measure(StageTimes* times);
+  void report_stage_times(StageTimes* times);
 
  private:
   struct Found {

@@ -178,7 +178,7 @@ PoseEstimate PoseEstimator::Impl::estimate_part(const FrameView& frame, int part
   PoseEstimate pose = not_found_yet(frame);
   marks.inliers = 0;
   if (!fits_camera(frame)) return with_reason(pose, PoseReason::WrongFrameSize);
-  const ExpectedView expected = view_predictor.part(part);
+  const ExpectedView expected = view_predictor.upsampled_part(part);
   const FeatureGrid& features = frame_features.find(frame, expected, FrameFeatures::Search::ExpectedView);
   pose.frame_features = static_cast<std::uint32_t>(features.features().features.size());
   if (pose.frame_features < kHomographyPairs) return with_reason(pose, PoseReason::TooFewFeatures);
@@ -310,9 +310,9 @@ bool PoseEstimator::needs_upsampled_pass(const PoseEstimate& pose) const {
   return impl_->plane_fitter.plausible(H_cur_from_ref) && impl_->view_predictor.is_small(H_cur_from_ref);
 }
 
-void PoseEstimator::measure(StageTimes* times) {
+void PoseEstimator::report_stage_times(StageTimes* times) {
   impl_->workspace.times = times;
-  impl_->frame_features.measure(times);
+  impl_->frame_features.report_stage_times(times);
 }
 
 }  // namespace heel

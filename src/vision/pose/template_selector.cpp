@@ -47,8 +47,8 @@ TemplateSelector::TemplateSelector(std::span<const ShirtTemplate> templates, con
   }
 }
 
-void TemplateSelector::measure(StageTimes* times) {
-  for (PoseTracker& tracker : trackers_) tracker.measure(times);
+void TemplateSelector::report_stage_times(StageTimes* times) {
+  for (PoseTracker& tracker : trackers_) tracker.report_stage_times(times);
 }
 
 PoseEstimate TemplateSelector::estimate(const FrameView& frame) {

@@ -40,7 +40,7 @@ class TemplateSelector {
   PoseMarks marks(std::size_t template_index) const { return trackers_[template_index].marks(); }
 
   /// As PoseEstimator.
-  void measure(StageTimes* times);
+  void report_stage_times(StageTimes* times);
 
  private:
   PoseEstimate estimate_in_turn(const FrameView& frame);

@@ -125,7 +125,7 @@ ExpectedView ViewPredictor::around(const Eigen::Matrix3d& H_cur_from_ref, const 
   return view;
 }
 
-ExpectedView ViewPredictor::part(int index) const {
+ExpectedView ViewPredictor::upsampled_part(int index) const {
   // Row and column, 0…2.
   constexpr std::array<std::array<int, 2>, kParts> kOrder{
       {{1, 1}, {1, 0}, {1, 2}, {0, 1}, {2, 1}, {0, 0}, {0, 2}, {2, 0}, {2, 2}}};

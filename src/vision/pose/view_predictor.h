@@ -49,7 +49,7 @@ class ViewPredictor {
   /// each has the size of a frame; so what is small or pale is found, which the whole frame's stronger
   /// features crowd out.
   static constexpr int kParts = 9;
-  ExpectedView part(int index) const;
+  ExpectedView upsampled_part(int index) const;
 
   /// The bounding box of the outline and the sizes of the features under H, with a margin for what may have
   /// changed in `dt_s`.

@@ -29,7 +29,7 @@ TEST(ViewPredictor, PartsCoverTheFrameAndOverlapByMoreThanASmallBack) {
       for (int x = 0; x + side_px <= camera.width_px; x += 10) {
         bool inside = false;
         for (int i = 0; i < ViewPredictor::kParts; ++i) {
-          const Region part = predictor.part(i).region;
+          const Region part = predictor.upsampled_part(i).region;
           inside = inside || (x >= part.x_px && y >= part.y_px && x + side_px <= part.x_px + part.width_px &&
                               y + side_px <= part.y_px + part.height_px);
         }
@@ -37,7 +37,7 @@ TEST(ViewPredictor, PartsCoverTheFrameAndOverlapByMoreThanASmallBack) {
       }
     }
     for (int i = 0; i < ViewPredictor::kParts; ++i) {
-      const ExpectedView part = predictor.part(i);
+      const ExpectedView part = predictor.upsampled_part(i);
       EXPECT_TRUE(part.upsample);
       EXPECT_LE(part.sigma_min_px, part.sigma_max_px);
       Region with_border = part.region;
