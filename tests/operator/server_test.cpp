@@ -1,6 +1,7 @@
 // What clients of the operator thread ask for, and what it answers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

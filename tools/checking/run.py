@@ -25,7 +25,7 @@ def findings_of(command, folder):
     except subprocess.TimeoutExpired:
         return [], f"not done after {UNIT_TIMEOUT_S} s"
     findings = []
-    for line in (done.stdout + done.stderr).splitlines():
+    for line in (done.stdout or done.stderr).splitlines():  # clang-tidy's findings, or the compiler's
         if FINDING.match(line):
             findings.append(line)
         elif findings:

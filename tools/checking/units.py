@@ -21,6 +21,9 @@ class Unit:
         """The source's path below the tree, or below the preset's folder."""
         return self.source.relative_to(self.build if self.source.is_relative_to(self.build) else ROOT)
 
+    def search_folders(self):
+        return tuple(pathlib.Path(flag[2:]) for flag in self.command if flag.startswith("-I"))
+
 
 def configure(preset):
     subprocess.run(["cmake", "--preset", preset], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
@@ -48,6 +51,12 @@ def included_files(source, folders):
     return [next(path for path in paths if path.exists()) for paths in candidates if any(path.exists() for path in paths)]
 
 
+def unit_that_reads(path, units):
+    """That of the source `path`; for a header, of a source that includes it directly, its own before others. None: no such."""
+    reading = [unit for unit in units if path == unit.source or path in included_files(unit.source, unit.search_folders())]
+    return min(reading, key=lambda unit: (unit.source != path, unit.source.stem != path.stem), default=None)
+
+
 def change_times():
     """path below the tree → when it was committed last; not yet: later than all."""
     times, time = {}, 0
@@ -68,7 +77,7 @@ def newest_first(units):
     times = change_times()
 
     def changed(unit):
-        folders = tuple(pathlib.Path(flag[2:]) for flag in unit.command if flag.startswith("-I"))
+        folders = unit.search_folders()
         sources = [unit.source] if unit.source.is_relative_to(ROOT) and not unit.source.is_relative_to(unit.build) else \
             included_files(unit.source, folders)
         files = [file for source in sources for file in (source, *included_files(source, folders))]

@@ -87,6 +87,18 @@ class ChangedSources(unittest.TestCase):
         self.write("src/two.cpp", "#include \"number.h\"\nint two(int* p) { if (p != 0) { return number(); } return *p; }\n")
         self.expect_found("tidy", "src/two.cpp:2:28: error: use nullptr [modernize-use-nullptr")
 
+    def test_named_headers_and_sources(self):
+        self.write("src/number.h", "#pragma once\ninline int number(int* p = 0) { return p != 0 ? *p : 1; }\n")
+        done = self.check("tidy", "src/number.h", "src/two.cpp")
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertIn("number.h:2:28: error: use nullptr [modernize-use-nullptr", done.stdout)
+        self.assertIn(": 1 units, ", done.stderr)
+        done = self.check("tidy", "src/one.cpp")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        done = self.check("tidy", "src/missing.h")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("src/missing.h: the preset debug does not compile it", done.stderr)
+
     def test_only_what_changed_is_checked_again(self):
         self.expect("compile-alone", 2, 0, 2)
         self.expect("compile-alone", 2, 2, 0)
