@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <opencv2/imgproc.hpp>
 #include <system_error>
 
 #include "files/folder.h"
 #include "files/frame_input.h"
 #include "files/image_file.h"
 #include "heel/error.h"
+#include "sharpness.h"
 
 namespace heel::cli {
 namespace {
@@ -20,14 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr double kRate_hz = 30.0;             // of images, whose times do not matter here
 constexpr std::uint64_t kPartOfUnknown = 15;  // frames, of a video that does not say how many it has
-
-double sharpness_of(const cv::Mat& grey) {
-  cv::Mat edges;
-  cv::Laplacian(grey, edges, CV_16S);
-  cv::Scalar mean, deviation;
-  cv::meanStdDev(edges, mean, deviation);
-  return deviation[0];
-}
 
 }  // namespace
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "board_images.h"
+#include "board_options.h"
 #include "camera_calibration.h"
 #include "commandline/progress.h"
 #include "commands.h"
@@ -23,33 +25,11 @@ using CalibrationJson = nlohmann::ordered_json;
 
 struct CalibrateOptions {
   std::vector<std::string> images;
-  std::string board;
-  double square_m = 0.0;
+  BoardOptions board;
   std::string output;
   bool with_k3 = false;
-  std::string pattern = "chessboard";
   bool json = false;
 };
-
-/// "9x6": inner corners along a row, and down a column.
-cv::Size parse_corners(const std::string& text) {
-  int across = 0;
-  int down = 0;
-  int used = 0;
-  if (std::sscanf(text.c_str(), "%3dx%3d%n", &across, &down, &used) != 2 ||
-      used != static_cast<int>(text.size()) || across < 3 || down < 3) {
-    throw Error("--board: '" + text + "' (expected inner corners across x down, each at least 3, e.g. 9x6)");
-  }
-  return {across, down};
-}
-
-Pattern parse_pattern(const std::string& name) {
-  // Which marker is which is not needed: a part of a board calibrates wherever on the board it is.
-  if (name == "chessboard" || name == "charuco") return Pattern::Chessboard;
-  if (name == "circles") return Pattern::Circles;
-  if (name == "asymmetric-circles") return Pattern::AsymmetricCircles;
-  throw Error("--pattern: '" + name + "' (expected chessboard, charuco, circles or asymmetric-circles)");
-}
 
 void print_searched(const SearchedImage& searched) {
   fmt::print("{:<40} {}  ({} of {})\n", searched.image,
@@ -106,11 +86,7 @@ CalibrationJson json_of(const BoardViews& found, const Calibration& result, cons
 }
 
 void run_calibrate(const CalibrateOptions& options) {
-  const Board board{parse_corners(options.board), options.square_m, parse_pattern(options.pattern)};
-  if (board.pattern == Pattern::AsymmetricCircles && board.corners.height % 2 == 0)
-    throw Error("--board: '" + options.board +
-                "' (expected an odd number of rows of asymmetric circles, e.g. 4x11: an even one "
-                "looks the same upside down)");
+  const Board board = board_of(options.board);
   const BoardImages pictures(options.images);
   for (const std::string& problem : pictures.problems()) fmt::print(stderr, "heel calibrate: {}\n", problem);
   const std::vector<std::string>& images = pictures.files();
@@ -146,26 +122,10 @@ void add_calibrate_command(CLI::App& app) {
           "photographs of the board, folders of them, or videos, of which the sharpest frames\nare taken")
       ->required()
       ->type_name("IMAGES");
-  command
-      ->add_option("--board", options->board,
-                   "inner corners (where four squares meet), across x down, e.g. 9x6 for 10x7 squares;\n"
-                   "of a grid of circles: circles in a row x rows")
-      ->required()
-      ->type_name("CxR");
-  command
-      ->add_option("--square", options->square_m,
-                   "side of one square, or from one circle to the next, metres; of asymmetric\n"
-                   "circles: half the distance of two circles of a row")
-      ->required()
-      ->type_name("M")
-      ->check(metres_from(1e-4, 10.0));
+  add_board_options(*command, options->board, /*required=*/true);
   command->add_option("-o,--output", options->output, "camera file to write")
       ->required()
       ->type_name("CAM.yaml");
-  command
-      ->add_option("--pattern", options->pattern,
-                   "chessboard (default), charuco (a chessboard with markers), circles or asymmetric-circles")
-      ->type_name("KIND");
   command->add_flag("--k3", options->with_k3,
                     "also estimate the third radial coefficient (wide-angle lenses)");
   command->add_flag("--json", options->json, "one JSON object (default: text)");

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -23,39 +22,6 @@ struct PreflightOptions {
   bool json = false;
 };
 
-struct NamedStep {
-  const char* name;
-  PreflightStep (*check)(const Config& config);
-  const char* measures;
-};
-
-constexpr NamedStep kSteps[] = {
-    {"camera", check_camera, "rate, damaged pictures, light, focus"},
-    {"calibration", check_calibration, "the camera's file"},
-    {"shirt", check_shirt, "the template"},
-    {"person", check_person, "the shirt is found, upright, at its distance; somebody stands there in it"},
-    {"robot", check_robot, "answer, model, battery, packets, sonars; it stands still"},
-    {"wheels", check_wheels, "they turn the right way; only with --wheels-on-blocks"},
-};
-
-const char* word_of(StepVerdict verdict) {
-  return verdict == StepVerdict::Pass ? "pass" : verdict == StepVerdict::Fail ? "FAIL" : "skipped";
-}
-
-void print(const PreflightStep& step) {
-  std::cout << fmt::format("{:<12} {:<8} {}\n", step.name, word_of(step.verdict), step.measured);
-  if (!step.advice.empty()) std::cout << fmt::format("{:<21} -> {}\n", "", step.advice);
-  std::cout << std::flush;
-}
-
-nlohmann::ordered_json json_of(const PreflightStep& step) {
-  nlohmann::ordered_json json{
-      {"step", step.name}, {"verdict", word_of(step.verdict)}, {"measured", step.measured}};
-  if (step.verdict == StepVerdict::Fail) json["verdict"] = "fail", json["advice"] = step.advice;
-  if (!step.values.is_null()) json["values"] = step.values;
-  return json;
-}
-
 PreflightStep run_step(const NamedStep& named, const Config& config, const PreflightOptions& options) {
   if (named.check == check_wheels && !options.wheels_on_blocks)
     return {.name = named.name,
@@ -66,18 +32,17 @@ PreflightStep run_step(const NamedStep& named, const Config& config, const Prefl
 
 void run_preflight(const PreflightOptions& options) {
   const Config config = load_config(options.config_file).config;
-  for (const int number : {SIGINT, SIGTERM, SIGHUP})
-    std::signal(number, [](int) { g_preflight_interrupted = true; });
+  note_interrupts();
   nlohmann::ordered_json steps = nlohmann::ordered_json::array();
   bool failed = false;
-  for (const NamedStep& named : kSteps) {
+  for (const NamedStep& named : preflight_steps()) {
     const bool wanted =
         options.steps.empty() || std::ranges::find(options.steps, named.name) != options.steps.end();
     if (!wanted || g_preflight_interrupted) continue;
     const PreflightStep step = run_step(named, config, options);
     failed = failed || step.verdict == StepVerdict::Fail;
     steps.push_back(json_of(step));
-    if (!options.json) print(step);
+    if (!options.json) std::cout << text_of(step) << std::flush;
   }
   const bool ready = !failed && !g_preflight_interrupted;
   if (options.json)
@@ -94,7 +59,7 @@ void add_preflight_command(CLI::App& app) {
   auto options = std::make_shared<PreflightOptions>();
   std::vector<std::string> names;
   std::string help = "only these of:";
-  for (const NamedStep& step : kSteps) {
+  for (const NamedStep& step : preflight_steps()) {
     names.emplace_back(step.name);
     help += fmt::format("\n  {}: {}", step.name, step.measures);
   }

@@ -2,13 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "capture/factory/frame_source_factory.h"
-#include "capture/frame_source.h"
+#include "camera_look.h"
 #include "core/angles.h"
 #include "core/picture_turn.h"
 #include "core/state_sentence.h"
@@ -16,7 +15,6 @@
 #include "files/template_file.h"
 #include "heel/error.h"
 #include "preflight_step.h"
-#include "realtime/clock.h"
 #include "vision/picture/picture_monitor.h"
 #include "vision/pose/template_selector.h"
 #include "vision/template/turned_template.h"
@@ -24,62 +22,10 @@
 namespace heel::cli {
 namespace {
 
-constexpr TimeNs kLook_ns = 3 * kNsPerS;
-constexpr TimeNs kFirstFrame_ns = 16 * kNsPerS;  // as patient as heeld is with a camera that was never heard
-constexpr double kLeastRate = 0.8;               // of camera.rate_hz
+constexpr double kLeastRate = 0.8;  // of camera.rate_hz
 constexpr double kMostDamaged = 0.01;
 constexpr double kLeastFound = 0.5;
 constexpr std::size_t kTurnedFrames = 5;  // are searched in each of the eight ways a camera can be mounted
-
-/// Frames of a camera for three seconds after the first.
-class Look {
- public:
-  explicit Look(const CameraConfig& config) : source_(open_frame_source(config)) {}
-
-  /// Calls `use` with each frame; stops early when the program is interrupted. Throws heel::Error when none
-  /// comes, or the camera is lost.
-  template <typename Use>
-  void take(const Use& use) {
-    FrameView frame;
-    const TimeNs begin_ns = monotonic_now_ns();
-    TimeNs end_ns = begin_ns + kFirstFrame_ns;
-    while (monotonic_now_ns() < end_ns && !g_preflight_interrupted) {
-      const FrameResult result = source_->wait_frame(kNsPerS / 10, frame);
-      if (result == FrameResult::EndOfStream) break;
-      if (result == FrameResult::Lost) throw Error(source_->problem());
-      if (result != FrameResult::Frame) continue;
-      if (frames_++ == 0) {
-        t_first_ns_ = frame.header.t_capture_ns;
-        end_ns = monotonic_now_ns() + kLook_ns;
-      }
-      t_last_ns_ = frame.header.t_capture_ns;
-      width_px_ = static_cast<int>(frame.header.width_px);
-      height_px_ = static_cast<int>(frame.header.height_px);
-      use(frame);
-    }
-    if (frames_ == 0)
-      throw Error(source_->problem().empty() ? source_->address() + ": no picture came" : source_->problem());
-  }
-
-  std::size_t frames() const { return frames_; }
-  int width_px() const { return width_px_; }
-  int height_px() const { return height_px_; }
-  double rate_hz() const {
-    const double s = seconds_from_ns(t_last_ns_ - t_first_ns_);
-    return s > 0.0 ? static_cast<double>(frames_ - 1) / s : 0.0;
-  }
-  double damaged_share() const {
-    const auto damaged = static_cast<double>(source_->counters().corrupt);
-    return damaged / (damaged + static_cast<double>(frames_));
-  }
-  const std::string& description() const { return source_->description(); }
-
- private:
-  std::unique_ptr<FrameSource> source_;
-  std::size_t frames_ = 0;
-  int width_px_ = 0, height_px_ = 0;
-  TimeNs t_first_ns_ = 0, t_last_ns_ = 0;
-};
 
 PreflightStep not_there(PreflightStep step, const Error& error, const char* advice) {
   return step.fail(error.what(), advice_on(error.what(), advice));
@@ -144,12 +90,19 @@ double median(std::vector<double> values) {
 }  // namespace
 
 PreflightStep check_camera(const Config& config) {
+  return check_camera_and_use(config, [](const FrameView&) {});
+}
+
+PreflightStep check_camera_and_use(const Config& config, const std::function<void(const FrameView&)>& use) {
   PreflightStep step{.name = "camera"};
   try {
     Look look(config.camera);
     PictureMonitor monitor;
     PictureFault fault = PictureFault::None;
-    look.take([&](const FrameView& frame) { fault = monitor.update(frame); });
+    look.take([&](const FrameView& frame) {
+      fault = monitor.update(frame);
+      use(frame);
+    });
     step.values = {{"description", look.description()},
                    {"rate_hz", look.rate_hz()},
                    {"damaged_share", look.damaged_share()},

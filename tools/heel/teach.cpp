@@ -1,5 +1,5 @@
 // heel teach: one view of a shirt's back → a template file, and how well the shirt can be followed.
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -21,6 +21,7 @@
 #include "picture.h"
 #include "teach_more.h"
 #include "teach_reach.h"
+#include "teach_region.h"
 #include "turn_options.h"
 #include "vision/template/turned_template.h"
 
@@ -107,16 +108,6 @@ std::vector<std::uint8_t> grey_from_camera(const TeachOptions& options, int& wid
   return grey;
 }
 
-Region parse_roi(const std::vector<int>& roi, const CameraModel& camera) {
-  const Region region{roi[0], roi[1], roi[2], roi[3]};
-  if (region.x_px < 0 || region.y_px < 0 || region.width_px < 1 || region.height_px < 1 ||
-      region.width_px > camera.width_px - region.x_px || region.height_px > camera.height_px - region.y_px) {
-    throw Error(fmt::format("--roi: {} (expected X,Y,W,H inside the {}x{} image)", fmt::join(roi, ","),
-                            camera.width_px, camera.height_px));
-  }
-  return region;
-}
-
 ShirtTemplate make_template(const TeachOptions& options) {
   ShirtTemplate shirt;
   const CameraModel sent_camera = read_camera_model(options.camera_file);
@@ -132,7 +123,7 @@ ShirtTemplate make_template(const TeachOptions& options) {
                             options.image.empty() ? options.camera_address : options.image, width_px,
                             height_px, shirt.camera.width_px, shirt.camera.height_px, options.camera_file));
   }
-  shirt.roi = parse_roi(options.roi, shirt.camera);
+  shirt.roi = region_of(options.roi, shirt.camera);
   shirt.distance_m = options.distance_m;
   shirt.yaw_rad = options.yaw_deg / kDegPerRad;
   shirt.oriented = options.oriented;

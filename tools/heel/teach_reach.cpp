@@ -19,15 +19,6 @@ std::string in_degrees(double angle_rad) {
   return fmt::format("{:.0f}°", angle_rad * 180.0 / M_PI);
 }
 
-std::string in_one_line(const TemplateReach& reach) {
-  if (reach.cells.empty()) return "how far it is found was not measured";
-  if (reach.far_m == 0.0) return "found at no distance";
-  std::string line = fmt::format("found from {} to {} m facing away", reach.near_m, reach.far_m);
-  if (reach.turn_rad)
-    line += fmt::format(", to {} at {} m", in_degrees(*reach.turn_rad), TemplateReach::kTurnDistance_m);
-  return line;
-}
-
 /// Distances to the right, turns down; blank where nothing was measured.
 void print_table(const TemplateReach& reach) {
   std::vector<double> distances_m, turns_rad;
@@ -56,6 +47,15 @@ void print_table(const TemplateReach& reach) {
 }
 
 }  // namespace
+
+std::string in_one_line(const TemplateReach& reach) {
+  if (reach.cells.empty()) return "how far it is found was not measured";
+  if (reach.far_m == 0.0) return "found at no distance";
+  std::string line = fmt::format("found from {} to {} m facing away", reach.near_m, reach.far_m);
+  if (reach.turn_rad)
+    line += fmt::format(", to {} at {} m", in_degrees(*reach.turn_rad), TemplateReach::kTurnDistance_m);
+  return line;
+}
 
 TemplateReach measured_reach(const ShirtTemplate& shirt, const CameraModel& robot_camera, double longest_s) {
   const Clock::time_point start = Clock::now();
