@@ -37,6 +37,7 @@ void add_calibrate_command(CLI::App& app);
 void add_teach_command(CLI::App& app);
 void add_pose_command(CLI::App& app);
 void add_preflight_command(CLI::App& app);
+void add_setup_command(CLI::App& app);
 void add_features_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
 void add_tune_command(CLI::App& app);

@@ -41,6 +41,13 @@ std::map<std::string, CommandText> files_and_pictures() {
                           "--camera-info camera.yaml -o shirt.heel",
                           "from the camera, now"}},
                         "the shirt is refused, the reason is printed")},
+      {"setup",
+       offline({{"heel setup --config /etc/heel/heel.toml", "questions, from nothing to the first walk"},
+                {"heel setup --config heel.toml --step shirt", "another shirt; all else stays"},
+                {"heel setup --config heel.toml --camera v4l2:/dev/video0 --camera-info camera.yaml --robot "
+                 "tcp:robot:8101 --distance 1.6 --yes",
+                 "without questions; the wheels stand still"}},
+               "a step failed, or was stopped; what was done is kept")},
       {"preflight",
        offline(
            {{"heel preflight --config /etc/heel/heel.toml", "all steps, the wheels stand still"},

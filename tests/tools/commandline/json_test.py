@@ -88,9 +88,9 @@ class Json(unittest.TestCase):
     def test_every_command_that_is_not_tested_here_is_tested_elsewhere(self):
         here = {"teach", "pose", "features", "simulate", "replay", "export", "bundle", "report", "experiment"}
         # many_runs_test, calibrate_test, experiment_test, bench_vision_test, measured_heeld_test, operator_test,
-        # preflight_test, tune_test
+        # preflight_test, setup_test, tune_test
         elsewhere = {"merge", "calibrate", "fit", "latency", "bench", "status", "start", "stop", "estop", "reset", "set", "save",
-                     "watch", "mark", "preflight", "tune"}
+                     "watch", "mark", "preflight", "setup", "tune"}
         self.assertEqual({path[0] for path in commands()}, here | elsewhere)
 
 

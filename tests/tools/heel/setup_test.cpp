@@ -1,0 +1,211 @@
+// heel setup without a robot: what it asks, what it writes, and a calibration from pictures of a board.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "config/config_load.h"
+#include "files/camera_info.h"
+#include "files/csv_table.h"
+#include "files/image_file.h"
+#include "support/test_data.h"
+#include "tools/heel/rendered_board.h"
+#include "tools/heel/run_heel.h"
+
+namespace heel {
+namespace {
+
+using nlohmann::json;
+using test::BoardPose;
+using test::Outcome;
+using test::Process;
+using ::testing::HasSubstr;
+
+namespace fs = std::filesystem;
+
+/// With these the board comes within 10 % of each edge of the picture.
+const std::vector<BoardPose> kEdgePoses = {
+    {0, 0, 0, -0.07, -0.06, 0.42}, {0, 0, 2, 0.08, -0.06, 0.42}, {15, 0, 0, 0.07, 0.06, 0.42},
+    {0, 15, 0, -0.08, 0.06, 0.42}, {-20, 0, 5, 0.07, 0.0, 0.42}, {0, -20, -5, -0.08, 0.0, 0.42},
+};
+
+/// The region of a taught picture.
+cv::Rect2d chosen_region(const CsvTable& truth, const std::string& picture) {
+  for (std::size_t row = 0; row < truth.rows(); ++row)
+    if (truth.text(row, "image") == picture)
+      return {truth.number(row, "roi_x"), truth.number(row, "roi_y"), truth.number(row, "roi_w"),
+              truth.number(row, "roi_h")};
+  return {};
+}
+
+class Setup : public ::testing::Test {
+ protected:
+  std::string file(const std::string& name) const { return folder_.file(name); }
+
+  /// A camera that shows each view in two pictures.
+  void write_boards(std::vector<BoardPose> poses) const {
+    fs::create_directory(file("boards"));
+    int number = 10;
+    for (const BoardPose& pose : poses) {
+      const std::string first = file("boards/" + std::to_string(number++) + ".png");
+      write_image(first, test::render_board(pose));
+      fs::create_symlink(first, file("boards/" + std::to_string(number++) + ".png"));
+    }
+  }
+  std::string write_config(const std::string& text) const {
+    return test::write_text(file("heel.toml"), text);
+  }
+  Outcome set_up(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"setup", "--config", file("heel.toml")});
+    return test::run_heel(more);
+  }
+  /// The JSON line of the only step.
+  json step(std::vector<std::string> more, int status = 0) const {
+    more.emplace_back("--json");
+    const Outcome outcome = set_up(more);
+    EXPECT_EQ(outcome.status, status) << outcome.out << outcome.err;
+    return json::parse(outcome.out.substr(0, outcome.out.find('\n')), nullptr, false);
+  }
+  Outcome answered(const std::string& answers, const std::string& options) const {
+    return test::run_program({"/bin/sh", "-c",
+                              "printf '" + answers + "' | " + test::built_program("heel") +
+                                  " setup --config " + file("heel.toml") + " " + options});
+  }
+  Config config() const { return load_config(file("heel.toml")).config; }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Setup, AskedForItsCameraItMakesThePictureUprightAndKeepsTheRestOfTheFile) {
+  write_boards({test::kGoodPoses[5]});
+  write_config(
+      "# mine\n[robot]\naddress = \"tcp:robot:8101\"  # in the hall\n\n[camera]\nfile_speed = 0 # fast\n");
+  const Outcome outcome =
+      answered("nothing\\nfile:" + file("boards") + "\\n90\\nmirror\\nupside\\nyes\\n", "--step camera");
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("'nothing' (expected a number of the list or an address"));
+  EXPECT_THAT(outcome.out, HasSubstr("'upside' (expected yes, 90, 180, 270 or mirror)"));
+  const cv::Mat sent = read_grey_image(file("boards/10.png")).grey;
+  cv::Mat turned;
+  cv::rotate(sent, turned, cv::ROTATE_90_CLOCKWISE);
+  cv::flip(turned, turned, 1);
+  EXPECT_EQ(cv::norm(turned, read_grey_image(file("setup-camera.png")).grey, cv::NORM_INF), 0.0);
+  EXPECT_EQ(config().camera.rotate, 270);
+  EXPECT_TRUE(config().camera.mirror);
+  EXPECT_EQ(
+      test::read_text(file("heel.toml")),
+      "# mine\n[robot]\naddress = \"tcp:robot:8101\"  # in the hall\n\n[camera]\nfile_speed = 0 # fast\n"
+      "source = \"file:" +
+          file("boards") + "\"\nrotate = 270\nmirror = true\n");
+}
+
+TEST_F(Setup, LivePicturesOfABoardCalibrateTheCamera) {
+  std::vector<BoardPose> poses = test::kGoodPoses;
+  poses.insert(poses.end(), kEdgePoses.begin(), kEdgePoses.end());
+  write_boards(poses);
+  write_config("[camera]\nsource = \"file:boards\"\nfile_speed = 0\n");
+  const json result = step({"--step", "calibration", "--board", "9x6", "--square", "0.03"});
+  EXPECT_EQ(result["verdict"], "pass") << result;
+  EXPECT_EQ(result["values"]["file"], file("camera.yaml"));
+  EXPECT_EQ(result["values"]["warning"], "");
+  EXPECT_GE(result["values"]["views"], 8);
+  const CameraModel camera = read_camera_model(file("camera.yaml"));
+  EXPECT_NEAR(camera.fx, test::kTrueK(0, 0), 3.0);
+  EXPECT_NEAR(camera.cx, test::kTrueK(0, 2), 3.0);
+}
+
+TEST_F(Setup, ViewsThatDoNotDetermineTheCameraAreRefusedWithWhatIsMissing) {
+  std::vector<BoardPose> parallel;
+  for (const double x_m : {-0.07, 0.0, 0.07})
+    for (const double y_m : {-0.06, 0.0, 0.06}) parallel.push_back({0, 0, 0, x_m, y_m, 0.42});
+  write_boards(parallel);
+  write_config("[camera]\nsource = \"file:boards\"\nfile_speed = 0\n");
+  const Outcome outcome = set_up({"--step", "calibration", "--board", "9x6", "--square", "0.03", "--yes"});
+  EXPECT_EQ(outcome.status, 1) << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("tilt it 30 to 45 degrees"));
+  // After the first view, in the upper left.
+  EXPECT_THAT(outcome.out, HasSubstr("view 1    # # ."));
+  EXPECT_THAT(outcome.out, HasSubstr("not yet: upper right, right, lower left, lower middle, lower right"));
+  EXPECT_FALSE(fs::exists(file("camera.yaml")));
+}
+
+TEST_F(Setup, AViewThatIsMovingOrKnownIsNotKept) {
+  std::vector<BoardPose> poses(6, test::kGoodPoses[0]);
+  write_boards(poses);
+  // One picture only of another view: the board moves.
+  write_image(file("boards/99.png"), test::render_board(test::kGoodPoses[1]));
+  write_config("[camera]\nsource = \"file:boards\"\nfile_speed = 0\n");
+  const json result = step({"--step", "calibration", "--board", "9x6", "--square", "0.03", "--yes"}, 1);
+  EXPECT_THAT(result["measured"], "only 1 views of the 9x6 board (expected at least 5)");
+}
+
+TEST_F(Setup, ACalibrationOfAnotherSizeIsRefused) {
+  CameraModel camera;
+  camera.width_px = 1280, camera.height_px = 720, camera.fx = camera.fy = 900, camera.cx = 640,
+  camera.cy = 360;
+  write_camera_model(camera, file("other.yaml"));
+  write_config("");
+  const json result = step({"--step", "calibration", "--camera-info", file("other.yaml"), "--yes"}, 1);
+  EXPECT_THAT(result["advice"], HasSubstr("640x480"));
+  EXPECT_EQ(test::read_text(file("heel.toml")), "") << "it is not taken";
+}
+
+TEST_F(Setup, WithoutAnAnswerItNamesTheOptionAndHowToGoOn) {
+  const Outcome outcome = set_up({"--step", "shirt", "--step", "check", "--yes"});
+  EXPECT_EQ(outcome.status, 1) << outcome.out << outcome.err;  // no calibration: the step fails
+  const Outcome asked = set_up({"--step", "camera"});
+  EXPECT_EQ(asked.status, 2) << asked.out;
+  EXPECT_THAT(asked.err, HasSubstr("heel setup: no answer to 'Which camera?"));
+  EXPECT_THAT(asked.err, HasSubstr("expected --camera or a line on standard input"));
+  EXPECT_THAT(asked.out, HasSubstr("heel setup --config " + file("heel.toml") + " --step camera\n"));
+}
+
+TEST_F(Setup, AnInterruptAtAQuestionKeepsWhatWasDone) {
+  write_boards({test::kGoodPoses[0]});
+  ASSERT_EQ(mkfifo(file("answers").c_str(), 0600), 0);
+  const std::string program = test::built_program("heel");
+  Process heel({"/bin/sh", "-c",
+                "exec " + program + " setup --config " + file("heel.toml") +
+                    " --camera file:" + file("boards") + " <> " + file("answers")});
+  ASSERT_TRUE(heel.says("Upright")) << heel.output();
+  heel.signal(SIGINT);
+  EXPECT_EQ(heel.wait(), 1) << heel.output();
+  EXPECT_THAT(heel.output(), HasSubstr("stopped\nWhat was done is kept in " + file("heel.toml")));
+  EXPECT_THAT(heel.output(), HasSubstr("--step camera --step calibration --step robot"));
+  EXPECT_EQ(config().camera.source, "file:" + file("boards"));
+}
+
+/// Regions that people chose in the pictures of bodies by others.
+TEST_F(Setup, TheProposedOutlineIsTheBack) {
+  HEEL_NEEDS_TEST_DATA("foreign");
+  const std::string data = test::data_path("foreign");
+  const CsvTable truth(data + "/truth.csv");
+  struct Body {
+    const char* name;
+    const char* height_m;
+  };
+  int bodies = 0;
+  for (const Body& body : {Body{"avgman", "1.77"}, Body{"slimwoman", "1.64"}, Body{"heavyman", "1.76"}}) {
+    const std::string name = "given_teach_" + std::string(body.name) + "_blobs.jpg";
+    write_config("[camera]\nsource = \"file:" + data + "/images/" + name + "\"\ninfo = \"" + data +
+                 "/camera.yaml\"\nmount_z_m = 1.05\n");
+    const json result = step({"--step", "shirt", "--distance", "1.4991", "--height", body.height_m,
+                              "--countdown", "0", "--reach-time", "0", "--yes"});
+    ASSERT_TRUE(result.contains("values")) << result;
+    const json& roi = result["values"]["roi"];
+    const cv::Rect2d proposed(roi[0], roi[1], roi[2], roi[3]);
+    ++bodies;
+    const cv::Rect2d chosen = chosen_region(truth, name);
+    EXPECT_GT((proposed & chosen).area() / (proposed | chosen).area(), 0.7) << name << roi;
+  }
+  EXPECT_EQ(bodies, 3);
+}
+
+}  // namespace
+}  // namespace heel
