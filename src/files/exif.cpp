@@ -9,8 +9,9 @@
 namespace heel {
 namespace {
 
-constexpr std::uint16_t kOrientation = 0x0112, kMaxSampleValue = 0x0119;
-constexpr std::uint16_t kShort = 3;
+constexpr std::uint16_t kBitsPerSample = 0x0102, kOrientation = 0x0112, kMaxSampleValue = 0x0119,
+                        kSampleFormat = 0x0153;
+constexpr std::uint32_t kFloatingPoint = 3;
 constexpr std::size_t kEntryBytes = 12;
 
 /// The bytes from `at`, `count` of them at most; empty beyond the end.
@@ -27,8 +28,15 @@ std::uint32_t number(ByteView bytes, std::size_t at, std::size_t count, bool lit
   return value;
 }
 
-int orientation_or_stored(int value) {
-  return value >= 1 && value <= 8 ? value : kAsStored;
+int orientation_or_stored(std::uint32_t value) {
+  return value >= 1 && value <= 8 ? static_cast<int>(value) : kAsStored;
+}
+
+/// Of a whole number; 0 for other types. EXIF has short ones in these tags, and some programs write long
+/// ones.
+std::size_t bytes_of_type(std::uint32_t type) {
+  constexpr std::uint32_t kByte = 1, kShort = 3, kLong = 4;
+  return type == kByte ? 1 : type == kShort ? 2 : type == kLong ? 4 : 0;
 }
 
 /// The EXIF block of a JPEG: in its APP1 segment, before the picture.
@@ -82,15 +90,20 @@ TiffTags read_tiff_tags(ByteView tiff) {
     if (part(tiff, at, kEntryBytes).size() < kEntryBytes) break;
     const std::uint32_t tag = number(tiff, at, 2, little_endian);
     const std::uint32_t count = number(tiff, at + 4, 4, little_endian);
-    if (number(tiff, at + 2, 2, little_endian) != kShort || count == 0) continue;
-    // Up to two short numbers stand in the entry itself, more of them where it points.
-    const std::size_t values = count <= 2 ? at + 8 : number(tiff, at + 8, 4, little_endian);
-    const int value = static_cast<int>(number(tiff, values, 2, little_endian));
+    const std::size_t bytes = bytes_of_type(number(tiff, at + 2, 2, little_endian));
+    if (bytes == 0 || count == 0) continue;
+    // Up to four bytes stand in the entry itself, more of them where it points.
+    const std::size_t values = count <= 4 / bytes ? at + 8 : number(tiff, at + 8, 4, little_endian);
+    const std::uint32_t value = number(tiff, values, bytes, little_endian);
     if (tag == kOrientation) {
       tags.orientation = orientation_or_stored(value);
       tags.orientation_at = values;
+      tags.orientation_bytes = bytes;
     }
-    if (tag == kMaxSampleValue) tags.max_sample_value = value;
+    constexpr std::uint32_t kMost = 0xffff;
+    if (tag == kMaxSampleValue) tags.max_sample_value = static_cast<int>(std::min(value, kMost));
+    if (tag == kBitsPerSample) tags.bits = static_cast<int>(std::min(value, kMost));
+    if (tag == kSampleFormat) tags.has_floats = value == kFloatingPoint;
   }
   return tags;
 }

@@ -10,7 +10,10 @@ namespace heel {
 struct TiffTags {
   int orientation = 1;             ///< as in EXIF, 1 to 8
   std::size_t orientation_at = 0;  ///< its place in the bytes; 0: not stated
-  int max_sample_value = 0;        ///< 0: not stated
+  std::size_t orientation_bytes = 0;
+  int max_sample_value = 0;  ///< 0: not stated
+  int bits = 0;              ///< of a sample of the first kind; 0: not stated
+  bool has_floats = false;   ///< its samples are floating-point numbers
 };
 
 /// The tags of the first directory of a TIFF file or an EXIF block, which is one. Damaged bytes: what could

@@ -33,15 +33,19 @@ InputFile checked_file(const std::string& path) {
   return {path, true, video.frame_count()};
 }
 
-void add_folder(const std::string& folder, std::vector<InputFile>& files) {
-  std::error_code error;
-  const std::vector<std::string> images = images_in_folder(folder, error);
-  if (error) throw Error(folder + ": cannot read the folder: " + error.message());
-  if (images.empty()) throw Error(folder + ": no image in this folder (expected at least one)");
-  for (const std::string& image : images) files.push_back({image});
-}
-
 }  // namespace
+
+std::vector<std::string> images_of_folder(const std::string& folder, std::vector<std::string>& notes) {
+  std::error_code error;
+  const FolderImages found = images_in_folder(folder, error);
+  if (error) throw Error(folder + ": cannot read the folder: " + error.message());
+  const std::string videos = found.passed_over();
+  if (found.images.empty())
+    throw Error(folder + ": no image in this folder (expected at least one)" +
+                (videos.empty() ? "" : "; " + videos));
+  if (!videos.empty()) notes.push_back(folder + ": " + videos);
+  return found.images;
+}
 
 struct FrameInput::Impl {
   std::vector<InputFile> files;
@@ -103,7 +107,7 @@ FrameInput::FrameInput(const std::vector<std::string>& inputs, double image_rate
     : impl_(std::make_unique<Impl>()) {
   for (const std::string& input : inputs) {
     if (std::filesystem::is_directory(input)) {
-      add_folder(input, impl_->files);
+      for (const std::string& image : images_of_folder(input, impl_->notes)) impl_->files.push_back({image});
     } else {
       impl_->files.push_back(checked_file(input));
     }

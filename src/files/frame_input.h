@@ -22,6 +22,10 @@ struct InputFrame {
 /// Throws heel::Error naming the frame's file unless it has the camera's size.
 void require_size(const InputFrame& frame, const CameraModel& camera, const std::string& camera_file);
 
+/// As images_in_folder, for commands: throws heel::Error naming the folder unless there is an image. `notes`
+/// gets a line about videos that are passed over.
+std::vector<std::string> images_of_folder(const std::string& folder, std::vector<std::string>& notes);
+
 class FrameInput {
  public:
   /// Checks every input. Throws heel::Error naming the first that is no image, folder of images or video.
@@ -39,7 +43,7 @@ class FrameInput {
   /// Frames in all inputs as the files' headers state them; 0 when one does not.
   std::uint64_t stated_frame_count() const;
   /// Of the inputs passed so far: what was taken for the depth of their pixels, one line each time it
-  /// changes, and for interlaced videos.
+  /// changes, and for interlaced videos; of folders the videos that are passed over.
   const std::vector<std::string>& notes() const;
   /// Of the inputs passed so far: those of which a part is missing, "walk.mkv: ends after 20 of 40 frames".
   const std::vector<std::string>& problems() const;

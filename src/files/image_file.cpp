@@ -1,5 +1,7 @@
 #include "files/image_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -20,6 +22,7 @@
 #include "files/orientation.h"
 #include "files/other_file_kind.h"
 #include "files/picture_depth.h"
+#include "files/picture_kind.h"
 #include "files/png_picture.h"
 #include "files/pnm_picture.h"
 #include "heel/error.h"
@@ -32,25 +35,6 @@ namespace fs = std::filesystem;
 constexpr const char* kReadableKinds = "PNG, JPEG, PGM, PPM, BMP, TIFF or WebP";
 constexpr std::size_t kMaxPixels = std::size_t{1} << 27;
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 29;
-
-/// "a HEIC" for a file of that kind, whatever its name's ending; empty for kinds that heel reads, and unknown
-/// ones.
-std::string unreadable_kind(ByteView file) {
-  if (file.size() >= 12 && begins_with(file.subspan(4), "ftyp")) {
-    const std::string_view brand(reinterpret_cast<const char*>(file.data()) + 8, 4);
-    for (const char* heic : {"heic", "heix", "heim", "heis", "hevc", "hevx", "mif1", "msf1"})
-      if (brand == heic) return "a HEIC";
-    for (const char* avif : {"avif", "avis"})
-      if (brand == avif) return "an AVIF";
-    if (brand == "crx ") return "a camera's raw";
-  }
-  if (begins_with(file, std::string_view("\0\0\0\x0cJXL ", 8)) || begins_with(file, "\xff\x0a"))
-    return "a JPEG XL";
-  if (begins_with(file, std::string_view("\0\0\0\x0cjP  ", 8))) return "a JPEG 2000";
-  if (begins_with(file, "GIF8")) return "a GIF";
-  if (begins_with(file, "%PDF")) return "a PDF";
-  return "";
-}
 
 bool is_jpeg(ByteView file) {
   return begins_with(file, "\xff\xd8");
@@ -121,9 +105,11 @@ class SilentCerr {
 
 cv::Mat decode_by_opencv(std::string& file, ByteView view) {
   // OpenCV turns TIFF pictures, and no others of these, whether it is told to or not.
-  if (const std::size_t at = read_tiff_tags(view).orientation_at; at > 0 && at + 2 <= file.size()) {
-    file[at] = file[at + 1] = 0;
-    file[file.starts_with("II") ? at : at + 1] = kAsStored;
+  const TiffTags tags = read_tiff_tags(view);
+  const std::size_t at = tags.orientation_at, end = at + tags.orientation_bytes;
+  if (at > 0 && end <= file.size()) {
+    std::fill_n(file.begin() + static_cast<std::ptrdiff_t>(at), tags.orientation_bytes, '\0');
+    file[file.starts_with("II") ? at : end - 1] = kAsStored;
   }
   const cv::Mat bytes(1, static_cast<int>(file.size()), CV_8U, file.data());
   const SilentCerr silent;
@@ -141,12 +127,26 @@ int stated_white(ByteView file, int significant_bits) {
   return read_tiff_tags(file).max_sample_value;
 }
 
+/// Why the decoded pixels, or none, are no picture.
+std::string problem_of(const cv::Mat& raw, const TiffTags& tags, const std::string& problem) {
+  const std::string expected =
+      std::string(" (expected ") + kReadableKinds + " of 8 to 16 bits a pixel; export it as such)";
+  if (tags.has_floats || raw.depth() > CV_32S) return "its pixels are floating-point numbers" + expected;
+  if (tags.bits > 16 || !raw.empty()) return "its pixels have more than 16 bits" + expected;
+  return "not a whole image" + (problem.empty() ? "" : ": " + problem) + " (expected " + kReadableKinds +
+         " of 8 to 16 bits a pixel)";
+}
+
 GreyImage decode_bytes(std::string& bytes, int least_white) {
   const ByteView file(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   GreyImage image;
-  if (const std::string kind = unreadable_kind(file); !kind.empty()) {
+  if (const std::string kind = unreadable_picture_kind(file); !kind.empty()) {
     image.problem = kind + " file, which heel does not read (expected " + kReadableKinds +
                     "; save or export it as JPEG or PNG)";
+    return image;
+  }
+  if (const std::string video = video_kind(file); !video.empty()) {
+    image.problem = video + " video with a picture's name: rename it (expected " + kReadableKinds + ")";
     return image;
   }
   if (const std::string other = other_file_kind(file); !other.empty()) {
@@ -164,8 +164,7 @@ GreyImage decode_bytes(std::string& bytes, int least_white) {
     raw = decode_by_opencv(bytes, file);
   }
   if (raw.empty() || (raw.depth() != CV_8U && raw.depth() != CV_16U)) {
-    image.problem = "not a whole image" + (image.problem.empty() ? "" : ": " + image.problem) +
-                    " (expected " + kReadableKinds + " of 8 to 16 bits a pixel)";
+    image.problem = problem_of(raw, read_tiff_tags(file), image.problem);
     return image;
   }
   image.problem.clear();
@@ -180,6 +179,8 @@ constexpr std::array kImageEndings{".png", ".jpg", ".jpeg", ".bmp",  ".pgm",
                                    ".ppm", ".pnm", ".tif",  ".tiff", ".webp"};
 // One JPEG picture after another: without a look at the name, only the first would be used.
 constexpr std::array kMotionJpegEndings{".mjpeg", ".mjpg"};
+// Of kinds of videos that have no beginning of their own.
+constexpr std::array kVideoEndings{".mts", ".m2ts", ".h264", ".h265", ".264", ".265"};
 
 template <typename Endings>
 bool has_one_of(const Endings& endings, const std::string& path) {
@@ -194,25 +195,51 @@ bool is_hidden(const fs::path& path) {
   return path.filename().string().starts_with('.');
 }
 
+using Head = std::array<std::uint8_t, kPictureKindBytes>;
+
+/// The beginning of a file; zeros where there is none.
+Head head_of(const std::string& path) {
+  Head head{};
+  if (std::error_code none; fs::is_regular_file(path, none))
+    std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(head.data()), head.size());
+  return head;
+}
+
+bool is_video_file(const std::string& path) {
+  return has_one_of(kMotionJpegEndings, path) || has_one_of(kVideoEndings, path) ||
+         !video_kind(head_of(path)).empty();
+}
+
 }  // namespace
 
 bool is_image_file(const std::string& path) {
   if (has_one_of(kImageEndings, path)) return true;
   if (has_one_of(kMotionJpegEndings, path)) return false;
-  if (std::error_code none; !fs::is_regular_file(path, none)) return false;
-  std::array<std::uint8_t, 16> head{};
-  std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(head.data()), head.size());
-  return is_jpeg(head) || is_png(head) || is_for_opencv(head) || !unreadable_kind(head).empty();
+  const Head head = head_of(path);
+  return is_jpeg(head) || is_png(head) || is_for_opencv(head) || !unreadable_picture_kind(head).empty();
 }
 
-std::vector<std::string> images_in_folder(const std::string& folder, std::error_code& error) {
-  std::vector<std::string> images;
+FolderImages images_in_folder(const std::string& folder, std::error_code& error) {
+  FolderImages found;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string path = entry.path().string();
-    if (entry.is_regular_file() && !is_hidden(entry.path()) && is_image_file(path)) images.push_back(path);
+    if (!entry.is_regular_file() || is_hidden(entry.path())) continue;
+    if (is_image_file(path))
+      found.images.push_back(path);
+    else if (is_video_file(path))
+      found.videos.push_back(entry.path().filename().string());
   }
-  std::sort(images.begin(), images.end(), natural_less);
-  return images;
+  std::sort(found.images.begin(), found.images.end(), natural_less);
+  std::sort(found.videos.begin(), found.videos.end(), natural_less);
+  return found;
+}
+
+std::string FolderImages::passed_over() const {
+  if (videos.empty()) return "";
+  if (videos.size() == 1)
+    return videos.front() + " in it is a video, which is passed over: give it by its name";
+  return fmt::format("{} and {} more videos in it are passed over: give each by its name", videos.front(),
+                     videos.size() - 1);
 }
 
 GreyImage decode_grey_image(const std::string& path, int least_white) {

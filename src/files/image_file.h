@@ -17,9 +17,16 @@ namespace heel {
 /// Whether the file's name has the ending of an image (.png, .jpg …) or its first bytes are those of one.
 bool is_image_file(const std::string& path);
 
-/// The images in a folder, in natural order (2 before 10), without those in its subfolders. `error` says why
-/// the folder could not be read.
-std::vector<std::string> images_in_folder(const std::string& folder, std::error_code& error);
+struct FolderImages {
+  std::vector<std::string> images;  ///< in natural order (2 before 10)
+  std::vector<std::string>
+      videos;  ///< the names of those beside them, which a folder of images does not show
+
+  /// One line about the videos; empty without any.
+  std::string passed_over() const;
+};
+/// The images in a folder, without those in its subfolders. `error` says why the folder could not be read.
+FolderImages images_in_folder(const std::string& folder, std::error_code& error);
 
 struct GreyImage {
   cv::Mat grey;         ///< one block of memory; empty when there is no whole picture

@@ -39,6 +39,12 @@ bool begins_as_mp4(const std::string& path) {
   return kind == "ftyp" || kind == "mdat" || kind == "wide";
 }
 
+/// A frame that was never written. One that is not coded may be black.
+bool is_zeros(const AVPacket& packet, AVCodecID codec) {
+  return codec != AV_CODEC_ID_RAWVIDEO && packet.size > 0 &&
+         std::all_of(packet.data, packet.data + packet.size, [](std::uint8_t byte) { return byte == 0; });
+}
+
 /// "00:00:02.000000000", as Matroska files state a stream's duration; 0 when it is not that.
 double seconds_of_clock(const char* text) {
   int hours = 0, minutes = 0;
@@ -117,6 +123,12 @@ const AVPacket* VideoFile::next_packet() {
     ++packets_;
     if (is_format(*file_, "yuv4mpegpipe")) raw_frames_end_ = avio_tell(file_->pb);
     longest_packet_s_ = std::max(longest_packet_s_, seconds(packet_->duration));
+    if (is_zeros(*packet_, stream_->codecpar->codec_id)) {
+      ++zero_packets_;
+      ++zero_packets_at_end_;
+      continue;
+    }
+    zero_packets_at_end_ = 0;
     return packet_.get();
   }
   return nullptr;

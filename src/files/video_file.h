@@ -38,6 +38,9 @@ class VideoFile {
   /// At the end: whether the file ends inside a packet, or cannot be read further.
   bool cut_in_a_packet() const { return cut_in_a_packet_; }
   std::uint64_t packets() const { return packets_; }
+  /// Of them, those of zeros, which are not given; and how many of these stand behind all others.
+  std::uint64_t zero_packets() const { return zero_packets_; }
+  std::uint64_t zero_packets_at_end() const { return zero_packets_at_end_; }
   /// The longest time that one of the packets read is shown, as the file says.
   double longest_packet_s() const { return longest_packet_s_; }
 
@@ -71,7 +74,7 @@ class VideoFile {
   std::string problem_;
   bool ended_ = false;
   bool cut_in_a_packet_ = false;
-  std::uint64_t packets_ = 0;
+  std::uint64_t packets_ = 0, zero_packets_ = 0, zero_packets_at_end_ = 0;
   double longest_packet_s_ = 0.0;
   std::int64_t raw_frames_end_ = 0;  // of a Y4M file, in bytes; 0: of another one, or no frame yet
 };

@@ -46,9 +46,9 @@ struct VideoReader::Decoder {
   std::unique_ptr<AVFrame, FreeBy<av_frame_free>> frame{av_frame_alloc()};
   std::unique_ptr<SwsContext, FreeScaler> scaler;
   JpegDecoder jpeg;
-  bool is_jpeg = false;     // Motion-JPEG, of which FFmpeg gives damaged frames without saying so
-  cv::Mat bgr, stored;      // stored: of Motion-JPEG, the frame
-  bool interlaced = false;  // of a frame so far, or as the header says: frames of some kinds cannot say so
+  bool is_jpeg = false;        // Motion-JPEG, of which FFmpeg gives damaged frames without saying so
+  cv::Mat bgr, stored, field;  // stored, field: of Motion-JPEG
+  bool interlaced = false;     // of a frame so far, or as the header says: frames of some kinds cannot say so
   std::string problem;
   std::string unconvertible;  // why a frame that was decoded could not be given; empty: none
 
@@ -60,6 +60,7 @@ struct VideoReader::Decoder {
   bool next_frame();
   bool next_decoded_frame();
   bool next_jpeg_frame();
+  bool decode_jpeg(const AVPacket& packet, std::uint32_t width_px, std::uint32_t height_px);
   void feed();
   void stamp(std::int64_t pts);
   bool convert(cv::Mat& grey);
@@ -102,16 +103,30 @@ bool VideoReader::Decoder::next_jpeg_frame() {
     std::uint32_t width_px = 0, height_px = 0;
     const bool has_size = jpeg.read_size(packet->data, bytes, width_px, height_px) &&
                           std::int64_t{width_px} * height_px <= std::int64_t{codec->width} * codec->height;
-    if (has_size) {
-      stored.create(static_cast<int>(height_px), static_cast<int>(width_px), CV_8U);
-      if (jpeg.decode(packet->data, bytes, width_px, height_px, stored.data)) {
-        stamp(packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts);
-        return true;
-      }
+    if (has_size && decode_jpeg(*packet, width_px, height_px)) {
+      stamp(packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts);
+      return true;
     }
     ++damaged;
   }
   return false;
+}
+
+/// Some capture cards write each field of a frame as a JPEG, both in one packet: the first is taken.
+bool VideoReader::Decoder::decode_jpeg(const AVPacket& packet, std::uint32_t width_px,
+                                       std::uint32_t height_px) {
+  const auto bytes = static_cast<std::size_t>(packet.size);
+  const auto frame_px = static_cast<std::uint32_t>(codec->height);
+  const bool is_field = width_px == static_cast<std::uint32_t>(codec->width) &&
+                        (height_px == frame_px / 2 || height_px == (frame_px + 1) / 2);
+  cv::Mat& picture = is_field ? field : stored;
+  picture.create(static_cast<int>(height_px), static_cast<int>(width_px), CV_8U);
+  if (!jpeg.decode(packet.data, bytes, width_px, height_px, picture.data)) return false;
+  if (!is_field) return true;
+  interlaced = true;
+  stored.create(codec->height, static_cast<int>(width_px), CV_8U);
+  for (int y = 0; y < stored.rows; ++y) field.row(std::min(y / 2, field.rows - 1)).copyTo(stored.row(y));
+  return true;
 }
 
 /// Gives the decoder the next packet of the video, or tells it that there is none.
@@ -232,14 +247,17 @@ std::string VideoReader::missing() const {
   const Decoder& d = *decoder_;
   if (!d.unconvertible.empty()) return d.unconvertible;
   if (!is_open() || !d.file.ended()) return "";
+  const std::uint64_t damaged = d.damaged + d.file.zero_packets() - d.file.zero_packets_at_end();
+  if (const std::uint64_t zeros = d.file.zero_packets_at_end(); zeros > 0)
+    return fmt::format("ends after {} of {} frames: the rest is zeros, as of a copy that was interrupted",
+                       d.given, d.given + damaged + zeros + d.file.packets_left_in_index());
   if (const std::uint64_t frames = d.missing_frames(); frames > 0)
     return fmt::format("ends after {} of {} frames", d.given,
-                       std::max(d.given + d.damaged + frames, d.file.avi_frame_count()));
+                       std::max(d.given + damaged + frames, d.file.avi_frame_count()));
   if (d.file.cut_in_a_packet()) return fmt::format("ends after {} frames, inside a frame", d.given);
   if (d.file.length() == StatedLength::Short)
     return fmt::format("ends after {} frames, before the end that it states", d.given);
-  if (d.damaged > 0)
-    return fmt::format("{} of {} frames are damaged and left out", d.damaged, d.given + d.damaged);
+  if (damaged > 0) return fmt::format("{} of {} frames are damaged and left out", damaged, d.given + damaged);
   return d.given > 0 ? "" : "no frame of it can be decoded";
 }
 

@@ -184,6 +184,24 @@ TEST_F(FrameInputTest, HiddenFilesOfAFolderAreNoPictures) {
   EXPECT_FALSE(input.next(frame));
 }
 
+TEST_F(FrameInputTest, VideosInAFolderOfPicturesAreSaidToBePassedOver) {
+  std::filesystem::create_directory(folder_.file("walk"));
+  std::filesystem::rename(video(2), folder_.file("walk/b.avi"));
+  const std::string only_video =
+      folder_.file("walk") +
+      ": no image in this folder (expected at least one); b.avi in it is a video, which is passed over: give "
+      "it by its name";
+  EXPECT_EQ(test::complaint_of([&] { FrameInput({folder_.file("walk")}, 5.0); }), only_video);
+  image("walk/a.png", 10);
+  test::write_text(folder_.file("walk/notes.txt"), "no video");
+  EXPECT_THAT(
+      FrameInput({folder_.file("walk")}, 5.0).notes(),
+      ::testing::ElementsAre(::testing::HasSubstr("walk: b.avi in it is a video, which is passed over")));
+  std::filesystem::rename(video(2), folder_.file("walk/c.AVI"));
+  EXPECT_THAT(FrameInput({folder_.file("walk")}, 5.0).notes(),
+              ::testing::ElementsAre(::testing::HasSubstr("b.avi and 1 more videos in it are passed over")));
+}
+
 TEST_F(FrameInputTest, WhatStandsInAPicturesPlaceIsNamed) {
   struct Other {
     std::string bytes, named;

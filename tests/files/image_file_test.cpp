@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "files/exif.h"
+#include "files/made_picture.h"
 #include "files/orientation.h"
 #include "support/temporary_folder.h"
 #include "support/test_data.h"
@@ -35,65 +35,6 @@ cv::Mat ramp(int depth = CV_8U, double white = 255.0) {
     }
   }
   return picture;
-}
-
-std::string big_endian(std::uint32_t value) {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
-  return bytes;
-}
-
-std::string little_endian(std::uint32_t value, int count = 4) {
-  std::string bytes;
-  for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
-  return bytes;
-}
-
-/// An EXIF block that has an orientation alone.
-std::string exif_block(int orientation, bool little = false) {
-  if (little)
-    return "II" + little_endian(42, 2) + little_endian(8) + little_endian(1, 2) + little_endian(0x112, 2) +
-           little_endian(3, 2) + little_endian(1) + little_endian(static_cast<std::uint32_t>(orientation)) +
-           little_endian(0);
-  return "MM" + std::string("\0\x2a", 2) + big_endian(8) + std::string("\0\x01\x01\x12\0\x03", 6) +
-         big_endian(1) + std::string(1, '\0') + static_cast<char>(orientation) + std::string(2, '\0') +
-         big_endian(0);
-}
-
-std::string png_chunk(const std::string& name, const std::string& data) {
-  const std::string body = name + data;
-  const auto sum = crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
-  return big_endian(static_cast<std::uint32_t>(data.size())) + body +
-         big_endian(static_cast<std::uint32_t>(sum));
-}
-
-constexpr std::size_t kPngHeaderBytes = 8 + 25;  // the signature and the first chunk
-
-/// A TIFF file, uncompressed, with one strip.
-std::string tiff_of(const cv::Mat& picture, int orientation) {
-  struct Entry {
-    std::uint32_t tag, type, value;
-  };
-  const auto rows = static_cast<std::uint32_t>(picture.rows),
-             columns = static_cast<std::uint32_t>(picture.cols);
-  const auto bytes = static_cast<std::uint32_t>(picture.total() * picture.elemSize());
-  const std::vector<Entry> entries{{0x100, 3, columns},
-                                   {0x101, 3, rows},
-                                   {0x102, 3, static_cast<std::uint32_t>(8 * picture.elemSize())},
-                                   {0x103, 3, 1},
-                                   {0x106, 3, 1},
-                                   {0x111, 4, 8},
-                                   {0x112, 3, static_cast<std::uint32_t>(orientation)},
-                                   {0x115, 3, 1},
-                                   {0x116, 3, rows},
-                                   {0x117, 4, bytes}};
-  std::string file = "II" + little_endian(42, 2) + little_endian(8 + bytes);
-  file.append(reinterpret_cast<const char*>(picture.data), bytes);
-  file += little_endian(static_cast<std::uint32_t>(entries.size()), 2);
-  for (const Entry& entry : entries)
-    file += little_endian(entry.tag, 2) + little_endian(entry.type, 2) + little_endian(1) +
-            little_endian(entry.value);
-  return file + little_endian(0);
 }
 
 class Pictures : public ::testing::Test {
@@ -129,7 +70,7 @@ TEST_F(Pictures, OfEveryKindAreTurnedAsTheirFileSays) {
          {jpeg.substr(0, 2) + app1 + jpeg.substr(2),
           png.substr(0, kPngHeaderBytes) + png_chunk("eXIf", exif) + png.substr(kPngHeaderBytes),
           "RIFF" + little_endian(static_cast<std::uint32_t>(body.size())) + body,
-          tiff_of(ramp(), orientation)}) {
+          tiff_of(ramp(), orientation), tiff_of(ramp(), orientation, 4)}) {
       const GreyImage image = decode(file);
       ASSERT_FALSE(image.grey.empty()) << file.substr(0, 4) << ": " << image.problem;
       EXPECT_LT(difference(image.grey, shown), 3.0) << file.substr(0, 4);
@@ -192,6 +133,20 @@ TEST_F(Pictures, StatedDepthsAreTaken) {
   EXPECT_EQ(four_bits.grey.at<std::uint8_t>(0, 1), 255);
 }
 
+/// Values that a sensor's driver sets where a pixel is broken.
+TEST_F(Pictures, OfMoreBitsWithAHotPixelAreNotTakenForDeeperOnes) {
+  for (const int hot : {65535, 8191}) {
+    cv::Mat deep = ramp(CV_16U, 4000);
+    deep.at<std::uint16_t>(7, 11) = static_cast<std::uint16_t>(hot);
+    const GreyImage image = decode(bytes_of(".png", deep));
+    EXPECT_EQ(image.white, 4095);
+    EXPECT_THAT(image.note, HasSubstr("12 are used (largest value 4000, but for 1 hot)"));
+    EXPECT_EQ(image.grey.at<std::uint8_t>(7, 11), 255);
+    deep.at<std::uint16_t>(8, 11) = deep.at<std::uint16_t>(8, 12) = static_cast<std::uint16_t>(hot);
+    EXPECT_GT(decode(bytes_of(".png", deep)).white, 4095) << "three of 960 pixels are a lamp";
+  }
+}
+
 TEST_F(Pictures, OfASequenceKeepTheWhiteOfABrighterOne) {
   const std::string dark = write_text(path, bytes_of(".png", ramp(CV_16U, 900)));
   EXPECT_EQ(decode_grey_image(dark).white, 1023);
@@ -229,11 +184,67 @@ TEST_F(Pictures, OfKindsThatAreNotReadAreNamed) {
       {std::string("\0\0\0\x18", 4) + "ftypmif1" + std::string(20, '\0'), "a HEIC file"},
       {std::string("\0\0\0\x18", 4) + "ftypavif" + std::string(20, '\0'), "an AVIF file"},
       {"GIF89a" + std::string(20, '\0'), "a GIF file"},
+      {"RIFF" + little_endian(60) + "WEBPVP8X" + little_endian(10) + "\x02" + std::string(20, '\0'),
+       "an animated WebP file"},
+      {"II\x2b" + std::string(30, '\0'), "a BigTIFF file"},
+      {"\x76\x2f\x31\x01" + std::string(30, '\0'), "an OpenEXR file"},
+      {"8BPS" + std::string(30, '\0'), "a Photoshop file"},
   };
   for (const auto& [bytes, kind] : rows) {
     EXPECT_THAT(decode(bytes).problem, AllOf(HasSubstr(kind), HasSubstr("JPEG or PNG")));
     EXPECT_TRUE(is_image_file(path)) << kind;
   }
+}
+
+TEST_F(Pictures, ThatAreVideosAreNamed) {
+  path = folder.file("walk.png");
+  const std::vector<std::pair<std::string, std::string>> rows{
+      {"\x1a\x45\xdf\xa3" + std::string(20, '\0'), "a Matroska or WebM video"},
+      {std::string("\0\0\0\x18", 4) + "ftypisom" + std::string(20, '\0'), "an MP4 or MOV video"},
+      {"RIFF" + little_endian(60) + "AVI LIST" + std::string(20, '\0'), "an AVI video"},
+  };
+  for (const auto& [bytes, kind] : rows)
+    EXPECT_THAT(decode(bytes).problem, HasSubstr(kind + " with a picture's name: rename it"));
+}
+
+TEST_F(Pictures, OfDeeperPixelsThanAreReadSayWhatTheyHave) {
+  cv::Mat floats, numbers;
+  ramp().convertTo(floats, CV_32F, 1.0 / 255.0);
+  ramp().convertTo(numbers, CV_32S);
+  EXPECT_THAT(decode(tiff_of(floats, 1)).problem, HasSubstr("floating-point numbers (expected PNG"));
+  EXPECT_THAT(decode(tiff_of(numbers, 1)).problem, HasSubstr("more than 16 bits (expected PNG"));
+}
+
+/// One brightness, written in every way that PNG has for it.
+TEST_F(Pictures, OfEveryKindOfPngPixelsHaveTheirGrey) {
+  const std::string palette = png_chunk("PLTE", std::string("\0\0\0\x78\x78\x78", 6)),
+                    clear = png_chunk("tRNS", std::string("\xff\0", 2));
+  std::string grey_alpha, grey_alpha_16, grey_16, colour_alpha, colour_16, indices;
+  for (int i = 0; i < 12; ++i) {
+    grey_alpha += "\x78\x40";
+    grey_alpha_16 += "\x78\x78\x40\x40";
+    grey_16 += "\x78\x78";
+    colour_alpha += std::string("\x78\x78\x78\0", 4);
+    colour_16 += "\x78\x78\x78\x78\x78\x78";
+    indices += '\x01';
+  }
+  for (const std::string& file :
+       {png_of(4, 3, 8, 4, grey_alpha), png_of(4, 3, 16, 4, grey_alpha_16), png_of(4, 3, 16, 0, grey_16),
+        png_of(4, 3, 8, 6, colour_alpha), png_of(4, 3, 16, 2, colour_16),
+        png_of(4, 3, 8, 3, indices, palette), png_of(4, 3, 8, 3, indices, palette + clear)}) {
+    const GreyImage image = decode(file);
+    ASSERT_EQ(image.grey.size(), cv::Size(4, 3)) << image.problem;
+    EXPECT_NEAR(image.grey.at<std::uint8_t>(1, 1), 0x78, 1)
+        << static_cast<int>(file[24]) << static_cast<int>(file[25]);
+  }
+}
+
+TEST_F(Pictures, OfProgressiveJpegsAreThoseOfOthers) {
+  std::vector<std::uint8_t> progressive;
+  cv::imencode(".jpg", ramp(), progressive, {cv::IMWRITE_JPEG_PROGRESSIVE, 1});
+  const GreyImage image = decode({progressive.begin(), progressive.end()});
+  ASSERT_FALSE(image.grey.empty()) << image.problem;
+  EXPECT_LT(difference(image.grey, ramp()), 3.0);
 }
 
 TEST_F(Pictures, OfPublicReportsAreRight) {

@@ -7,9 +7,11 @@ extern "C" {
 #include <libavutil/pixdesc.h>
 }
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
 namespace heel::test {
@@ -43,6 +45,7 @@ class Writer {
   Writer& operator=(const Writer&) = delete;
 
   void write(const cv::Mat& grey, double t_s) {
+    if (video_.jpeg_fields) return write_fields(grey, t_s);
     require(av_frame_make_writable(frame_) >= 0, "no frame");
     if (video_.raw_format != nullptr) {
       std::memset(frame_->buf[0]->data, 0, static_cast<std::size_t>(frame_->buf[0]->size));
@@ -108,17 +111,32 @@ class Writer {
       matrix[i < 2 ? i : i + 1] = static_cast<std::int32_t>(video_.display_abcd[i] * 65536.0);
     matrix[8] = 1 << 30;
   }
-  void write_packets() {
-    while (avcodec_receive_packet(codec_, packet_) == 0) {
-      // Without this, MP4 files would not show the last frame.
-      const std::size_t frames = video_.times_s.size();
-      double shown_s = frames > 1 ? video_.times_s[frames - 1] - video_.times_s[frames - 2] : 0.1;
-      if (video_.last_shown_s > 0.0) shown_s = video_.last_shown_s;
-      packet_->duration = std::lround(shown_s * video_.ticks_per_s);
-      av_packet_rescale_ts(packet_, codec_->time_base, stream_->time_base);
-      packet_->stream_index = 0;
-      require(av_interleaved_write_frame(file_, packet_) >= 0, "a packet is not written");
+  void write_fields(const cv::Mat& grey, double t_s) {
+    std::vector<std::uint8_t> packet, field;
+    for (const int first : {0, 1}) {
+      cv::Mat rows;
+      for (int y = first; y < grey.rows; y += 2) rows.push_back(grey.row(y));
+      cv::imencode(".jpg", rows, field);
+      packet.insert(packet.end(), field.begin(), field.end());
     }
+    require(av_new_packet(packet_, static_cast<int>(packet.size())) >= 0, "no packet");
+    std::copy(packet.begin(), packet.end(), packet_->data);
+    packet_->pts = packet_->dts = std::lround(t_s * video_.ticks_per_s);
+    packet_->flags |= AV_PKT_FLAG_KEY;
+    write_packet();
+  }
+  void write_packets() {
+    while (avcodec_receive_packet(codec_, packet_) == 0) write_packet();
+  }
+  void write_packet() {
+    // Without this, MP4 files would not show the last frame.
+    const std::size_t frames = video_.times_s.size();
+    double shown_s = frames > 1 ? video_.times_s[frames - 1] - video_.times_s[frames - 2] : 0.1;
+    if (video_.last_shown_s > 0.0) shown_s = video_.last_shown_s;
+    packet_->duration = std::lround(shown_s * video_.ticks_per_s);
+    av_packet_rescale_ts(packet_, codec_->time_base, stream_->time_base);
+    packet_->stream_index = 0;
+    require(av_interleaved_write_frame(file_, packet_) >= 0, "a packet is not written");
   }
 
   const MadeVideo& video_;

@@ -20,6 +20,7 @@ struct MadeVideo {
   bool interlaced = false;           ///< its frames say that they are two fields, row by row
   bool header_interlaced = false;    ///< its header says so
   bool jpeg = false;                 ///< Motion-JPEG, whose frames cannot say so
+  bool jpeg_fields = false;  ///< with jpeg: each packet has two pictures, of the even and the odd rows
   const char* raw_format = nullptr;  ///< FFmpeg's pixel format of black frames, not coded; null: MPEG-4
 };
 

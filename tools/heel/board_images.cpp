@@ -41,10 +41,7 @@ BoardImages::~BoardImages() {
 }
 
 void BoardImages::add_folder(const std::string& folder) {
-  std::error_code error;
-  const std::vector<std::string> inside = images_in_folder(folder, error);
-  if (error) throw Error(folder + ": cannot read the folder: " + error.message());
-  if (inside.empty()) throw Error(folder + ": no image in this folder (expected at least one)");
+  const std::vector<std::string> inside = images_of_folder(folder, notes_);
   files_.insert(files_.end(), inside.begin(), inside.end());
 }
 
@@ -87,6 +84,7 @@ void BoardImages::add_video(const std::string& video) {
   }
   keep_best();
   problems_.insert(problems_.end(), input.problems().begin(), input.problems().end());
+  notes_.insert(notes_.end(), input.notes().begin(), input.notes().end());
 }
 
 }  // namespace heel::cli

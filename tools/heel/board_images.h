@@ -21,6 +21,8 @@ class BoardImages {
   const std::vector<std::string>& files() const { return files_; }
   /// One line for each video of which a part is missing.
   const std::vector<std::string>& problems() const { return problems_; }
+  /// About the inputs, one line each: FrameInput::notes().
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   void add_folder(const std::string& folder);
@@ -28,7 +30,7 @@ class BoardImages {
   std::string new_folder_for(const std::string& video);
 
   std::string folder_;  ///< of the frames; empty: none yet
-  std::vector<std::string> files_, problems_;
+  std::vector<std::string> files_, problems_, notes_;
 };
 
 }  // namespace heel::cli

@@ -42,19 +42,24 @@ OpenResult FileSource::open() {
 }
 
 OpenResult FileSource::open_images() {
+  std::string videos;
   if (fs::is_directory(path_)) {
     std::error_code error;
-    images_ = images_in_folder(path_, error);
+    FolderImages found = images_in_folder(path_, error);
     if (error) return fail(OpenResult::Refused, "cannot read the folder: " + error.message());
-    if (images_.empty()) {
+    videos = found.passed_over();
+    if (found.images.empty()) {
       return fail(OpenResult::Refused,
-                  "the folder holds no images (expected .png, .jpg, .bmp, .pgm or .tif)");
+                  "the folder holds no images (expected .png, .jpg, .bmp, .pgm or .tif)" +
+                      (videos.empty() ? "" : "; " + videos));
     }
+    images_ = std::move(found.images);
   } else {
     images_.push_back(path_);
   }
   own_rate_hz_ = image_rate_hz_;
   description_ = fmt::format("{}: {} image(s) at {:.4g} Hz", address_, images_.size(), own_rate_hz_);
+  if (!videos.empty()) description_ += ", " + videos;
   const GreyImage first = decode_grey_image(images_.front());
   if (!first.note.empty()) description_ += ", " + first.note;
   return OpenResult::Opened;
