@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,10 @@ constexpr std::size_t kFisheyeCoefficients = 4;
 
 constexpr const char* kModels = "plumb_bob, rational_polynomial or equidistant";
 
+bool all_0(std::span<const double> numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double number) { return number == 0.0; });
+}
+
 /// Refuses a focal length or a principal point that no camera with this size of picture has.
 void require_possible(const CameraModel& camera, const std::string& path, const std::string& key) {
   const double least_px = kMinFocalPerWidth * camera.width_px, most_px = kMaxFocalPerWidth * camera.width_px;
@@ -71,13 +76,15 @@ void require_possible(const CameraModel& camera, const std::string& path, const 
 
 void read_intrinsics(const CameraYaml& file, CameraModel& camera) {
   const std::string key = file.matrix_key();
-  const std::string data_key = key == "K" || key == "k" ? key : key + ".data";
-  const std::vector<double> k = file.matrix(key, "3 × 3: fx 0 cx, 0 fy cy, 0 0 1");
+  const bool bare = key == "K" || key == "k" || file.has_single_values();
+  const std::string data_key = bare ? key : key + ".data";
+  const std::vector<double> k = file.has_single_values() ? file.matrix_of_single_values()
+                                                         : file.matrix(key, "3 × 3: fx 0 cx, 0 fy cy, 0 0 1");
   const auto refuse = [&](const std::string& found, const std::string& expected) {
     throw camera_key_error(file.path(), data_key, found, expected);
   };
   if (k.size() != 9) refuse(fmt::format("{} numbers", k.size()), "9: fx 0 cx, 0 fy cy, 0 0 1");
-  if (std::all_of(k.begin(), k.end(), [](double number) { return number == 0.0; }))
+  if (all_0(k))
     refuse("all 0, as a camera says that was never calibrated",
            "focal length and centre, px: calibrate it, e.g. by `heel calibrate`");
   if (k[1] != 0.0)
@@ -107,17 +114,28 @@ std::string model_with_coefficients(std::size_t count) {
   }
 }
 
+/// The models of RealSense cameras that are plumb_bob with some coefficients only: one is applied the other
+/// way round, the other differs by what p1 and p2 do.
+bool is_same_as_plumb_bob(const std::string& name, const std::vector<double>& d) {
+  if (name == "inverse_brown_conrady") return all_0(d);
+  return name == "modified_brown_conrady" && (d.size() < 4 || all_0(std::span(d).subspan(2, 2)));
+}
+
 /// The model that the file names; of a file that names none, as OpenCV writes it: by the number of
 /// coefficients.
-LensModel named_model(const CameraYaml& file, std::size_t coefficients) {
-  const std::string name = file.word("distortion_model");
-  if (name == "plumb_bob" || name == "radtan") return LensModel::PlumbBob;
+LensModel named_model(const CameraYaml& file, const std::vector<double>& d) {
+  const std::string name = file.model();
+  if (name == "plumb_bob" || name == "radtan" || name == "brown_conrady") return LensModel::PlumbBob;
+  if (is_same_as_plumb_bob(name, d)) return LensModel::PlumbBob;
+  if (name == "inverse_brown_conrady" || name == "modified_brown_conrady")
+    throw camera_key_error(file.path(), "model", "'" + name + "' with coefficients that are not 0",
+                           "brown_conrady; calibrate the camera by `heel calibrate`");
   if (name == "rational_polynomial" || name == "rational") return LensModel::Rational;
   if (name == "equidistant" || name == "fisheye" || name == "kannala_brandt4") return LensModel::Fisheye;
   if (!name.empty() && name != "none")
     throw camera_key_error(file.path(), "distortion_model", "'" + name + "'", kModels);
   if (file.count("fisheye_model") != 0) return LensModel::Fisheye;
-  return coefficients > 5 ? LensModel::Rational : LensModel::PlumbBob;
+  return d.size() > 5 ? LensModel::Rational : LensModel::PlumbBob;
 }
 
 /// The first `used` of the coefficients. The others must be 0: then the lens is the same without them.
@@ -125,9 +143,7 @@ std::vector<double> leading(const CameraYaml& file, const std::vector<double>& d
                             const std::string& expected) {
   std::vector<double> first = d;
   first.resize(used, 0.0);
-  const bool rest_is_0 = std::all_of(d.begin() + static_cast<long>(std::min(used, d.size())), d.end(),
-                                     [](double value) { return value == 0.0; });
-  if (!rest_is_0) {
+  if (!all_0(std::span(d).subspan(std::min(used, d.size())))) {
     const std::string key = file.distortion_key();
     throw camera_key_error(file.path(), key == "D" || key == "d" ? key : key + ".data",
                            fmt::format("{} numbers: {}", d.size(), model_with_coefficients(d.size())),
@@ -144,9 +160,11 @@ void require_known_count(const CameraYaml& file, std::size_t count) {
 }
 
 void read_distortion(const CameraYaml& file, CameraModel& camera) {
-  const std::vector<double> given = file.matrix(file.distortion_key(), "k1 k2 p1 p2 [k3]");
+  const std::string key = file.distortion_key();
+  std::vector<double> given;  // of a lens without distortion, programs write null
+  if (!file.is_null(key)) given = file.matrix(key, "k1 k2 p1 p2 [k3]");
   require_known_count(file, given.size());
-  const LensModel model = named_model(file, given.size());
+  const LensModel model = named_model(file, given);
   if (model == LensModel::Fisheye) {
     const std::vector<double> d = leading(file, given, kFisheyeCoefficients, "4, equidistant: k1 k2 k3 k4");
     camera.lens = model;
@@ -194,6 +212,18 @@ double field_of_view_deg(const CameraModel& camera) {
   return std::max(across, along) * kDegPerRad;
 }
 
+const char* order_of_coefficients(LensModel lens) {
+  switch (lens) {
+    case LensModel::PlumbBob:
+      return "k1 k2 p1 p2 k3";
+    case LensModel::Rational:
+      return "k1 k2 p1 p2 k3 k4 k5 k6";
+    case LensModel::Fisheye:
+      return "k1 k2 k3 k4";
+  }
+  return "?";
+}
+
 /// The distortion of no lens: two directions are seen at one pixel, or the picture shows more than there is.
 void require_lens(const CameraModel& camera, const CameraYaml& file) {
   const std::optional<double> fold_px = fold_in_picture_px(camera);
@@ -208,9 +238,9 @@ void require_lens(const CameraModel& camera, const CameraYaml& file) {
   throw camera_key_error(
       file.path(), file.distortion_key(),
       fmt::format("the picture folds {:.0f} px from the principal point, which no lens does", *fold_px),
-      "coefficients that hold up to the corners: calibrate with the board in the corners too; is the order "
-      "k1 k2 p1 "
-      "p2 k3?");
+      fmt::format("coefficients that hold up to the corners: calibrate with the board in the corners too; is "
+                  "the order {}?",
+                  order_of_coefficients(camera.lens)));
 }
 
 /// A CameraInfo message describes the whole sensor, of which it may give a part, or every second pixel.

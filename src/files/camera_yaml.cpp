@@ -3,11 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "files/atomic_file.h"
 
@@ -50,6 +55,10 @@ YAML::Node parse_camera_file(const std::string& path) {
   return root;
 }
 
+const std::vector<std::string> kMatrix{"camera_matrix", "Camera_Matrix", "cameraMatrix", "K", "k"};
+const std::vector<std::string> kFx{"fx", "Fx"}, kFy{"fy", "Fy"}, kPpx{"ppx", "PPX", "cx"},
+    kPpy{"ppy", "PPY", "cy"};
+
 /// YAML takes the first of two values and says nothing.
 void refuse_duplicates(const YAML::Node& map, const std::string& path) {
   std::set<std::string> keys;
@@ -61,6 +70,16 @@ void refuse_duplicates(const YAML::Node& map, const std::string& path) {
     }
     if (entry.second.IsMap()) refuse_duplicates(entry.second, path);
   }
+}
+
+/// Also one that is written as 640.0, as programs do that keep all numbers as floating-point numbers. None
+/// for another, and one beyond 32 bits.
+std::optional<long> whole_number(const YAML::Node& node) {
+  double value = 0.0;
+  if (!node.IsScalar() || !YAML::convert<double>::decode(node, value)) return std::nullopt;
+  if (!(std::abs(value) <= std::numeric_limits<std::int32_t>::max()) || value != std::trunc(value))
+    return std::nullopt;
+  return static_cast<long>(value);
 }
 
 /// Adds the numbers of a node: one, several between spaces, or a list of these.
@@ -105,19 +124,48 @@ std::string CameraYaml::key_of(const std::vector<std::string>& spellings) const 
 }
 
 std::string CameraYaml::width_key() const {
-  return key_of({"image_width", "image_Width", "width"});
+  return key_of({"image_width", "image_Width", "width", "Width"});
 }
 
 std::string CameraYaml::height_key() const {
-  return key_of({"image_height", "image_Height", "height"});
+  return key_of({"image_height", "image_Height", "height", "Height"});
 }
 
 std::string CameraYaml::matrix_key() const {
-  return key_of({"camera_matrix", "Camera_Matrix", "cameraMatrix", "K", "k"});
+  return has_single_values() ? "fx, fy, ppx, ppy" : key_of(kMatrix);
 }
 
 std::string CameraYaml::distortion_key() const {
-  return key_of({"distortion_coefficients", "Distortion_Coefficients", "distCoeffs", "D", "d"});
+  return key_of(
+      {"distortion_coefficients", "Distortion_Coefficients", "distCoeffs", "D", "d", "coeffs", "Coeffs"});
+}
+
+bool CameraYaml::has_single_values() const {
+  return !root_[key_of(kMatrix)] && (root_[key_of(kFx)] || root_[key_of(kFy)]);
+}
+
+std::vector<double> CameraYaml::matrix_of_single_values() const {
+  const auto value = [&](const std::vector<std::string>& spellings) {
+    const std::string key = key_of(spellings);
+    const std::vector<double> values = matrix(key, "a number of px");
+    if (values.size() != 1)
+      throw camera_key_error(path_, key, fmt::format("{} numbers", values.size()), "one, px");
+    return values.front();
+  };
+  return {value(kFx), 0.0, value(kPpx), 0.0, value(kFy), value(kPpy), 0.0, 0.0, 1.0};
+}
+
+std::string CameraYaml::model() const {
+  if (!has_single_values()) return word("distortion_model");
+  std::string name = word(key_of({"distortion_model", "model", "Distortion"}));
+  if (const std::size_t at = name.find("distortion"); at != std::string::npos)
+    name.erase(0, at + std::string_view("distortion.").size());  // "rs.distortion.", "RS2_DISTORTION_"
+  // The structure's numbers.
+  constexpr std::array kByNumber{"none",    "modified_brown_conrady", "inverse_brown_conrady",
+                                 "f_theta", "brown_conrady",          "kannala_brandt4"};
+  for (std::size_t i = 0; i < kByNumber.size(); ++i)
+    if (name == std::to_string(i)) return kByNumber[i];
+  return name;
 }
 
 YAML::Node CameraYaml::required(const std::string& key, const std::string& expected) const {
@@ -129,13 +177,12 @@ YAML::Node CameraYaml::required(const std::string& key, const std::string& expec
 int CameraYaml::side_px(const std::string& key) const {
   const std::string expected = fmt::format("whole number of pixels, 1…{}", kMaxSensorSide_px);
   const YAML::Node node = required(key, expected);
-  int side_px = 0;
-  if (!node.IsScalar() || !YAML::convert<int>::decode(node, side_px) || side_px < 1 ||
-      side_px > kMaxSensorSide_px) {
+  const std::optional<long> side_px = whole_number(node);
+  if (!side_px || *side_px < 1 || *side_px > kMaxSensorSide_px) {
     throw camera_key_error(path_, key, node.IsScalar() ? "'" + node.Scalar() + "'" : "not a number",
                            expected);
   }
-  return side_px;
+  return static_cast<int>(*side_px);
 }
 
 std::vector<double> CameraYaml::matrix(const std::string& key, const std::string& expected) const {
@@ -149,15 +196,17 @@ std::vector<double> CameraYaml::matrix(const std::string& key, const std::string
   std::vector<double> values;
   add_numbers(data, path_, data_key, values);
   if (is_map && matrix["rows"] && matrix["cols"]) {
-    long rows = 0;
-    long cols = 0;
-    if (!YAML::convert<long>::decode(matrix["rows"], rows) ||
-        !YAML::convert<long>::decode(matrix["cols"], cols) ||
-        rows * cols != static_cast<long>(values.size())) {
+    const std::optional<long> rows = whole_number(matrix["rows"]), cols = whole_number(matrix["cols"]);
+    if (!rows || !cols || *rows * *cols != static_cast<long>(values.size()))
       throw camera_key_error(path_, key, fmt::format("{} numbers", values.size()), "rows × cols of them");
-    }
   }
   return values;
+}
+
+bool CameraYaml::is_null(const std::string& key) const {
+  const YAML::Node node = root_[key];
+  if (!node) return false;
+  return node.IsNull() || (node.IsMap() && node["data"] && node["data"].IsNull());
 }
 
 std::string CameraYaml::word(const std::string& key) const {
@@ -174,8 +223,7 @@ std::string CameraYaml::word(const std::string& key) const {
 long CameraYaml::count(const std::string& key, const std::string& sub_key) const {
   YAML::Node node = root_[key];
   if (node && node.IsMap() && !sub_key.empty()) node.reset(node[sub_key]);
-  long value = 0;
-  return node && node.IsScalar() && YAML::convert<long>::decode(node, value) ? value : 0;
+  return node ? whole_number(node).value_or(0) : 0;
 }
 
 }  // namespace heel
