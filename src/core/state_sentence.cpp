@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdio>
 
+#include "core/robot_name.h"
+
 namespace heel {
 namespace {
 
@@ -52,12 +54,16 @@ const char* remedy(const TickRecord& tick) {
   }
 }
 
+std::string shown_name(const std::string& name) {
+  return is_plain_name(name) ? name : "'" + name + "'";
+}
+
 /// Why the robot that answers is not driven, and what to do; empty: it is not refused.
 std::string refusal(const RobotKind& robot) {
-  const std::string subclass = robot.subclass.data();
+  const std::string subclass = shown_name(robot.subclass.data());
   switch (robot.choice) {
     case ModelChoice::Unknown:
-      return "the robot is not driven: heeld does not know class " + std::string(robot.robot_class.data()) +
+      return "the robot is not driven: heeld does not know class " + shown_name(robot.robot_class.data()) +
              ", subclass " + subclass;
     case ModelChoice::Conflict:
       return "the robot is not driven: it is a " + subclass + ", and robot.model says otherwise";

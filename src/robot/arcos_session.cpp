@@ -92,7 +92,8 @@ void ArcosSession::line_opened(TimeNs now_ns) {
   text_of_sweep_.clear();
   echo_heard_ = echo_of_sweep_ = false;
   bytes_of_sweep_ = 0;
-  if (!reported_echo_ && reported_text_.text().empty()) events_.push(now_ns, Kind::LineOpened);
+  answered_ = false;
+  if (!reported_echo_ && !repeats_.is_said()) events_.push(now_ns, Kind::LineOpened);
   enter(Step::Listening, now_ns);
 }
 
@@ -102,23 +103,35 @@ void ArcosSession::line_lost(TimeNs now_ns) {
   odometry_.interrupted();
   state_.kind = RobotKind{};
   // A server that has another client, or another service, says why it ends the connection.
-  const bool other_device = !is_connected() && !heard_.text().empty();
-  if (other_device && heard_.text() == reported_text_.text()) return lose_line(now_ns);
-  if (other_device) report_other_device(heard_, now_ns);
-  events_.push(now_ns, Kind::LineLost);
-  lose_line(now_ns);
+  if (!is_connected() && !heard_.text().empty()) {
+    report_other_device(heard_, now_ns);
+  } else if (answered_) {
+    events_.push(now_ns, Kind::LineLost);
+  } else if (!line_exhausted_ && !reported_echo_) {  // of these, the cause has been said
+    say_rarely(Kind::LineEnded, now_ns);
+  }
+  enter(Step::NoLine, now_ns);
+  // A line on which no robot answered was not up, and cannot be lost.
+  set_phase(answered_ ? LinkPhase::Lost : LinkPhase::Syncing);
 }
 
-/// Once for each text: a line that ends at once is opened again each second.
+/// Once for each text, and rarely where the texts change: a line that ends at once is opened again each
+/// second.
 void ArcosSession::report_other_device(const HeardText& heard, TimeNs now_ns) {
-  if (heard.text() == reported_text_.text()) return;
+  if (heard.text() == reported_text_.text() || !repeats_.is_due(Kind::OtherDevice, now_ns)) return;
   reported_text_ = heard;
   events_.push(now_ns, Kind::OtherDevice);
 }
 
-void ArcosSession::lose_line(TimeNs now_ns) {
-  enter(Step::NoLine, now_ns);
-  set_phase(LinkPhase::Lost);
+/// A line without a robot is opened again every few seconds, for as long as the robot is off.
+void ArcosSession::say_rarely(SessionEventKind trouble, TimeNs now_ns, std::int64_t value) {
+  if (repeats_.is_due(trouble, now_ns)) events_.push(now_ns, trouble, value);
+}
+
+void ArcosSession::robot_answered() {
+  sweep_.found();
+  answered_ = true;
+  repeats_.over();
 }
 
 std::span<const std::uint8_t> ArcosSession::close(TimeNs now_ns) {
@@ -181,7 +194,7 @@ void ArcosSession::on_sync_echo(std::uint8_t number, const arcos::Packet& packet
       events_.push(t_ns, Kind::BadPacket, number);
       identity_ = arcos::RobotIdentity{};  // the names are lost
     }
-    sweep_.found();
+    robot_answered();
     reported_text_.clear();
     reported_echo_ = false;
     line_exhausted_ = false;
@@ -268,7 +281,7 @@ void ArcosSession::apply_motor_flags(TimeNs t_ns) {
 
 void ArcosSession::close_earlier_session(TimeNs t_ns) {
   events_.push(t_ns, Kind::FoundOpen);
-  sweep_.found();  // a valid SIP: this is the robot's rate
+  robot_answered();  // a valid SIP: this is the robot's rate
   odometry_.interrupted();
   queue_.clear();
   queue_.push(arcos::encode_plain(CommandId::Stop));

@@ -29,6 +29,7 @@
 #include "robot/motion_sender.h"
 #include "robot/odometry.h"
 #include "robot/outgoing.h"
+#include "robot/repeats.h"
 #include "robot/session_event.h"
 
 namespace heel {
@@ -108,7 +109,8 @@ class ArcosSession {
   void retry_sync(TimeNs now_ns);
   void leave_rate(TimeNs now_ns);
   void report_other_device(const HeardText& heard, TimeNs now_ns);
-  void lose_line(TimeNs now_ns);
+  void say_rarely(SessionEventKind trouble, TimeNs now_ns, std::int64_t value = 0);
+  void robot_answered();
   void listen_after_close(TimeNs now_ns);
   void finish_opening(TimeNs now_ns);
   void retry_enable(TimeNs now_ns);
@@ -162,6 +164,8 @@ class ArcosSession {
   HeardText text_of_sweep_;  ///< at any rate of the sweep
   std::uint64_t bytes_of_sweep_ = 0;
   HeardText reported_text_;     ///< of the last OtherDevice since a robot answered
+  Repeats repeats_;             ///< of what keeps a robot from answering
+  bool answered_ = false;       ///< a robot did, since the line was opened
   bool bare_sync2_ = false;     ///< SYNC2 came back as it was sent
   bool echo_heard_ = false;     ///< at this rate
   bool echo_of_sweep_ = false;  ///< what heeld sent came back

@@ -50,6 +50,7 @@ bool ArcosSession::sweep_echoed() const {
 /// Once until a robot, or another trouble, takes its place.
 void ArcosSession::report_echo(TimeNs now_ns) {
   if (!reported_echo_) events_.push(now_ns, Kind::LineEchoes);
+  repeats_.over();
   reported_echo_ = true;
   reported_text_.clear();
 }

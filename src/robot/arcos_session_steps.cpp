@@ -56,6 +56,7 @@ std::span<const std::uint8_t> ArcosSession::send(const VelocityCommand& command,
 void ArcosSession::take_due_steps(TimeNs now_ns) {
   const TimeNs in_step_ns = now_ns - t_step_ns_;
   if (echo_heard_ && looks_for_robot()) return leave_rate(now_ns);
+  if (looks_for_robot() && heard_.is_clear()) report_other_device(heard_, now_ns);
   switch (step_) {
     case Step::NoLine:
       return;
@@ -140,9 +141,9 @@ void ArcosSession::leave_rate(TimeNs now_ns) {
     } else if (!text_of_sweep_.text().empty()) {
       report_other_device(text_of_sweep_, now_ns);
     } else if (bytes_of_sweep_ >= kLeastOtherBytes) {
-      events_.push(now_ns, Kind::OtherBytes, static_cast<std::int64_t>(bytes_of_sweep_));
+      say_rarely(Kind::OtherBytes, now_ns, static_cast<std::int64_t>(bytes_of_sweep_));
     } else {
-      events_.push(now_ns, sweep_.sweeps() ? Kind::NoAnswer : Kind::NoAnswerTcp);
+      say_rarely(sweep_.sweeps() ? Kind::NoAnswer : Kind::NoAnswerTcp, now_ns);
     }
     reported_echo_ = echoed;
     text_of_sweep_.clear();
@@ -150,7 +151,7 @@ void ArcosSession::leave_rate(TimeNs now_ns) {
     bytes_of_sweep_ = 0;
   }
   if (sweep_.current() != before) {
-    events_.push(now_ns, Kind::TryingBaud, sweep_.current());
+    if (!repeats_.is_said() && !reported_echo_) events_.push(now_ns, Kind::TryingBaud, sweep_.current());
     change_rate(sweep_.current());
   }
   heard_.clear();

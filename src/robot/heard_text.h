@@ -31,6 +31,10 @@ class HeardText {
   }
 
   std::uint64_t bytes() const { return bytes_; }
+  /// A whole line of it, and next to nothing else: it is not waited for more.
+  bool is_clear() const {
+    return complete_ && bytes_ >= kClear && text_bytes_ * 20 >= bytes_ * 19 && !text().empty();
+  }
   /// The first line of some length; empty when what was heard is no text.
   std::string_view text() const {
     const bool is_text = size_ >= kLeast && text_bytes_ * 10 >= bytes_ * 9;
@@ -39,6 +43,7 @@ class HeardText {
 
  private:
   static constexpr std::size_t kLeast = 8;
+  static constexpr std::uint64_t kClear = 20;
 
   std::array<char, 40> chars_{};
   std::size_t size_ = 0;

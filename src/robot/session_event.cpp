@@ -8,6 +8,8 @@ const char* to_string(SessionEventKind kind) {
       return "robot line opened";
     case SessionEventKind::LineLost:
       return "robot line lost; heeld connects again";
+    case SessionEventKind::LineEnded:
+      return "robot line ended before a robot answered; heeld connects again";
     case SessionEventKind::TryingBaud:
       return "trying the robot at {} baud";
     case SessionEventKind::FoundOpen:
@@ -83,6 +85,7 @@ const char* to_string(SessionEventKind kind) {
 bool is_warning(SessionEventKind kind) {
   switch (kind) {
     case SessionEventKind::LineLost:
+    case SessionEventKind::LineEnded:
     case SessionEventKind::NoAnswer:
     case SessionEventKind::NoAnswerTcp:
     case SessionEventKind::OtherDevice:

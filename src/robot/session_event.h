@@ -12,6 +12,7 @@ namespace heel {
 enum class SessionEventKind : std::uint8_t {
   LineOpened,
   LineLost,
+  LineEnded,     ///< before a robot answered
   TryingBaud,    ///< value: baud
   FoundOpen,     ///< an earlier session has left the robot open: it is closed
   NoAnswer,      ///< at any rate

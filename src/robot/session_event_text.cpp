@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/robot_name.h"
 #include "models/robot_models.h"
 
 namespace heel {
@@ -11,15 +12,16 @@ namespace {
 /// What stands for the placeholder at the beginning of `text`, and how long that is; empty: none is there.
 struct Replacement {
   std::string_view placeholder, by;
+  bool is_name = false;  // of a robot, which may be empty or have a space
 };
 
 Replacement replacement_at(std::string_view text, const RobotKind& kind, std::string_view heard) {
   const auto models = robot_models();
   const std::string_view model =
       kind.model < models.size() ? models[kind.model].subclass : std::string_view();
-  for (const Replacement& one :
-       {Replacement{"{class}", kind.robot_class.data()}, Replacement{"{subclass}", kind.subclass.data()},
-        Replacement{"{model}", model}, Replacement{"{text}", heard}}) {
+  for (const Replacement& one : {Replacement{"{class}", kind.robot_class.data(), true},
+                                 Replacement{"{subclass}", kind.subclass.data(), true},
+                                 Replacement{"{model}", model}, Replacement{"{text}", heard}}) {
     if (text.starts_with(one.placeholder)) return one;
   }
   return {};
@@ -38,7 +40,10 @@ void write_event_text(const SessionEvent& event, const RobotKind& kind, std::str
   };
   while (!text.empty()) {
     const Replacement found = replacement_at(text, kind, heard);
+    const std::string_view mark = found.is_name && !is_plain_name(found.by) ? "'" : "";
+    put(mark);
     put(found.placeholder.empty() ? text.substr(0, 1) : found.by);
+    put(mark);
     text.remove_prefix(std::max<std::size_t>(1, found.placeholder.size()));
   }
   out[size] = '\0';

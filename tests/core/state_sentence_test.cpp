@@ -74,6 +74,9 @@ TEST(StateSentence, SaysWhyARobotIsNotDriven) {
   kind.choice = ModelChoice::Unknown;
   EXPECT_EQ(state_sentence(tick),
             "at rest: the robot is not driven: heeld does not know class Roomba, subclass create");
+  kind.subclass = {};
+  EXPECT_TRUE(state_sentence(tick).ends_with("class Roomba, subclass ''")) << state_sentence(tick);
+  name(kind.subclass, "create");
   kind.choice = ModelChoice::Conflict;
   EXPECT_EQ(state_sentence(tick),
             "at rest: the robot is not driven: it is a create, and robot.model says otherwise");

@@ -210,6 +210,13 @@ TEST(SessionEventText, NamesTheRobot) {
   EXPECT_EQ(text_of(Kind::ModelUnknown, longest, 10), "robot is ");
 }
 
+TEST(SessionEventText, QuotesANameThatIsNone) {
+  EXPECT_THAT(text_of(Kind::ModelUnknown, choose_model(identity("Pioneer", ""), "auto")),
+              testing::HasSubstr("class Pioneer, subclass '', which"));
+  EXPECT_THAT(text_of(Kind::ModelUnknown, choose_model(identity("", "my robot, and"), "auto")),
+              testing::HasSubstr("class '', subclass 'my robot, and', which"));
+}
+
 /// Nothing but the handshake and CLOSE was sent.
 void expect_never_driven(const SessionBench& bench) {
   for (const test::Received& one : bench.robot.log) {
