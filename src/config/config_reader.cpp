@@ -97,6 +97,13 @@ bool text_is_valid(const ConfigKey& key, std::string_view text) {
   return false;
 }
 
+/// The only values that the key has in its range; empty: all of them.
+std::string requirement_of(std::string_view key) {
+  for (const auto& relation : config_relations())
+    if (relation.key == key && relation.lists_values) return fmt::format("; it {}", relation.requirement);
+  return "";
+}
+
 /// Stores a TOML value in its member of Config; false when it has the wrong type or is out of range.
 class ValueSetter {
  public:
@@ -208,7 +215,8 @@ void ConfigReader::read_section(std::string_view section, const toml::table& tab
     out_.line_of[*index] = static_cast<int>(node.source().begin.line);
     if (!std::visit(ValueSetter(key, node, out_.config), key.field)) {
       add_error(node.source().begin, full_name,
-                fmt::format("{} (expected {})", toml_value_text(node), expected_value(key)));
+                fmt::format("{} (expected {}{})", toml_value_text(node), expected_value(key),
+                            requirement_of(full_name)));
     }
   }
 }

@@ -237,7 +237,8 @@ const ConfigKey kKeys[] = {
 #undef HEEL_KEY
 
 constexpr ConfigRelation kRelations[] = {
-    {"camera.rotate", [](const Config& c) { return c.camera.rotate % 90 == 0; }, "must be 0, 90, 180 or 270"},
+    {"camera.rotate", [](const Config& c) { return c.camera.rotate % 90 == 0; }, "must be 0, 90, 180 or 270",
+     true},
     {"vision.distance_max_m",
      [](const Config& c) { return c.vision.distance_min_m < c.vision.distance_max_m; },
      "must be larger than vision.distance_min_m"},

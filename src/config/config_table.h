@@ -74,6 +74,7 @@ struct ConfigRelation {
   std::string_view key;  ///< the key that an error names
   bool (*holds)(const Config&);
   std::string_view requirement;  ///< on the value of `key`, e.g. "must be larger than vision.distance_min_m"
+  bool lists_values = false;     ///< the requirement is the list of the only values
 };
 
 std::span<const ConfigSection> config_sections();

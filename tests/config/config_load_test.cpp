@@ -81,6 +81,15 @@ TEST(ConfigLoad, RefusesIntegersThatOverflow) {
   EXPECT_EQ(complaints_about("[camera]\nwidth_px = 4294967936\n").size(), 1u);
 }
 
+TEST(ConfigLoad, NamesTheOnlyValuesOfAKey) {
+  EXPECT_THAT(
+      complaints_about("[camera]\nrotate = 360\n"),
+      ElementsAre("f.toml:2:10: camera.rotate: 360 (expected a whole number 0…270 deg; it must be 0, 90, "
+                  "180 or 270)"));
+  EXPECT_THAT(complaints_about("[camera]\nrotate = 45\n"),
+              ElementsAre(HasSubstr("(must be 0, 90, 180 or 270)")));
+}
+
 TEST(ConfigLoad, RefusesListsAndTablesAsValues) {
   EXPECT_THAT(complaints_about("[gate]\nv_max_m_s = [1]\n"),
               ElementsAre(HasSubstr("gate.v_max_m_s: a list (expected a number")));
