@@ -39,7 +39,8 @@ struct ShirtTemplate {
   double yaw_rad = 0.0;     ///< how far the person was turned: 0 from behind, ±π/2 a side, π the front
   bool oriented = false;    ///< use oriented descriptors (default upright)
   int max_features = 300;   ///< template features kept
-  bool turned = false;      ///< its pictures were turned or mirrored before it was taught (camera.rotate)
+  bool upright = false;     ///< its pictures are said to be: turned before it was taught, or without need
+  bool is_first = false;    ///< among several: stands for the first one, for itself and those behind it
   std::vector<FurtherView> further_views;  ///< turned or farther away: they help to find the back there
 };
 

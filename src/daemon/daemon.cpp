@@ -246,7 +246,7 @@ void Daemon::attach_vision_files() {
   constexpr std::size_t kMaxBytes = 1 << 26;
   const Config& config = loaded_.config;
   telemetry_.attach("camera.yaml", "text/yaml", read_whole_file(config.camera.info, kMaxBytes));
-  for (std::size_t i = 0; i < inputs_.shirts.size(); ++i)
+  for (std::size_t i = 0; i <= config.target.more_shirts.size(); ++i)
     telemetry_.attach(fmt::format("shirt-{}.heel", i), "application/octet-stream",
                       read_whole_file(template_file(config.target, i), kMaxBytes));
 }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include "capture/factory/source_address.h"
 #include "core/angles.h"
@@ -72,15 +74,14 @@ Inputs load_inputs(const Config& config) {
   inputs.camera = turned_camera(camera, turn);
   check_against_camera(config, inputs.camera);
 
-  inputs.shirts = read_templates(config.target);
+  TurnedTemplates templates = templates_for_turned(read_templates(config.target), camera, turn);
+  inputs.shirts = std::move(templates.shirts);
+  inputs.taught = std::move(templates.taught);
   for (std::size_t i = 0; i < inputs.shirts.size(); ++i) {
-    const std::string& file = template_file(config.target, i);
-    const bool was_turned = inputs.shirts[i].turned;
-    inputs.shirts[i] = template_for_turned(inputs.shirts[i], camera, turn);
-    inputs.turned_with_camera.push_back(inputs.shirts[i].turned && !was_turned);
+    const std::string& file = template_file(config.target, inputs.taught[i]);
     if (inputs.shirts[i].distance_m <= 0.0) {
       throw Error(file + ": has no distance (expected one" +
-                  (i == 0 ? ", or target.distance_m)" : ": teach it again with --distance)"));
+                  (inputs.taught[i] == 0 ? ", or target.distance_m)" : ": teach it again with --distance)"));
     }
     inputs.verdicts.push_back(judge_template(inputs.shirts[i]));
     if (!inputs.verdicts.back().usable) {
@@ -92,14 +93,21 @@ Inputs load_inputs(const Config& config) {
 
 std::vector<std::string> template_lines(const Config& config, const Inputs& inputs) {
   std::vector<std::string> lines;
-  for (std::size_t i = 0; i < inputs.shirts.size(); ++i) {
+  const std::size_t given = 1 + config.target.more_shirts.size();
+  for (std::size_t i = 0; i < given; ++i) {
     const ShirtTemplate& shirt = inputs.shirts[i];
+    const auto as_it_is =
+        std::find(inputs.taught.begin() + static_cast<std::ptrdiff_t>(given), inputs.taught.end(), i);
     const std::string turned =
         shirt.yaw_rad == 0.0 ? "" : fmt::format(", turned by {:.0f}°", shirt.yaw_rad * kDegPerRad);
-    const char* with_camera = inputs.turned_with_camera[i]
-                                  ? "; turned with the camera's pictures, by which it was taught before they "
-                                    "were turned: if it was taught upright, teach it again"
-                                  : "";
+    const std::string with_camera =
+        as_it_is == inputs.taught.end()
+            ? ""
+            : fmt::format(
+                  "; searched turned with the camera's pictures, and, as template {}, as it is, because "
+                  "it does not say whether it is upright: teach it with --rotate, 0 if it is, for a "
+                  "quicker search",
+                  as_it_is - inputs.taught.begin());
     lines.push_back(fmt::format("{}: taken at {:.2f} m{}; {}{}", template_file(config.target, i),
                                 shirt.distance_m, turned, verdict_text(inputs.verdicts[i]), with_camera));
   }

@@ -2,6 +2,7 @@
 // against each other before any thread starts.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,9 @@ namespace heel {
 
 struct Inputs {
   CameraModel camera;
-  std::vector<ShirtTemplate> shirts;      ///< read_templates()
+  std::vector<ShirtTemplate> shirts;      ///< templates_for_turned() of read_templates()
+  std::vector<std::size_t> taught;        ///< one for each: its place in read_templates()
   std::vector<TemplateVerdict> verdicts;  ///< one for each
-  std::vector<bool> turned_with_camera;   ///< one for each: as template_for_turned()
 };
 
 /// Throws heel::Error with one line that names the file and what is wrong with it.

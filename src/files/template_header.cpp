@@ -82,7 +82,7 @@ std::string template_header(const ShirtTemplate& shirt, const std::vector<std::s
         {"p2", c.p2},
         {"k3", c.k3}}},
       {"settings", {{"oriented", shirt.oriented}, {"max_features", shirt.max_features}}}};
-  if (shirt.turned) header["turned"] = true;
+  if (shirt.upright) header["turned"] = true;  // by 0°, too; by this key earlier programs leave it as it is
   if (c.lens != LensModel::PlumbBob) {
     Json& camera = header["camera"];
     camera["lens"] = lens_model_name(c.lens);
@@ -106,7 +106,7 @@ std::vector<std::size_t> parse_template_header(std::string_view text, const std:
     region.at("height_px").get_to(shirt.roi.height_px);
     header.at("distance_m").get_to(shirt.distance_m);
     shirt.yaw_rad = header.value("yaw_rad", 0.0);  // older files have none
-    shirt.turned = header.value("turned", false);
+    shirt.upright = header.value("turned", false);
     const Json& camera = header.at("camera");
     camera.at("width_px").get_to(shirt.camera.width_px);
     camera.at("height_px").get_to(shirt.camera.height_px);

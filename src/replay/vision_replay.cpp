@@ -124,8 +124,8 @@ VisionReplayResult replay_vision(const std::string& recording) {
   const UnpackedFiles files(report.attachments);
   const CameraModel camera = read_camera_model(files.path("camera.yaml"));
   const PictureTurn turn = picture_turn(config.camera.rotate, config.camera.mirror);  // as the pictures were
-  std::vector<ShirtTemplate> shirts = recorded_templates(config, files);
-  for (ShirtTemplate& shirt : shirts) shirt = template_for_turned(shirt, camera, turn);
+  const std::vector<ShirtTemplate> shirts =
+      templates_for_turned(recorded_templates(config, files), camera, turn).shirts;
   TemplateSelector vision(shirts, turned_camera(camera, turn), config.vision);
   VisionReplayer replayer(inputs, vision);
   read_recording(recording, replayer);

@@ -120,6 +120,17 @@ TEST_F(TemplateFile, IsReadBackToTheBit) {
   EXPECT_EQ(a.k3, b.k3);
 }
 
+/// The key is that of files of turned pictures, which earlier programs do not turn again.
+TEST_F(TemplateFile, KeepsThatItsPictureIsUpright) {
+  ShirtTemplate shirt = small_template();
+  write_template(shirt, path);
+  EXPECT_FALSE(read_template(path).upright);
+  shirt.upright = true;
+  write_template(shirt, path);
+  EXPECT_TRUE(read_template(path).upright);
+  EXPECT_NE(read_text(path).find("\"turned\": true"), std::string::npos);
+}
+
 TEST_F(TemplateFile, KeepsTheLensOfAnotherModel) {
   for (const LensModel lens : {LensModel::Rational, LensModel::Fisheye}) {
     ShirtTemplate shirt = small_template();

@@ -64,7 +64,7 @@ void make_templates(const fs::path& folder) {
   shirt.distance_m = 1.5;
   heel::write_template(shirt, folder / "small.heel");
   shirt.yaw_rad = 0.5;
-  shirt.turned = true;
+  shirt.upright = true;
   heel::write_template(shirt, folder / "turned.heel");
 }
 

@@ -53,10 +53,10 @@ struct PoseOptions {
 /// What heeld would run with, by the configuration file and the options, which replace the file's values.
 struct Setup {
   TargetConfig target;
-  std::vector<ShirtTemplate> shirts;  ///< of target
-  CameraModel sent_camera;            ///< of the inputs
-  PictureTurn turn;                   ///< of the inputs, before vision sees them
-  CameraModel camera;                 ///< of the turned pictures
+  TurnedTemplates templates;  ///< of target
+  CameraModel sent_camera;    ///< of the inputs
+  PictureTurn turn;           ///< of the inputs, before vision sees them
+  CameraModel camera;         ///< of the turned pictures
   std::string camera_file;
   double image_rate_hz = 0.0;
   VisionConfig vision;
@@ -75,15 +75,12 @@ Setup load_setup(const PoseOptions& options) {
     setup.target.shirt = options.template_files.front();
     setup.target.more_shirts.assign(options.template_files.begin() + 1, options.template_files.end());
   }
-  const std::vector<ShirtTemplate> shirts = read_templates(setup.target);
   setup.camera_file = options.camera_file.empty() ? config.camera.info : options.camera_file;
   setup.sent_camera = read_camera_model(setup.camera_file);
   setup.turn = turn_of(options.turn, config.camera);
   setup.camera = turned_camera(setup.sent_camera, setup.turn);
-  for (const ShirtTemplate& shirt : shirts) {
-    setup.shirts.push_back(template_for_turned(shirt, setup.sent_camera, setup.turn));
-    setup.shirts.back().oriented = shirt.oriented || options.oriented;
-  }
+  setup.templates = templates_for_turned(read_templates(setup.target), setup.sent_camera, setup.turn);
+  for (ShirtTemplate& shirt : setup.templates.shirts) shirt.oriented = shirt.oriented || options.oriented;
   setup.image_rate_hz = options.rate_hz.value_or(config.camera.rate_hz);
   setup.vision = config.vision;
   setup.vision.max_features = options.max_features.value_or(config.vision.max_features);
@@ -98,12 +95,14 @@ FrameView view_of(const InputFrame& frame) {
   return view;
 }
 
-PoseRow estimate(TemplateSelector& templates, const InputFrame& frame, const TargetConfig& target) {
+PoseRow estimate(TemplateSelector& templates, const InputFrame& frame, const Setup& setup) {
   const auto start = std::chrono::steady_clock::now();
   const PoseEstimate pose = templates.estimate(view_of(frame));
   const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
   return {frame.number, frame.t_s, pose, elapsed.count(),
-          target.more_shirts.empty() ? "" : template_file(target, pose.template_index)};
+          setup.target.more_shirts.empty()
+              ? ""
+              : template_file(setup.target, setup.templates.taught[pose.template_index])};
 }
 
 void write_pose_picture(const std::string& folder, const InputFrame& frame, const PoseEstimate& pose,
@@ -132,7 +131,7 @@ void process_frames(const PoseOptions& options, Setup setup) {
   FrameInput input(options.inputs, setup.image_rate_hz);
   // A single picture has no frame before or after it that could share the work of a search.
   if (options.independent || input.stated_frame_count() == 1) setup.vision.tracking = false;
-  TemplateSelector templates(setup.shirts, setup.camera, setup.vision);
+  TemplateSelector templates(setup.templates.shirts, setup.camera, setup.vision);
   // The results of a terminal are progress enough.
   commandline::Progress progress("frame", input.stated_frame_count(), isatty(STDOUT_FILENO) == 0);
   PoseSummary summary;
@@ -146,12 +145,12 @@ void process_frames(const PoseOptions& options, Setup setup) {
     if (notes < input.notes().size()) progress.clear();
     for (; notes < input.notes().size(); ++notes) fmt::print(stderr, "heel pose: {}\n", input.notes()[notes]);
     frame.grey = turned_picture(frame.grey, setup.turn);
-    const PoseRow row = estimate(templates, frame, setup.target);
+    const PoseRow row = estimate(templates, frame, setup);
     std::puts((options.json ? pose_json(row) : pose_table_row(row)).c_str());
     summary.add(row);
     if (!options.picture_dir.empty())
-      write_pose_picture(options.picture_dir, frame, row.pose, setup.shirts[row.pose.template_index],
-                         setup.camera);
+      write_pose_picture(options.picture_dir, frame, row.pose,
+                         setup.templates.shirts[row.pose.template_index], setup.camera);
     progress.show(frame.number);
   }
   std::fflush(stdout);

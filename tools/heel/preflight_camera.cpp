@@ -51,9 +51,8 @@ struct SentPictures {
 /// Poses in the pictures when they are turned so.
 std::vector<PoseEstimate> poses_of(const SentPictures& sent, const Config& config, const CameraModel& camera,
                                    const PictureTurn& turn) {
-  std::vector<ShirtTemplate> shirts = read_templates(config.target);
-  for (ShirtTemplate& shirt : shirts) shirt = template_for_turned(shirt, camera, turn);
-  TemplateSelector vision(shirts, turned_camera(camera, turn), config.vision);
+  const TurnedTemplates templates = templates_for_turned(read_templates(config.target), camera, turn);
+  TemplateSelector vision(templates.shirts, turned_camera(camera, turn), config.vision);
   PictureTurner turner(turn);
   std::vector<PoseEstimate> found;
   for (std::size_t i = 0; i < sent.grey.size(); ++i) {

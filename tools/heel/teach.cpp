@@ -113,7 +113,7 @@ ShirtTemplate make_template(const TeachOptions& options) {
   const CameraModel sent_camera = read_camera_model(options.camera_file);
   const PictureTurn turn = turn_of(options.turn);
   shirt.camera = turned_camera(sent_camera, turn);
-  shirt.turned = turn.any();
+  shirt.upright = turn.any() || options.turn.rotate.has_value();
   int width_px = sent_camera.width_px;
   int height_px = sent_camera.height_px;
   shirt.grey = options.image.empty() ? grey_from_camera(options, width_px, height_px)

@@ -5,9 +5,10 @@ namespace heel::cli {
 
 void add_turn_options(CLI::App& command, TurnOptions& options) {
   command
-      .add_option("--rotate", options.rotate,
-                  "turn each picture clockwise, so that it is upright; the calibration stays that of the\n"
-                  "pictures as the camera sends them (default: camera.rotate of --config, else 0)")
+      .add_option(
+          "--rotate", options.rotate,
+          "turn each picture clockwise, so that it is upright (0 says that it is); the calibration\n"
+          "stays that of the pictures as the camera sends them (default: camera.rotate of --config, else 0)")
       ->type_name("DEG")
       ->check(CLI::IsMember({0, 90, 180, 270}));
   command.add_flag("--mirror", options.mirror,

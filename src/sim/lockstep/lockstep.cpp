@@ -96,8 +96,8 @@ Lockstep::Lockstep(const LockstepSettings& settings, LockstepObserver& observer)
   std::vector<ShirtTemplate> shirts{settings.shirt};
   shirts.insert(shirts.end(), settings.more_shirts.begin(), settings.more_shirts.end());
   const CameraModel sent = sent_camera(scenario_.camera);
-  for (ShirtTemplate& shirt : shirts) shirt = template_for_turned(shirt, sent, turner_.turn());
-  vision_.emplace(shirts, turned_camera(sent, turner_.turn()), settings.config.vision);
+  vision_.emplace(templates_for_turned(shirts, sent, turner_.turn()).shirts,
+                  turned_camera(sent, turner_.turn()), settings.config.vision);
   if (scenario_.camera.source == "sim") {
     world_ = std::make_unique<World>(scenario_);
     frames_ = make_world_supply(*world_);

@@ -19,7 +19,7 @@ ShirtTemplate sent_reference_view(const Scenario& scenario, double distance_m) {
   shirt.distance_m = distance_m;
   if (!scenario.camera.turn.any()) return shirt;
   shirt = turned_template(shirt, scenario.camera.turn.inverse());
-  shirt.turned = false;  // the camera sends it like that
+  shirt.upright = false;  // the camera sends it like that
   return shirt;
 }
 

@@ -41,9 +41,11 @@ TemplateSelector::TemplateSelector(std::span<const ShirtTemplate> templates, con
   require_distance(templates);
   trackers_.reserve(templates.size());
   pose_of_back_.reserve(templates.size());
+  const ShirtTemplate* first = &templates.front();
   for (const ShirtTemplate& shirt : templates) {
+    if (shirt.is_first) first = &shirt;
     trackers_.emplace_back(shirt, camera, config);
-    pose_of_back_.emplace_back(shirt, templates.front());
+    pose_of_back_.emplace_back(shirt, *first);
   }
 }
 

@@ -77,7 +77,7 @@ CameraModel turned_camera(const CameraModel& camera, const PictureTurn& turn) {
 ShirtTemplate turned_template(const ShirtTemplate& shirt, const PictureTurn& turn) {
   ShirtTemplate turned = shirt;
   const Eigen::Matrix3d R = R_turned_from_camera(turn);
-  turned.turned = true;
+  turned.upright = true;
   turned.grey = turned_picture(shirt.grey, shirt.camera, turn);
   turned.camera = turned_camera(shirt.camera, turn);
   turned.roi = turned_region(shirt.roi, shirt.camera.width_px, shirt.camera.height_px, turn);
@@ -90,10 +90,24 @@ ShirtTemplate turned_template(const ShirtTemplate& shirt, const PictureTurn& tur
   return turned;
 }
 
-ShirtTemplate template_for_turned(const ShirtTemplate& shirt, const CameraModel& camera,
-                                  const PictureTurn& turn) {
-  return turn.any() && !shirt.turned && same_camera(shirt.camera, camera) ? turned_template(shirt, turn)
-                                                                          : shirt;
+TurnedTemplates templates_for_turned(std::span<const ShirtTemplate> shirts, const CameraModel& camera,
+                                     const PictureTurn& turn) {
+  TurnedTemplates all;
+  const auto may_be_sent = [&](const ShirtTemplate& shirt) {
+    return turn.any() && !shirt.upright && same_camera(shirt.camera, camera);
+  };
+  for (std::size_t i = 0; i < shirts.size(); ++i) {
+    all.shirts.push_back(may_be_sent(shirts[i]) ? turned_template(shirts[i], turn) : shirts[i]);
+    all.taught.push_back(i);
+  }
+  for (std::size_t i = 0; i < shirts.size(); ++i) {
+    // Poses by several templates are compared in metres.
+    if (!may_be_sent(shirts[i]) || shirts[i].distance_m <= 0.0) continue;
+    all.shirts.push_back(shirts[i]);
+    all.shirts.back().is_first = i == 0;
+    all.taught.push_back(i);
+  }
+  return all;
 }
 
 }  // namespace heel

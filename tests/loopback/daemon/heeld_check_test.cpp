@@ -130,11 +130,24 @@ TEST(HeeldCheck, JsonHasTheValuesOrTheErrorsOfAFile) {
   EXPECT_EQ(heeld({"--config", scene.write_config(), "--json"}).status, kExitUsage) << "without --check";
 }
 
-TEST(HeeldCheck, ATemplateThatIsTurnedWithTheCameraIsSaidToBe) {
+TEST(HeeldCheck, ATemplateThatDoesNotSayWhetherItIsUprightIsNamed) {
   const Scene scene(1);
   EXPECT_THAT(heeld({"--config", scene.write_config({.camera = "rotate = 180\n"}), "--check"}).out,
-              HasSubstr("turned with the camera's pictures"));
-  EXPECT_THAT(heeld({"--config", scene.write_config(), "--check"}).out, Not(HasSubstr("turned with")));
+              HasSubstr("it does not say whether it is upright"));
+  EXPECT_THAT(heeld({"--config", scene.write_config(), "--check"}).out, Not(HasSubstr("upright")));
+}
+
+TEST(HeeldCheck, WhatIsWrongStandsBehindTheValues) {
+  const Scene scene(1);
+  std::filesystem::remove(scene.path("shirt.heel"));
+  const Outcome both = test::run_program(
+      {"/bin/sh", "-c",
+       "'" + test::built_program("heeld") + "' --check --config '" + scene.write_config() + "' 2>&1"});
+  EXPECT_EQ(both.status, kExitConfiguration);
+  const std::size_t values = both.out.find("gate.v_max_m_s"),
+                    error = both.out.find(scene.path("shirt.heel") + ": ");
+  ASSERT_NE(error, std::string::npos) << both.out;
+  EXPECT_LT(values, error) << both.out;
 }
 
 TEST(HeeldCheck, FilesItRefersToAreLoaded) {

@@ -57,9 +57,11 @@ class TeachAndPose : public ::testing::Test {
   }
   /// Measures the reach only where `more` says how long.
   Outcome teach(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments = {"teach", "--image",       image,  "--roi", test::kRoi, "--distance",
-                                          "1.5",   "--camera-info", camera, "-o",    shirt};
+    std::vector<std::string> arguments = {"teach",         "--roi", test::kRoi, "--distance", "1.5",
+                                          "--camera-info", camera,  "-o",       shirt};
     arguments.insert(arguments.end(), more.begin(), more.end());
+    if (std::find(more.begin(), more.end(), "--image") == more.end())
+      arguments.insert(arguments.end(), {"--image", image});
     if (std::find(more.begin(), more.end(), kNoHurry[0]) == more.end())
       arguments.insert(arguments.end(), {kNoHurry[0], "0"});
     return run_heel(arguments);
@@ -237,6 +239,31 @@ TEST_F(TeachAndPose, ACameraMountedUpsideDownGivesThePosesOfAnUprightOne) {
   // The middle of the region is 2.5 pixels to the left of the turned principal point.
   EXPECT_NEAR(found["position_m"][0].get<double>(), -0.0075, 0.003);
   EXPECT_NEAR(found["position_m"][2].get<double>(), 1.5, 0.02);
+}
+
+/// It was taught before the camera was mounted upside down, or after that and not turned: a template says
+/// which only if teach was told.
+TEST_F(TeachAndPose, ATemplateOfACameraThatWasTurnedSinceIsFound) {
+  const std::string turned = folder.file("upside_down.png");
+  cv::Mat upside_down;
+  cv::rotate(reference, upside_down, cv::ROTATE_180);
+  cv::imwrite(turned, upside_down);
+  struct Taught {
+    std::string image;
+    std::vector<std::string> more;
+    bool found;
+  };
+  for (const Taught& one :
+       {Taught{image, {}, true}, Taught{turned, {}, true}, Taught{image, {"--rotate", "0"}, true},
+        Taught{turned, {"--rotate", "180"}, true}, Taught{turned, {"--rotate", "0"}, false}}) {
+    SCOPED_TRACE(one.image + (one.more.empty() ? "" : one.more.back()));
+    std::vector<std::string> more{"--image", one.image};
+    more.insert(more.end(), one.more.begin(), one.more.end());
+    ASSERT_EQ(teach(more).status, 0);
+    const json found = lines_of(pose({turned, "--rotate", "180", "--json"}).out).at(0);
+    EXPECT_EQ(found["found"].get<bool>(), one.found);
+    EXPECT_FALSE(found.contains("template")) << "one file";
+  }
 }
 
 TEST_F(TeachAndPose, TeachRefusesAPlainShirtWithTheReasonAndStatusOne) {

@@ -1,6 +1,7 @@
 // The camera of turned pictures sees each point where the turned picture shows it.
 #include "vision/template/turned_template.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -102,17 +103,37 @@ TEST(TurnedTemplate, KeepsItsRegionAndTheMotionOfItsViews) {
   }
 }
 
-TEST(TurnedTemplate, OnlyOneThatWasTaughtFromWhatThisCameraSendsIsTurned) {
+/// Where the regions of the templates begin.
+std::vector<int> left_edges_px(const TurnedTemplates& templates) {
+  std::vector<int> edges_px;
+  for (const ShirtTemplate& shirt : templates.shirts) edges_px.push_back(shirt.roi.x_px);
+  return edges_px;
+}
+
+TEST(TurnedTemplate, OnlyOneThatMayBeTaughtFromWhatThisCameraSendsIsTurned) {
   const PictureTurn turn = picture_turn(180, false);
   const CameraModel camera = lens();
-  EXPECT_EQ(template_for_turned(taught(), camera, turn).roi.x_px, 640 - 100 - 30);
-  EXPECT_EQ(template_for_turned(taught(), camera, {}).roi.x_px, 100);
-  ShirtTemplate other = taught();
+  ShirtTemplate unsaid = taught();
+  unsaid.distance_m = 1.5;
+  ShirtTemplate other = unsaid;
   other.camera.fx = 800.0;  // a photograph by another camera
-  EXPECT_EQ(template_for_turned(other, camera, turn).roi.x_px, 100);
-  ShirtTemplate upright = taught();
-  upright.turned = true;
-  EXPECT_EQ(template_for_turned(upright, camera, turn).roi.x_px, 100);
+  ShirtTemplate upright = unsaid;
+  upright.upright = true;
+  using testing::ElementsAre;
+  EXPECT_THAT(left_edges_px(templates_for_turned({{other, upright}}, camera, turn)), ElementsAre(100, 100));
+  EXPECT_THAT(left_edges_px(templates_for_turned({{unsaid, other}}, camera, {})), ElementsAre(100, 100));
+  // As it is, it stands behind the others.
+  constexpr int kTurned_px = 640 - 100 - 30;
+  const TurnedTemplates both = templates_for_turned({{other, unsaid, upright}}, camera, turn);
+  EXPECT_THAT(left_edges_px(both), ElementsAre(100, kTurned_px, 100, 100));
+  EXPECT_THAT(both.taught, ElementsAre(0U, 1U, 2U, 1U));
+  EXPECT_FALSE(both.shirts[3].upright);
+  EXPECT_FALSE(both.shirts[3].is_first) << "the first one is as it is";
+  const TurnedTemplates guesses = templates_for_turned({{unsaid, unsaid}}, camera, turn);
+  EXPECT_THAT(left_edges_px(guesses), ElementsAre(kTurned_px, kTurned_px, 100, 100));
+  EXPECT_TRUE(guesses.shirts[2].is_first && !guesses.shirts[0].is_first && !guesses.shirts[3].is_first);
+  // Without a distance, two poses cannot be compared.
+  EXPECT_THAT(left_edges_px(templates_for_turned({{taught()}}, camera, turn)), ElementsAre(kTurned_px));
 }
 
 }  // namespace
