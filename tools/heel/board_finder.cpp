@@ -117,7 +117,7 @@ std::vector<cv::Point2f> find_circles(const cv::Mat& grey, const Board& board) {
 }  // namespace
 
 FoundCorners find_corners(const cv::Mat& grey, const Board& board) {
-  const bool chessboard = board.pattern == Pattern::Chessboard;
+  const bool chessboard = board.has_squares();
   FoundCorners found{chessboard ? find_chessboard(grey, board.corners) : find_circles(grey, board),
                      board.corners};
   return found.corners_px.empty() && chessboard ? find_part(grey, board.corners) : found;

@@ -6,7 +6,7 @@
 
 namespace heel::cli {
 
-enum class Pattern { Chessboard, Circles, AsymmetricCircles };
+enum class Pattern { Chessboard, Charuco, Circles, AsymmetricCircles };
 
 /// Inner corners of a chessboard, or circles: along a row and down a column; from one to the next, metres. In
 /// an asymmetric grid every second row is moved by half of the distance between the circles of a row, which
@@ -15,6 +15,8 @@ struct Board {
   cv::Size corners;
   double square_m = 0.0;
   Pattern pattern = Pattern::Chessboard;
+
+  bool has_squares() const { return pattern == Pattern::Chessboard || pattern == Pattern::Charuco; }
 };
 
 struct FoundCorners {

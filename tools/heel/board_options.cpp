@@ -21,8 +21,8 @@ cv::Size parse_corners(const std::string& text) {
 }
 
 Pattern parse_pattern(const std::string& name) {
-  // Which marker is which is not needed: a part of a board calibrates wherever on the board it is.
-  if (name == "chessboard" || name == "charuco") return Pattern::Chessboard;
+  if (name == "chessboard") return Pattern::Chessboard;
+  if (name == "charuco") return Pattern::Charuco;
   if (name == "circles") return Pattern::Circles;
   if (name == "asymmetric-circles") return Pattern::AsymmetricCircles;
   throw Error("--pattern: '" + name + "' (expected chessboard, charuco, circles or asymmetric-circles)");

@@ -7,7 +7,9 @@
 #include <atomic>
 #include <future>
 #include <thread>
+#include <utility>
 
+#include "board_markers.h"
 #include "files/image_file.h"
 #include "heel/error.h"
 
@@ -34,7 +36,7 @@ std::size_t images_that_show(const std::vector<std::string>& images, cv::Size bo
 
 /// Another count of corners that more images show: people count the squares.
 std::string mistaken_board(const std::vector<std::string>& images, const Board& board, std::size_t found) {
-  if (board.pattern != Pattern::Chessboard) return "";
+  if (!board.has_squares()) return "";
   for (const cv::Size& other : {cv::Size(board.corners.width - 1, board.corners.height - 1),
                                 cv::Size(board.corners.width + 1, board.corners.height + 1)}) {
     if (other.width < 3 || other.height < 3) continue;
@@ -44,6 +46,17 @@ std::string mistaken_board(const std::vector<std::string>& images, const Board& 
                          other.width, other.height, seen, images.size());
   }
   return "";
+}
+
+/// A picture that is blurred or far away may not show them.
+void require_markers(const BoardViews& found) {
+  const auto marked = static_cast<std::size_t>(std::count_if(
+      found.views.begin(), found.views.end(), [](const BoardView& view) { return view.has_markers; }));
+  if (2 * marked >= found.views.size()) return;
+  throw Error(
+      fmt::format("--pattern: 'charuco', but only {} of {} views of the board have markers in its white "
+                  "squares (expected most of them; a board without markers is a chessboard)",
+                  marked, found.views.size()));
 }
 
 /// Leaves the views of the whole board.
@@ -73,6 +86,7 @@ BoardViews find_board(const std::vector<std::string>& images, const Board& board
   struct Searched {
     cv::Size size;
     FoundCorners found;
+    bool has_markers = true;
   };
   std::vector<std::promise<Searched>> promises(images.size());
   std::atomic<std::size_t> next{0};
@@ -80,7 +94,9 @@ BoardViews find_board(const std::vector<std::string>& images, const Board& board
     for (std::size_t i = next++; i < images.size(); i = next++) {
       try {
         const cv::Mat grey = read_grey_image(images[i]).grey;
-        promises[i].set_value({grey.size(), find_corners(grey, board)});
+        FoundCorners corners = find_corners(grey, board);
+        const bool markers = board.pattern != Pattern::Charuco || has_markers(grey, corners);
+        promises[i].set_value({grey.size(), std::move(corners), markers});
       } catch (...) {
         promises[i].set_exception(std::current_exception());
       }
@@ -110,7 +126,8 @@ BoardViews find_board(const std::vector<std::string>& images, const Board& board
     const bool shows = !searched.found.corners_px.empty();
     const bool is_part = shows && searched.found.seen != board.corners;
     if (shows) {
-      found.views.push_back({images[i], std::move(searched.found.corners_px), searched.found.seen});
+      found.views.push_back(
+          {images[i], std::move(searched.found.corners_px), searched.found.seen, searched.has_markers});
     } else {
       found.images_without_board.push_back(images[i]);
     }
@@ -130,6 +147,7 @@ BoardViews find_board(const std::vector<std::string>& images, const Board& board
         found.views.size(), images.size(), board.corners.width, board.corners.height, least_views,
         mistaken_board(images, board, found.views.size()), without_board));
   }
+  require_markers(found);
   return found;
 }
 

@@ -13,8 +13,9 @@ namespace heel::cli {
 struct BoardView {
   std::string image;
   std::vector<cv::Point2f> corners_px;
-  cv::Size seen;        ///< corners along a row and down a column; of a part, either way round
-  double rms_px = 0.0;  ///< reprojection error, set by the calibration
+  cv::Size seen;            ///< corners along a row and down a column; of a part, either way round
+  bool has_markers = true;  ///< of a ChArUco board
+  double rms_px = 0.0;      ///< reprojection error, set by the calibration
 };
 
 /// The view's points in the plane of the board, in the order of its corners. Those of a part start at its own
@@ -39,7 +40,7 @@ struct SearchedImage {
 /// taken as well, when two images or more show the whole of it: then its number of corners is right.
 /// `progress` is called in the order of the images. Throws heel::Error when an image cannot be read or has
 /// another size, and when fewer than `least_views` show the board: then it says what the board may have been
-/// mistaken for.
+/// mistaken for; also when a board without markers was said to be a ChArUco board.
 BoardViews find_board(const std::vector<std::string>& images, const Board& board, std::size_t least_views,
                       const std::function<void(const SearchedImage&)>& progress);
 

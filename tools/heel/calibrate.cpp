@@ -88,6 +88,7 @@ CalibrationJson json_of(const BoardViews& found, const Calibration& result, cons
 void run_calibrate(const CalibrateOptions& options) {
   const Board board = board_of(options.board);
   const BoardImages pictures(options.images);
+  for (const std::string& note : pictures.notes()) fmt::print(stderr, "heel calibrate: {}\n", note);
   for (const std::string& problem : pictures.problems()) fmt::print(stderr, "heel calibrate: {}\n", problem);
   const std::vector<std::string>& images = pictures.files();
   commandline::Progress progress("images searched", images.size());

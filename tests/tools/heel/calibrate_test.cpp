@@ -186,6 +186,16 @@ TEST_F(Calibrate, TakesChessboardsWithMarkers) {
   EXPECT_NEAR(camera.cx, kTrueK(0, 2), 4.0) << "the markers are 4 px from the corners";
 }
 
+TEST_F(Calibrate, AChessboardIsNoCharucoBoard) {
+  write_pictures(drawn_chessboard(), kGoodPoses);
+  const Outcome outcome = run_heel({"calibrate", folder.path().string(), "--pattern", "charuco", "--board",
+                                    "9x6", "--square", "0.03", "-o", output});
+  EXPECT_EQ(outcome.status, 2) << outcome.out;
+  EXPECT_THAT(outcome.err,
+              HasSubstr("--pattern: 'charuco', but only 0 of 8 views of the board have markers"));
+  EXPECT_FALSE(std::filesystem::exists(output));
+}
+
 TEST_F(Calibrate, TakesBoardsThatTheEdgeOfThePictureCuts) {
   for (const bool markers : {false, true}) {
     std::vector<BoardPose> poses(kGoodPoses.begin(), kGoodPoses.begin() + 3);
