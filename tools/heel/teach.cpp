@@ -19,6 +19,7 @@
 #include "heel/error.h"
 #include "heel/shirt_template.h"
 #include "picture.h"
+#include "roi_option.h"
 #include "teach_more.h"
 #include "teach_reach.h"
 #include "teach_region.h"
@@ -37,7 +38,7 @@ using TeachJson = nlohmann::ordered_json;
 struct TeachOptions {
   std::string image;
   std::string camera_address;
-  std::vector<int> roi;
+  std::vector<std::string> roi;
   double distance_m = 0.0;
   double yaw_deg = 0.0;
   std::string camera_file;
@@ -214,8 +215,7 @@ void add_teach_command(CLI::App& app) {
       ->add_option("--roi", options->roi,
                    "the back in the image, pixels, without arms, collar and background")
       ->required()
-      ->delimiter(',')
-      ->expected(4)
+      ->expected(1, 4)
       ->type_name("X,Y,W,H");
   command
       ->add_option("--distance", options->distance_m, "from the camera to the back, metres, along the view")

@@ -1,0 +1,16 @@
+// The option --roi: the rectangle of the back, in pixels of the upright picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "heel/camera_model.h"
+#include "heel/features.h"
+
+namespace heel::cli {
+
+/// `words`: what the command line gave, "X,Y,W,H" or four numbers. Throws heel::Error with the form that is
+/// expected, and for the forms of other programs with the same rectangle in it.
+Region parse_roi(const std::vector<std::string>& words, const CameraModel& camera);
+
+}  // namespace heel::cli
