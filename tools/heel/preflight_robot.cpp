@@ -7,6 +7,7 @@
 
 #include "core/angles.h"
 #include "heel/error.h"
+#include "models/robot_models.h"
 #include "preflight_step.h"
 #include "ticked_link.h"
 
@@ -15,7 +16,6 @@ namespace {
 
 constexpr TimeNs kListen_ns = 2 * kNsPerS;
 constexpr double kLeastSips_1_s = 8.0;  // of ten
-constexpr std::size_t kFrontSonars = 8;
 
 constexpr double kForwards_m_s = 0.1;
 constexpr double kLeft_rad_s = 0.35;
@@ -33,16 +33,19 @@ PreflightStep check_robot(const Config& config) {
     link.run(0.0, 0.0, kListen_ns, [] { return false; });
     const RobotState& state = link.state();
     const double sips_1_s = static_cast<double>(state.sips - before) / seconds_from_ns(kListen_ns);
-    std::size_t heard = 0;
-    for (std::size_t i = 0; i < kFrontSonars; ++i) heard += state.sonar[i].t_ns != 0;
-    step.values = {{"robot", link.kind()},
-                   {"battery_v", state.battery_v},
-                   {"packets_1_s", sips_1_s},
-                   {"front_sonars_heard", heard},
-                   {"checksum_errors", state.checksum_errors}};
+    const RobotGeometry& robot = robot_models()[state.kind.model].geometry;
+    std::size_t fitted = 0, heard = 0;
+    for (std::size_t i = 0; i < kMaxSonars; ++i) {
+      if (!robot.looks_ahead(i)) continue;
+      ++fitted;
+      heard += state.sonar[i].t_ns != 0;
+    }
+    step.values = {{"robot", link.kind()},        {"battery_v", state.battery_v},
+                   {"packets_1_s", sips_1_s},     {"front_sonars", fitted},
+                   {"front_sonars_heard", heard}, {"checksum_errors", state.checksum_errors}};
     const std::string measured =
         fmt::format("{}; battery {:.1f} V, {:.0f} packets/s, {} of {} front sonars heard", link.kind(),
-                    state.battery_v, sips_1_s, heard, kFrontSonars);
+                    state.battery_v, sips_1_s, heard, fitted);
     if (state.battery_v < config.supervisor.battery_ok_v)
       return step.fail(measured, fmt::format("charge the battery (expected {:g} V, supervisor.battery_ok_v)",
                                              config.supervisor.battery_ok_v));
@@ -50,7 +53,7 @@ PreflightStep check_robot(const Config& config) {
       return step.fail(measured, "check the cable and its length (expected 10 packets/s)");
     if (state.bumpers_front != 0 || state.bumpers_rear != 0)
       return step.fail(measured + ", a bumper is pressed", "free the bumper");
-    if (config.robot.sonar && heard < kFrontSonars)
+    if (config.robot.sonar && heard < fitted)
       return step.fail(measured,
                        "check the sonars' cable, or set robot.sonar = false: the robot then sees no "
                        "obstacle");

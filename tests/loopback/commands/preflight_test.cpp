@@ -103,6 +103,14 @@ TEST_F(Preflight, EverythingIsReadyAndTheRobotStandsStill) {
   for (const test::Truth& row : truth) ASSERT_EQ(row.v_m_s, 0.0);
 }
 
+TEST_F(Preflight, CountsTheFrontSonarsThatTheModelHas) {
+  start_world({"--model", "amigo-sh"});
+  const json step = preflight({"robot"})["steps"][0];
+  EXPECT_EQ(step["verdict"], "pass") << step;
+  EXPECT_EQ(step["values"]["front_sonars"], 6);
+  EXPECT_THAT(step["measured"].get<std::string>(), HasSubstr("6 of 6 front sonars"));
+}
+
 TEST_F(Preflight, WheelsTurnOnlyWhenTheyAreSaidToBeOnBlocks) {
   start_world();
   const json answer = preflight({"wheels", "--wheels-on-blocks"});
