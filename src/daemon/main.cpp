@@ -161,9 +161,11 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const heel::ConfigError& error) {
+    std::fflush(stdout);  // what was printed before the error stays before it
     for (const auto& line : error.lines()) std::fprintf(stderr, "%s\n", line.c_str());
     return kExitConfiguration;
   } catch (const heel::Error& error) {
+    std::fflush(stdout);
     std::fprintf(stderr, "%s\n", error.what());
     return kExitConfiguration;
   } catch (const std::exception& error) {
