@@ -102,4 +102,19 @@ class SessionBench {
   }
 };
 
+/// A session that drives already.
+struct RunningBench : SessionBench {
+  explicit RunningBench(const RobotConfig& config = bench_config()) : SessionBench(config) {
+    EXPECT_TRUE(run_until(LinkPhase::Running));
+    run(0.1);
+    robot.log.clear();
+  }
+  /// heeld ends and is started again.
+  void restart() {
+    robot.receive(session.close(now_ns), session.wanted_baud(), now_ns);
+    session = ArcosSession(bench_config());
+    session.line_opened(now_ns);
+  }
+};
+
 }  // namespace heel::test

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "loopback/robot/session_bench.h"
+#include "loopback/robot/p3at_bench.h"
 #include "robot/arcos_session.h"
 #include "sim/robot/p3at.h"
 
@@ -12,11 +12,11 @@ namespace heel {
 namespace {
 
 using sim::FaultKind;
-using test::SessionBench;
+using test::P3AtBench;
 using Kind = SessionEventKind;
 
 TEST(ArcosSessionFaults, ARobotLeftOpenAndMovingIsStoppedAndDoesNotJump) {
-  SessionBench bench;
+  P3AtBench bench;
   bench.inject(FaultKind::LeftOpen, 0.0, 400.0);
   bench.run(0.1);
   const auto before = bench.robot.true_pose();
@@ -31,7 +31,7 @@ TEST(ArcosSessionFaults, ARobotLeftOpenAndMovingIsStoppedAndDoesNotJump) {
 }
 
 TEST(ArcosSessionFaults, KilledWhileDrivingTheRobotStopsByTheWatchdogAndDoesNotResume) {
-  SessionBench bench;
+  P3AtBench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
   bench.v_m_s = 0.5;
@@ -54,7 +54,7 @@ TEST(ArcosSessionFaults, KilledWhileDrivingTheRobotStopsByTheWatchdogAndDoesNotR
 
 TEST(ArcosSessionFaults, FollowsOverALossyLine) {
   for (const auto kind : {FaultKind::DropBytes, FaultKind::GarbleBytes}) {
-    SessionBench bench;
+    P3AtBench bench;
     bench.inject(kind, 0.0, 0.005);
     bench.start();
     ASSERT_TRUE(bench.run_until(LinkPhase::Running, 30.0));
@@ -74,7 +74,7 @@ TEST(ArcosSessionFaults, FollowsOverALossyLine) {
 }
 
 TEST(ArcosSessionFaults, AfterASilenceThePoseIsTheSame) {
-  SessionBench bench;
+  P3AtBench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
   bench.v_m_s = 0.4;
@@ -89,7 +89,7 @@ TEST(ArcosSessionFaults, AfterASilenceThePoseIsTheSame) {
 }
 
 TEST(ArcosSessionFaults, ControllerResetWhileDriving) {
-  SessionBench bench;
+  P3AtBench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
   bench.v_m_s = 0.4;
@@ -106,7 +106,7 @@ TEST(ArcosSessionFaults, ControllerResetWhileDriving) {
 }
 
 TEST(ArcosSessionFaults, StopButtonKeepsTheMotorsOffUntilANewSession) {
-  SessionBench bench;
+  P3AtBench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
   bench.v_m_s = 0.4;
@@ -128,7 +128,7 @@ TEST(ArcosSessionFaults, StopButtonKeepsTheMotorsOffUntilANewSession) {
 }
 
 TEST(ArcosSessionFaults, ConnectsWithoutAConfigWhoseChecksumIsAlwaysWrong) {
-  SessionBench bench;
+  P3AtBench bench;
   bench.inject(FaultKind::BadConfig);
   bench.start();
   EXPECT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
@@ -136,7 +136,7 @@ TEST(ArcosSessionFaults, ConnectsWithoutAConfigWhoseChecksumIsAlwaysWrong) {
 }
 
 TEST(ArcosSessionFaults, BumpersAndStallsAreReported) {
-  SessionBench bench;
+  P3AtBench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
   bench.robot.touch_bumper(0b0000100, 0b0010000);
@@ -155,7 +155,7 @@ TEST(ArcosSessionFaults, BumpersAndStallsAreReported) {
 }
 
 TEST(ArcosSessionFaults, CloseLeavesItClosedAndAtRest) {
-  SessionBench bench;
+  P3AtBench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
   bench.v_m_s = 0.4;

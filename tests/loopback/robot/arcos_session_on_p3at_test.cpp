@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "loopback/robot/session_bench.h"
+#include "loopback/robot/p3at_bench.h"
 #include "robot/arcos_session.h"
 #include "sim/robot/p3at.h"
 
@@ -14,14 +14,14 @@ namespace {
 using sim::FaultKind;
 using test::exact_robot;
 using test::kTick_ns;
-using test::SessionBench;
+using test::P3AtBench;
 using Kind = SessionEventKind;
 
 TEST(ArcosSessionOnP3At, ConnectsAtEveryRateTheRobotMayHave) {
   for (const int baud : kRobotBauds) {
     sim::P3AtSettings settings = exact_robot();
     settings.boot_baud = baud;
-    SessionBench bench(settings);
+    P3AtBench bench(settings);
     bench.start();
     EXPECT_TRUE(bench.run_until(LinkPhase::Running, 15.0)) << baud;
     EXPECT_EQ(bench.count(Kind::ConfigReceived), 1) << baud;
@@ -30,7 +30,7 @@ TEST(ArcosSessionOnP3At, ConnectsAtEveryRateTheRobotMayHave) {
 }
 
 TEST(ArcosSessionOnP3At, MeanSpeedsAreTheCommandedOnesAt9600Baud) {
-  SessionBench bench;
+  P3AtBench bench;
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
   bench.v_m_s = 0.2503;
@@ -56,7 +56,7 @@ TEST(ArcosSessionOnP3At, MeanSpeedsAreTheCommandedOnesAt9600Baud) {
 
 TEST(ArcosSessionOnP3At, TheRateOfASlowLineIsRaisedBeforeTheMotorsRun) {
   for (const int wished : {19200, 38400, 57600, 115200}) {
-    SessionBench bench(exact_robot(), ("pty:robot@" + std::to_string(wished)).c_str());
+    P3AtBench bench(exact_robot(), ("pty:robot@" + std::to_string(wished)).c_str());
     bench.start();
     for (int i = 0; i < 1000 && bench.robot.baud() == 9600; ++i) {
       bench.tick();
@@ -81,7 +81,7 @@ TEST(ArcosSessionOnP3At, TheRateOfASlowLineIsRaisedBeforeTheMotorsRun) {
 TEST(ArcosSessionOnP3At, ARobotThatKeepsItsRateAfterCloseIsFoundThere) {
   sim::P3AtSettings settings = exact_robot();
   settings.keeps_rate_after_close = true;
-  SessionBench bench(settings, "pty:robot@57600");
+  P3AtBench bench(settings, "pty:robot@57600");
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
   bench.robot.receive(bench.session.close(bench.now_ns), bench.now_ns);
@@ -95,7 +95,7 @@ TEST(ArcosSessionOnP3At, ARobotThatKeepsItsRateAfterCloseIsFoundThere) {
 
 TEST(ArcosSessionOnP3At, TheRateOfALossyLineIsRaisedOrTheRobotStaysReachable) {
   for (int seed = 0; seed < 20; ++seed) {
-    SessionBench bench(exact_robot(), "pty:robot");
+    P3AtBench bench(exact_robot(), "pty:robot");
     bench.inject(FaultKind::GarbleBytes, 0.0, 0.01);
     bench.run(0.02 * seed);
     bench.start();
@@ -108,7 +108,7 @@ TEST(ArcosSessionOnP3At, ANewCommandDoesNotWaitBehindOldOnes) {
   for (const int baud : kRobotBauds) {
     sim::P3AtSettings settings = exact_robot();
     settings.boot_baud = baud;
-    SessionBench bench(settings, ("pty:robot@" + std::to_string(baud)).c_str());
+    P3AtBench bench(settings, ("pty:robot@" + std::to_string(baud)).c_str());
     bench.start();
     ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
     bench.run(5.0);
@@ -135,7 +135,7 @@ TEST(ArcosSessionOnP3At, ANewCommandDoesNotWaitBehindOldOnes) {
 TEST(ArcosSessionOnP3At, AnOlderModelWithOtherUnitsIsMeasuredRight) {
   sim::P3AtSettings settings = sim::settings_of_model("p3at");
   settings.chassis = exact_robot().chassis;
-  SessionBench bench(settings);
+  P3AtBench bench(settings);
   bench.start();
   ASSERT_TRUE(bench.run_until(LinkPhase::Running, 5.0));
   bench.v_m_s = 0.5;

@@ -20,10 +20,10 @@ inline sim::P3AtSettings exact_robot() {
 }
 
 /// A session and the robot, in lock step.
-class SessionBench {
+class P3AtBench {
  public:
-  explicit SessionBench(const sim::P3AtSettings& settings = exact_robot(),
-                        const char* address = "serial:/dev/ttyS9@9600")
+  explicit P3AtBench(const sim::P3AtSettings& settings = exact_robot(),
+                     const char* address = "serial:/dev/ttyS9@9600")
       : robot(settings, 7), config(make_config(address)), session(config) {}
 
   static RobotConfig make_config(const char* address) {
