@@ -102,8 +102,10 @@ class ChangedSources(unittest.TestCase):
     def test_only_what_changed_is_checked_again(self):
         self.expect("compile-alone", 2, 0, 2)
         self.expect("compile-alone", 2, 2, 0)
+        self.expect("tidy", 1, 0, 1)
         self.write("src/number.h", "#pragma once\ninline int number() { return 2; }\n")
         self.expect("compile-alone", 2, 1, 1)
+        self.expect("tidy", 1, 0, 1)
         self.expect("compile-alone", 2, 2, 0)
 
     def test_other_flags_and_settings_check_all_again(self):
