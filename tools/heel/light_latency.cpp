@@ -41,8 +41,8 @@ class MeasuredVision {
     try {
       const CameraModel camera = read_camera_model(config.camera.info);
       const PictureTurn turn = picture_turn(config.camera.rotate, config.camera.mirror);
-      std::vector<ShirtTemplate> shirts = read_templates(config.target);
-      for (ShirtTemplate& shirt : shirts) shirt = template_for_turned(shirt, camera, turn);
+      const std::vector<ShirtTemplate> shirts =
+          templates_for_turned(read_templates(config.target), camera, turn).shirts;
       stage_.emplace(shirts, turned_camera(camera, turn), config.vision);
     } catch (const Error& error) {
       missing_ = error.what();

@@ -148,8 +148,7 @@ void add_question_options(CLI::App& command, SetupOptions& options) {
       ->type_name("M")
       ->check(metres_from(0.8, 2.3));
   command.add_option("--roi", options.roi, "shirt: the outline, in place of the one proposed")
-      ->delimiter(',')
-      ->expected(4)
+      ->expected(1, 4)
       ->type_name("X,Y,W,H");
   command.add_option("--countdown", options.countdown_s, "shirt: before the pictures are taken, seconds")
       ->type_name("S")

@@ -13,10 +13,10 @@
 #include "files/template_file.h"
 #include "heel/error.h"
 #include "picture.h"
+#include "roi_option.h"
 #include "setup_steps.h"
 #include "sharpest_picture.h"
 #include "teach_reach.h"
-#include "teach_region.h"
 #include "vision/template/turned_template.h"
 
 namespace heel::cli {
@@ -92,15 +92,6 @@ void drive_for_distance(Setup& setup, ShirtTemplate& shirt) {
                                  driven.driven_m, driven.distance_m, driven.sigma_m));
 }
 
-Region parsed_region(const std::string& answer, const CameraModel& camera) {
-  std::vector<int> roi(4);
-  int used = 0;
-  if (std::sscanf(answer.c_str(), "%d,%d,%d,%d%n", &roi[0], &roi[1], &roi[2], &roi[3], &used) != 4 ||
-      used != static_cast<int>(answer.size()))
-    return {};
-  return region_of(roi, camera);
-}
-
 /// Draws the region and lets the person correct it.
 void agree_on_region(Setup& setup, ShirtTemplate& shirt) {
   const std::string file = setup.file.beside("setup-shirt.png");
@@ -115,9 +106,8 @@ void agree_on_region(Setup& setup, ShirtTemplate& shirt) {
       agreed = answer == "yes" || answer == "y";
       if (agreed) return "";
       try {
-        const Region region = parsed_region(answer, shirt.camera);
-        if (region.width_px > 0) shirt.roi = region;
-        return region.width_px > 0 ? "" : "yes or X,Y,W,H";
+        shirt.roi = parse_roi({answer}, shirt.camera);
+        return "";
       } catch (const Error& error) {
         return error.what();
       }
@@ -140,7 +130,7 @@ ShirtTemplate taught_shirt(Setup& setup) {
   const PictureTurn turn = picture_turn(config.camera.rotate, config.camera.mirror);
   ShirtTemplate shirt;
   shirt.camera = turned_camera(read_camera_model(config.camera.info), turn);
-  shirt.turned = turn.any();
+  shirt.upright = true;
   const PersonThere person = ask_for_person(setup);
   count_down(setup.dialogue, setup.options.countdown_s);
   const cv::Mat grey = sharpest_picture(setup);
@@ -150,7 +140,7 @@ ShirtTemplate taught_shirt(Setup& setup) {
   shirt.grey.assign(grey.datastart, grey.dataend);
   shirt.distance_m = person.distance_m;
   shirt.roi = setup.options.roi.empty() ? proposed_back(grey, shirt.camera, config.camera, person.about)
-                                        : region_of(setup.options.roi, shirt.camera);
+                                        : parse_roi(setup.options.roi, shirt.camera);
   if (shirt.roi.width_px == 0)
     throw Error(
         "at this distance the back is not in the picture (expected camera.mount_z_m and "

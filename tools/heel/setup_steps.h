@@ -26,7 +26,7 @@ struct SetupOptions {
   BoardOptions board;
   std::string robot;
   bool wheels_on_blocks = false;
-  std::vector<int> roi;
+  std::vector<std::string> roi;
   double distance_m = 0.0, height_m = 0.0;
   bool drive_back = false;
   double countdown_s = 5.0, reach_time_s = 8.0;

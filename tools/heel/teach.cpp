@@ -22,7 +22,6 @@
 #include "roi_option.h"
 #include "teach_more.h"
 #include "teach_reach.h"
-#include "teach_region.h"
 #include "turn_options.h"
 #include "vision/template/turned_template.h"
 
@@ -124,7 +123,7 @@ ShirtTemplate make_template(const TeachOptions& options) {
                             options.image.empty() ? options.camera_address : options.image, width_px,
                             height_px, shirt.camera.width_px, shirt.camera.height_px, options.camera_file));
   }
-  shirt.roi = region_of(options.roi, shirt.camera);
+  shirt.roi = parse_roi(options.roi, shirt.camera);
   shirt.distance_m = options.distance_m;
   shirt.yaw_rad = options.yaw_deg / kDegPerRad;
   shirt.oriented = options.oriented;
