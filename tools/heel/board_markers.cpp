@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <opencv2/core.hpp>
 #include <vector>
 
 namespace heel::cli {
