@@ -19,7 +19,7 @@ constexpr double kLeastComb = 0.12;
 
 constexpr double kLeastFlicker = 0.03;     // amplitude, of the brightness
 constexpr double kLeastBandedShare = 0.6;  // of what differs between two pictures
-constexpr double kFewestBands = 1.5, kMostBands = 12.0, kBandsStep = 0.5;
+constexpr int kFewestHalfBands = 3, kMostHalfBands = 24;
 constexpr int kFlickeringOf16 = 8;
 constexpr int kCombedOf32 = 6;
 constexpr int kEdgesEvery = 3;
@@ -42,7 +42,8 @@ bool LastingCondition::update(bool raw, TimeNs t_ns) {
 }
 
 FlickerDetector::FlickerDetector() {
-  for (double bands = kFewestBands; bands <= kMostBands; bands += kBandsStep) {
+  for (int half_bands = kFewestHalfBands; half_bands <= kMostHalfBands; ++half_bands) {
+    const double bands = 0.5 * half_bands;
     Bands sine{}, cosine{};
     for (std::size_t i = 0; i < sine.size(); ++i) {
       const double angle =
