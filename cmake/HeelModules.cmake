@@ -8,6 +8,10 @@ function(heel_shared_module target file)
   add_library(${target} MODULE ${ARG_SOURCES})
   target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/include ${CMAKE_SOURCE_DIR}/src)
   target_link_libraries(${target} PRIVATE heel_options fmt::fmt Threads::Threads ${ARG_LIBRARIES})
+  # A source that is missing here shows when it is linked, not when it is loaded. (A sanitizer's symbols are the program's.)
+  if(NOT HEEL_SANITIZE)
+    target_link_options(${target} PRIVATE -Wl,--no-undefined)
+  endif()
   set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME ${file} CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${HEEL_MODULES_FROM_PROGRAMS})
