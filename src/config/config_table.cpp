@@ -183,7 +183,7 @@ const ConfigKey kKeys[] = {
     limit(HEEL_KEY(gate, acceleration_m_s2), "m/s²", {0.05, 5}, Smaller, "Largest increase of speed."),
     limit(HEEL_KEY(gate, deceleration_m_s2), "m/s²", {0.05, 5}, Neither, "Largest decrease of speed, also when braking to rest."),
     limit(HEEL_KEY(gate, separation_m), "m", {0, 5}, Larger, "The robot does not drive nearer to the person than this, measured from the camera to the back."),
-    limit(HEEL_KEY(gate, clearance_m), "m", {0, 2}, Larger, "The robot does not drive nearer than this to an obstacle that its sonars detect, measured from the bumper to the echo."),
+    limit(HEEL_KEY(gate, clearance_m), "m", {0, 2}, Larger, "The robot does not drive nearer than this to an obstacle that its sonars detect in front of its body, measured from the bumper to the echo."),
     limit(HEEL_KEY(gate, yaw_acceleration_rad_s2), "rad/s²", {0.05, 50}, Neither, "Largest change of yaw rate."),
     limit(HEEL_KEY(gate, command_lifetime_s), "s", {0.02, 1}, Smaller, "Time after which a velocity command that was not renewed counts as zero."),
 

@@ -190,9 +190,9 @@ TickRecord ControlStage::tick(const ControlInput& input) {
   copy_verdict(verdict, record);
   if (verdict.enable_motors) impl.brake_monitor.reset();
   record.person_m = impl.person_range_m(record.target);
-  const Clearances clearances{record.person_m,
-                              impl.obstacle_map.obstacles_at(input.now_ns, input.robot.odometry),
-                              impl.brakes_m_s2(input.robot)};
+  Clearances clearances{record.person_m, impl.obstacle_map.obstacles_at(input.now_ns, input.robot.odometry),
+                        impl.brakes_m_s2(input.robot)};
+  if (record.target.known) clearances.obstacles.expect_person({record.target.x_m, record.target.y_m});
   record.planned_deceleration_m_s2 =
       std::min(clearances.deceleration_m_s2, impl.gate_config.deceleration_m_s2);
   record.brakes_are_weaker = impl.brakes_are_weaker(input.robot);

@@ -80,10 +80,13 @@ GateResult apply_gate(const VelocityCommand& wanted, const VelocityCommand& prev
   goal.v_m_s = clamped(goal.v_m_s, -limits.v_max_m_s, person_limit_m_s, kGateSeparation, limited_by);
   // Two arcs must be free: the one to drive, and the one that is driven until the velocity has changed.
   const Velocity now = velocity_at(previous, now_ns, limits);
-  result.free_distance_m =
-      std::min(clearances.obstacles.free_distance_m(on_an_arc(goal.v_m_s), goal.yaw_rate_rad_s),
-               clearances.obstacles.free_distance_m(on_an_arc(now.v_m_s), now.yaw_rate_rad_s));
-  const double obstacle_limit_m_s = approach_limit(result.free_distance_m, limits.clearance_m, brakes_m_s2);
+  const Way wanted_way =
+      clearances.obstacles.way(on_an_arc(goal.v_m_s), goal.yaw_rate_rad_s, limits.clearance_m);
+  const Way present_way =
+      clearances.obstacles.way(on_an_arc(now.v_m_s), now.yaw_rate_rad_s, limits.clearance_m);
+  result.free_distance_m = std::min(wanted_way.free_m, present_way.free_m);
+  const double obstacle_limit_m_s =
+      approach_limit(std::min(wanted_way.room_m, present_way.room_m), 0.0, brakes_m_s2);
   goal.v_m_s = clamped(goal.v_m_s, -obstacle_limit_m_s, obstacle_limit_m_s, kGateObstacle, limited_by);
   const bool obstacle_holds = (limited_by & kGateObstacle) != 0 && obstacle_limit_m_s < kHeld_m_s;
 

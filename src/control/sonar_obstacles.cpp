@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "estimate/odometry_history.h"
 
@@ -10,12 +9,18 @@ namespace heel {
 namespace {
 
 constexpr double kCorridorMargin_m = 0.08;  // free space kept on either side of the robot
-constexpr double kStraight_1_m = 1e-6;      // an arc flatter than this is a line
-
-ObstaclePoint in_robot_frame(const Pose2& sonar, double range_m) {
-  return {sonar.x_m + range_m * std::cos(sonar.heading_rad),
-          sonar.y_m + range_m * std::sin(sonar.heading_rad)};
-}
+// An echo nearer to the robot's way than this may be of something that the robot would meet.
+constexpr double kUncertain_m = 0.5 * kCorridorMargin_m;
+// The room past an echo that is farther: at a quarter of a metre per second with the brakes of a P3-AT.
+constexpr double kPassing_m = 0.04;
+// What moves comes across the robot's way at a walking pace, for as long as it takes until it is heard again
+// and the robot has stopped.
+constexpr double kAcross_m_s = 1.0;
+constexpr double kUntilStopped_s = 0.75;
+// Echoes of the followed person: about as far away as their back, and within the width of a beam of it.
+constexpr double kPersonDepth_m = 0.25;
+constexpr double kPersonBeside_m = 0.6;
+constexpr double kStraight_1_m = 1e-6;  // an arc flatter than this is a line
 
 /// A point relative to the arc that the robot drives: how far along the arc, and how far to its side.
 struct OnArc {
@@ -33,9 +38,19 @@ OnArc on_arc(ObstaclePoint point, double curvature_1_m) {
 
 }  // namespace
 
-double SonarObstacles::free_distance_m(double v_m_s, double yaw_rate_rad_s) const {
-  double free_m = std::numeric_limits<double>::infinity();
-  if (v_m_s == 0.0) return free_m;
+void SonarObstacles::expect_person(ObstaclePoint back) {
+  const double range_m = std::hypot(back.x_m, back.y_m);
+  for (std::size_t i = 0; i < count_; ++i) {
+    ObstaclePoint& point = points_[i];
+    const bool same_range = std::abs(std::hypot(point.x_m, point.y_m) - range_m) < kPersonDepth_m;
+    if (same_range && std::hypot(point.x_m - back.x_m, point.y_m - back.y_m) < kPersonBeside_m)
+      point.reach_m = 0.0;
+  }
+}
+
+Way SonarObstacles::way(double v_m_s, double yaw_rate_rad_s, double clearance_m) const {
+  Way way;
+  if (v_m_s == 0.0) return way;
   const double direction = std::copysign(1.0, v_m_s);
   const double to_bumper_m = direction > 0.0 ? front_m_ : rear_m_;
   for (const ObstaclePoint& point : points()) {
@@ -44,10 +59,19 @@ double SonarObstacles::free_distance_m(double v_m_s, double yaw_rate_rad_s) cons
     const bool beside_body = ahead.x_m < to_bumper_m && std::abs(ahead.y_m) > half_width_m_;
     if (ahead.x_m <= 0.0 || beside_body) continue;
     const OnArc place = on_arc(ahead, yaw_rate_rad_s / v_m_s);
-    if (place.along_m > 0.0 && place.beside_m < half_width_m_ + kCorridorMargin_m)
-      free_m = std::min(free_m, std::max(place.along_m - to_bumper_m, 0.0));
+    const double beside_m = place.beside_m - half_width_m_;
+    const double outside_m = beside_m - kCorridorMargin_m;
+    if (place.along_m <= 0.0 || outside_m >= point.reach_m) continue;
+    const double across_m = std::max(outside_m, 0.0);
+    const double comes_m = std::sqrt(point.reach_m * point.reach_m - across_m * across_m);
+    const double free_m = std::max(place.along_m - comes_m - to_bumper_m, 0.0);
+    const double in_way = 1.0 - std::clamp(beside_m / kUncertain_m, 0.0, 1.0);
+    way.free_m = std::min(way.free_m, free_m);
+    const double passing_m = point.reach_m > 0.0 ? -clearance_m : kPassing_m - in_way * in_way * clearance_m;
+    way.room_m =
+        std::min(way.room_m, std::max(free_m - clearance_m, in_way < 1.0 ? passing_m : -clearance_m));
   }
-  return free_m;
+  return way;
 }
 
 void SonarObstacleMap::update(const RobotState& robot) {
@@ -56,9 +80,16 @@ void SonarObstacleMap::update(const RobotState& robot) {
   for (std::size_t sonar = 0; sonar < kMaxSonars; ++sonar) {
     const SonarEcho& reading = robot.sonar[sonar];
     if (reading.t_ns == echoes_[sonar].t_ns || !robot_.has_sonar(sonar)) continue;
-    const ObstaclePoint point = in_robot_frame(robot_.sonars[sonar], reading.range_m);
-    echoes_[sonar] = {reading.t_ns, pose.x_m + c * point.x_m - s * point.y_m,
-                      pose.y_m + s * point.x_m + c * point.y_m, true};
+    const Pose2& mount = robot_.sonars[sonar];
+    const SonarBeam beam{reading.t_ns,
+                         {pose.x_m + c * mount.x_m - s * mount.y_m, pose.y_m + s * mount.x_m + c * mount.y_m,
+                          pose.heading_rad + mount.heading_rad},
+                         reading.range_m};
+    const double x_m = mount.x_m + reading.range_m * std::cos(mount.heading_rad);
+    const double y_m = mount.y_m + reading.range_m * std::sin(mount.heading_rad);
+    echoes_[sonar] = {reading.t_ns, pose.x_m + c * x_m - s * y_m, pose.y_m + s * x_m + c * y_m, true,
+                      beams_.has_come(beam)};
+    beams_.add(beam);
   }
 }
 
@@ -69,7 +100,8 @@ SonarObstacles SonarObstacleMap::obstacles_at(TimeNs now_ns, const Odometry& new
   for (const Echo& echo : echoes_) {
     if (!echo.known || now_ns - echo.t_ns > kKept_ns) continue;
     const double dx_m = echo.x_m - pose.x_m, dy_m = echo.y_m - pose.y_m;
-    obstacles.add({c * dx_m + s * dy_m, c * dy_m - s * dx_m});
+    obstacles.add(
+        {c * dx_m + s * dy_m, c * dy_m - s * dx_m, echo.has_come ? kAcross_m_s * kUntilStopped_s : 0.0});
   }
   return obstacles;
 }

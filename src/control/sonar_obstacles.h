@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 
+#include "control/sonar_beams.h"
 #include "core/robot_geometry.h"
 #include "heel/flow.h"
 
@@ -15,6 +17,15 @@ namespace heel {
 struct ObstaclePoint {
   double x_m = 0.0;
   double y_m = 0.0;
+  double reach_m = 0.0;  ///< how far it may come until the robot has stopped; 0: it stands
+};
+
+/// The way ahead; infinite when nothing is in it or the robot does not drive.
+struct Way {
+  double free_m = std::numeric_limits<double>::infinity();  ///< from the bumper to the first obstacle
+  /// How far the robot may drive until it has the clearance to what is in the way; negative: it is too near.
+  /// What is only within the free space kept beside the body would not be met: the robot passes it slowly.
+  double room_m = std::numeric_limits<double>::infinity();
 };
 
 /// The obstacles around the robot at one moment: at most one point a sonar. Does not allocate.
@@ -25,12 +36,13 @@ class SonarObstacles {
       : front_m_(robot.front_m), rear_m_(robot.rear_m), half_width_m_(robot.half_width_m) {}
 
   void add(ObstaclePoint point) { points_[count_++] = point; }
+  /// The followed person moves, too, but away: what is heard at `back` is not expected to come.
+  void expect_person(ObstaclePoint back);
   double half_width_m() const { return half_width_m_; }  ///< of the robot
   std::span<const ObstaclePoint> points() const { return {points_.data(), count_}; }
 
-  /// Metres from the bumper to the first obstacle, for a robot that keeps `v_m_s` (negative: backwards) and
-  /// `yaw_rate_rad_s`; infinite when none is in the way or the robot does not drive.
-  double free_distance_m(double v_m_s, double yaw_rate_rad_s) const;
+  /// For a robot that keeps `v_m_s` (negative: backwards) and `yaw_rate_rad_s`.
+  Way way(double v_m_s, double yaw_rate_rad_s, double clearance_m) const;
 
  private:
   double front_m_;
@@ -59,6 +71,7 @@ class SonarObstacleMap {
   void update(const RobotState& robot);
   /// Discards every reading, also those that the robot's state repeats until its sonars are read again.
   void clear() {
+    beams_.clear();
     for (Echo& echo : echoes_) echo.known = false;
   }
   /// The obstacles in the robot frame at `now_ns`. Since `newest` the robot is taken to have kept its speed
@@ -71,9 +84,11 @@ class SonarObstacleMap {
     TimeNs t_ns = 0;  // of the newest reading
     double x_m = 0.0, y_m = 0.0;
     bool known = false;
+    bool has_come = false;  // something that moves
   };
   RobotGeometry robot_;
   std::array<Echo, kMaxSonars> echoes_{};
+  SonarBeams beams_;
 };
 
 }  // namespace heel

@@ -159,7 +159,8 @@ WantedVelocity TrailLaw::velocity(const FollowInput& input) {
       odometry.v_m_s + std::clamp(v_m_s - odometry.v_m_s, -kAnticipated_m_s, kAnticipated_m_s);
   const double on_trail_rad_s = yaw_rate_rad_s(robot, driven_m_s, control_.beside_m);
   const bool blocked =
-      v_m_s > 0.0 && input.obstacles.free_distance_m(v_m_s, on_trail_rad_s) < braking_m(v_m_s) + kNotice_m;
+      v_m_s > 0.0 && input.obstacles.way(v_m_s, on_trail_rad_s, control_.clearance_m).room_m <
+                         v_m_s * v_m_s / control_.deceleration_m_s2 + kNotice_m;
   const double offset_m =
       control_.beside_m + detour_.offset_m(trail_, robot_s_m_, now, input.obstacles, blocked, input.now_ns);
   const YawRateBounds bounds =
@@ -167,11 +168,6 @@ WantedVelocity TrailLaw::velocity(const FollowInput& input) {
                   control_.bearing_max_rad, control_.bearing_1_s);
   const double yaw_rate = yaw_rate_rad_s(robot, driven_m_s, offset_m);
   return {v_m_s, std::clamp(yaw_rate, bounds.least_rad_s, bounds.most_rad_s)};
-}
-
-/// The distance to an obstacle at which the gate begins to brake.
-double TrailLaw::braking_m(double v_m_s) const {
-  return control_.clearance_m + v_m_s * v_m_s / control_.deceleration_m_s2;
 }
 
 WantedVelocity TrailLaw::search(const FollowInput& input, const Pose2& robot) {

@@ -66,7 +66,6 @@ class TrailLaw final : public FollowLaw {
   double speed_m_s(const FollowInput& input) const;
   double yaw_rate_rad_s(const Pose2& robot, double v_m_s, double offset_m) const;
   double beside_m(const Pose2& robot) const;
-  double braking_m(double v_m_s) const;
   WantedVelocity search(const FollowInput& input, const Pose2& robot);
 
   Gains control_;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "control/following.h"
 #include "control/law_names.h"
 #include "core/angles.h"
@@ -121,6 +123,19 @@ TEST(ControlStage, StopsBeforeAnObstacle) {
   EXPECT_TRUE(run.record.command.limited_by & kGateObstacle);
   // The sonar sits 68 mm behind the bumper and looks 10° to the side.
   EXPECT_NEAR(run.ahead_m * std::cos(0.1745) - 0.068, run.config.gate.clearance_m, 0.07);
+}
+
+TEST(ControlStage, SomebodyWhoComesIsExpectedToComeOnButNotTheFollowedPerson) {
+  const auto expected_m = [](double before_person_m) {
+    Following run;
+    run.run(3.0);
+    run.ahead_m = run.record.target.x_m - before_person_m - 0.25;
+    run.run(0.1);  // the sonars are read once
+    // The echo is 10° to the side of a sonar that sits 68 mm behind the bumper.
+    return run.ahead_m * std::cos(10 * kRadPerDeg) - 0.068 - run.record.free_distance_m;
+  };
+  EXPECT_LT(expected_m(0.0), 0.1);
+  EXPECT_NEAR(expected_m(0.5), 0.75, 0.1);
 }
 
 TEST(ControlStage, UsesTheOutlineAndSonarsOfTheRobotThatAnswers) {

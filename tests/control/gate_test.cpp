@@ -69,6 +69,28 @@ TEST(Gate, NamesWhatHoldsTheRobot) {
   EXPECT_EQ(hold(0.0, 0.0, obstacle(near_m - 0.05, 0.0)), Hold::None) << "the law wants to stand";
 }
 
+TEST(Gate, StopsForSomebodyWhoComesFromTheSideAndPassesAPoleThere) {
+  const auto passed_m_s = [](double reach_m) {
+    Clearances clearances = free_space();
+    clearances.obstacles.add({1.2, 0.8, reach_m});
+    return pass(command(0.5, 0.0), command(0.5, 0.0, kNow_ns - kTick_ns), StopStyle::Go, clearances);
+  };
+  EXPECT_EQ(passed_m_s(0.0).v_m_s, 0.5);
+  EXPECT_NEAR(passed_m_s(0.9).v_m_s, 0.5 - kLimits.deceleration_m_s2 * kTick_s, 1e-9);
+  EXPECT_NE(passed_m_s(0.9).limited_by & kGateObstacle, 0);
+}
+
+TEST(Gate, DrivesPastAPostThatIsOnlyInWhatIsKeptFreeBesideTheRobot) {
+  const double near_m = robot_models()[0].geometry.front_m + 0.2;
+  const auto slowed = [&](double y_m) {
+    return pass(command(0.2, 0.0), command(0.2, 0.0, kNow_ns - kTick_ns), StopStyle::Go,
+                obstacle(near_m, y_m))
+               .v_m_s < 0.2;
+  };
+  EXPECT_TRUE(slowed(0.2));
+  EXPECT_FALSE(slowed(0.31));
+}
+
 TEST(Gate, LimitsTheSpeedAndSetsTheBit) {
   const double v_m_s = kLimits.v_max_m_s, yaw_rate_rad_s = -kLimits.yaw_rate_max_rad_s;
   const auto out = pass(command(9, -9), command(v_m_s, yaw_rate_rad_s, kNow_ns - kTick_ns));

@@ -34,8 +34,13 @@ constexpr std::array kFigures{
     RunFigure{"found_again_longest_s",
               [](const FollowMetrics& m) { return m.following.found_again_s.highest; }},
     RunFigure{"settled_s", [](const FollowMetrics& m) { return m.following.settled_s; }},
+    RunFigure{"settled_walking_s", [](const FollowMetrics& m) { return m.following.settled_walking_s; }},
     RunFigure{"overshoot_share", [](const FollowMetrics& m) { return m.following.overshoot_share; }},
     RunFigure{"contacts", [](const FollowMetrics& m) { return static_cast<double>(m.following.contacts); }},
+    RunFigure{"contacts_moving",
+              [](const FollowMetrics& m) {
+                return static_cast<double>(m.following.contacts - m.following.contacts_at_rest);
+              }},
     RunFigure{"followed_to_end",
               [](const FollowMetrics& m) { return m.following.followed_to_end ? 1.0 : 0.0; }},
     RunFigure{"separation_mean_m", [](const FollowMetrics& m) { return m.separation_m.mean; }},

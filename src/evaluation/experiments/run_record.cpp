@@ -36,6 +36,8 @@ MotionSample motion_sample(const sim::LockstepTruth& truth) {
   sample.back_y_m = truth.world.back_m.y();
   sample.back_yaw_rad = truth.world.yaw_rad;
   sample.touching = truth.robot.bumpers_front != 0 || truth.robot.bumpers_rear != 0;
+  sample.robot_v_m_s = truth.robot.v_m_s;
+  sample.robot_yaw_rate_rad_s = truth.robot.yaw_rate_rad_s;
   return sample;
 }
 

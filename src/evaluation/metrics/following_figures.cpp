@@ -116,7 +116,7 @@ void measure_step(const std::vector<MotionSample>& motion, const WalkTimes& walk
   const double first_m = place_on_path(path, motion.front().robot, 0).lateral_m;
   out.has_step = std::abs(first_m) >= kStep_m;
   if (!out.has_step) return;
-  double t_moved_s = -1.0, beyond_m = 0.0;
+  double t_moved_s = -1.0, t_off_s = -1.0, beyond_m = 0.0;
   for (const MotionSample& sample : motion) {
     if (sample.t_s > walk.end_s) break;
     const PathPlace place = place_on_path(path, sample.robot, near);
@@ -128,11 +128,19 @@ void measure_step(const std::vector<MotionSample>& motion, const WalkTimes& walk
     const Pose2 &a = path[near], &b = path[near + 1];
     const double off_rad =
         wrap_angle_rad(sample.robot.heading_rad - std::atan2(b.y_m - a.y_m, b.x_m - a.x_m));
-    if (std::abs(place.lateral_m) > kSettled_m || std::abs(off_rad) > kSettled_rad)
-      out.settled_s = sample.t_s - t_moved_s;
+    if (std::abs(place.lateral_m) > kSettled_m || std::abs(off_rad) > kSettled_rad) t_off_s = sample.t_s;
     beyond_m = std::max(beyond_m, -std::copysign(1.0, first_m) * place.lateral_m);
   }
+  out.settled_s = std::max(t_off_s - t_moved_s, 0.0);
+  out.settled_walking_s = std::max(t_off_s - std::max(t_moved_s, walk.begin_s), 0.0);
   out.overshoot_share = beyond_m / std::abs(first_m);
+}
+
+/// Of the bumper's end that is faster.
+double bumper_speed_m_s(const MotionSample& sample) {
+  constexpr double kBumper_m = 0.31, kHalfWidth_m = 0.25;
+  const double turns_rad_s = std::abs(sample.robot_yaw_rate_rad_s);
+  return std::hypot(std::abs(sample.robot_v_m_s) + kHalfWidth_m * turns_rad_s, kBumper_m * turns_rad_s);
 }
 
 void measure_view(const std::vector<MotionSample>& motion, const WalkTimes& walk,
@@ -141,7 +149,12 @@ void measure_view(const std::vector<MotionSample>& motion, const WalkTimes& walk
   bool near_before = false, touching_before = false;
   for (const MotionSample& sample : motion) {
     if (sample.t_s < walk.begin_s || sample.t_s > walk.end_s) continue;
-    if (sample.touching && !touching_before) ++out.contacts;
+    if (sample.touching && !touching_before) {
+      const double speed_m_s = bumper_speed_m_s(sample);
+      ++out.contacts;
+      if (speed_m_s < kAtRest_m_s) ++out.contacts_at_rest;
+      out.contact_m_s = std::max(out.contact_m_s, speed_m_s);
+    }
     touching_before = sample.touching;
     if (!sample.has_back) continue;
     ++all;
@@ -236,8 +249,11 @@ nlohmann::ordered_json to_json(const FollowingFigures& f) {
           {"found_again_s", to_json(f.found_again_s)},
           {"has_step", f.has_step},
           {"settled_s", f.settled_s},
+          {"settled_walking_s", f.settled_walking_s},
           {"overshoot_share", f.overshoot_share},
           {"contacts", f.contacts},
+          {"contacts_at_rest", f.contacts_at_rest},
+          {"contact_m_s", f.contact_m_s},
           {"followed_to_end", f.followed_to_end}};
 }
 

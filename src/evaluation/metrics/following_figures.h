@@ -37,8 +37,11 @@ struct FollowingFigures {
   /// kSettled_m and kSettled_rad of the path, and the largest offset to the other side over the first one.
   bool has_step = false;
   double settled_s = 0.0;
+  double settled_walking_s = 0.0;  ///< the same, from the person's first step if that is later
   double overshoot_share = 0.0;
   int contacts = 0;              ///< how often a bumper was pressed
+  int contacts_at_rest = 0;      ///< of them: by somebody who walked into a robot at rest
+  double contact_m_s = 0.0;      ///< the largest speed of the robot's bumpers when one was pressed
   bool followed_to_end = false;  ///< at the last step: following, and at most kLeftBehind_m too far behind
 };
 
@@ -48,6 +51,7 @@ inline constexpr double kStep_m = 0.2;
 inline constexpr double kSettled_m = 0.05;
 inline constexpr double kSettled_rad = std::numbers::pi / 36.0;
 inline constexpr double kHidden_s = 0.4;
+inline constexpr double kAtRest_m_s = 0.01;
 inline constexpr double kLeftBehind_m = 1.0;
 
 FollowingFigures following_figures(const std::vector<MotionSample>& motion,

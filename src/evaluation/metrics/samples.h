@@ -24,6 +24,7 @@ struct MotionSample {
   double back_x_m = 0.0, back_y_m = 0.0;  ///< middle of the back
   double back_yaw_rad = 0.0;              ///< against the camera, as PoseEstimate::yaw_rad
   bool touching = false;                  ///< a bumper is pressed
+  double robot_v_m_s = 0.0, robot_yaw_rate_rad_s = 0.0;
 };
 
 /// One frame: vision's estimate and the truth.

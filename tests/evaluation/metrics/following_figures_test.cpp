@@ -115,6 +115,19 @@ TEST(FollowingFigures, ViewContactsAndTheTimeUntilFoundAgain) {
   EXPECT_EQ(f.contacts, 1);
 }
 
+TEST(FollowingFigures, ContactsOfARobotAtRestAreCountedApart) {
+  WalkInLine run;
+  for (const std::size_t begin : {300, 500, 700})
+    for (std::size_t i = begin; i < begin + 10; ++i) run.motion[i].touching = true;
+  run.motion[300].robot_v_m_s = 0.2;
+  run.motion[700].robot_yaw_rate_rad_s = -0.5;
+  for (std::size_t i = 501; i < 510; ++i) run.motion[i].robot_v_m_s = -0.6;  // after the contact
+  const FollowingFigures f = run.figures();
+  EXPECT_EQ(f.contacts, 3);
+  EXPECT_EQ(f.contacts_at_rest, 1);
+  EXPECT_NEAR(f.contact_m_s, 0.2, 0.001);
+}
+
 TEST(FollowingFigures, AStepSettlesAndOvershoots) {
   WalkInLine run;
   EXPECT_FALSE(run.figures().has_step);
@@ -127,7 +140,23 @@ TEST(FollowingFigures, AStepSettlesAndOvershoots) {
   const FollowingFigures f = run.figures();
   ASSERT_TRUE(f.has_step);
   EXPECT_NEAR(f.settled_s, 3.5, 0.05);
+  EXPECT_NEAR(f.settled_walking_s, 3.5, 0.05) << "the person walks already";
   EXPECT_NEAR(f.overshoot_share, 0.2, 0.01);
+}
+
+TEST(FollowingFigures, AStepThatBeginsWhileThePersonStandsCountsFromTheirFirstStep) {
+  WalkInLine run;
+  for (MotionSample& sample : run.motion) {
+    // The robot moves from the start, the person from the second second on; on the line after 5 s.
+    const double walked_m = 0.5 * std::max(sample.t_s - 2.0, 0.0);
+    sample.person = {walked_m, 0.0, 0.0};
+    sample.person_speed_m_s = walked_m > 0.0 ? 0.5 : 0.0;
+    sample.robot = {-3.0 + 0.1 * sample.t_s, 0.5 - 0.1 * std::min(sample.t_s, 5.0), 0.0};
+  }
+  const FollowingFigures f = run.figures();
+  ASSERT_TRUE(f.has_step);
+  EXPECT_NEAR(f.settled_s, 4.4, 0.05);
+  EXPECT_NEAR(f.settled_walking_s, 2.5, 0.05);
 }
 
 TEST(FollowingFigures, WithoutSamplesThereAreNone) {
