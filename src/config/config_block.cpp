@@ -36,7 +36,7 @@ std::vector<ConfigChange> take_block(std::string& text, const std::string& file)
                             line_number(text, begin), kBlockBegin, kBlockEnd));
   std::string without = text;
   without.erase(begin, next_line(text, last) - begin);
-  const std::vector<ConfigChange> values =
+  std::vector<ConfigChange> values =
       changes_between(parse_config(without, file).config, parse_config(text, file).config);
   text = without;
   return values;

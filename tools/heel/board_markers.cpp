@@ -18,8 +18,9 @@ constexpr std::size_t kColours = 2;
 std::vector<double> values_in(const cv::Mat& grey, const std::array<cv::Point2f, 4>& corners_px) {
   std::vector<double> values;
   for (int i = 0; i < kSamples * kSamples; ++i) {
-    const float u = 0.5f + kInner * (static_cast<float>(i % kSamples) / (kSamples - 1) - 0.5f);
-    const float v = 0.5f + kInner * (static_cast<float>(i / kSamples) / (kSamples - 1) - 0.5f);
+    const int column = i % kSamples, row = i / kSamples;
+    const float u = 0.5f + kInner * (static_cast<float>(column) / (kSamples - 1) - 0.5f);
+    const float v = 0.5f + kInner * (static_cast<float>(row) / (kSamples - 1) - 0.5f);
     const cv::Point2f above = corners_px[0] * (1 - u) + corners_px[1] * u,
                       below = corners_px[2] * (1 - u) + corners_px[3] * u;
     const cv::Point at = above * (1 - v) + below * v;

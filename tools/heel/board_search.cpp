@@ -103,6 +103,7 @@ BoardViews find_board(const std::vector<std::string>& images, const Board& board
     }
   };
   std::vector<std::future<Searched>> results;
+  results.reserve(promises.size());
   for (std::promise<Searched>& promise : promises) results.push_back(promise.get_future());
   std::vector<std::future<void>> workers;  // destroyed first: their destructors wait
   for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
