@@ -53,8 +53,7 @@ std::string BoardImages::new_folder_for(const std::string& video) {
     if (mkdtemp(name.data()) == nullptr) throw Error(name + ": cannot make such a folder");
     folder_ = name;
   }
-  std::string folder =
-      fmt::format("{}/{}/{}", folder_, files_.size(), fs::path(video).filename().string());
+  std::string folder = fmt::format("{}/{}/{}", folder_, files_.size(), fs::path(video).filename().string());
   fs::create_directories(folder);
   return folder;
 }
