@@ -25,7 +25,7 @@ struct SonarBeam {
 /// A ring of the newest readings of all sonars. Does not allocate.
 class SonarBeams {
  public:
-  void clear() { size_ = 0; }
+  void clear() { size_ = next_ = 0; }
   void add(const SonarBeam& beam);
   /// Whether the echo of `beam` is from something that was not there before. Compares it with the readings
   /// so far: call it before adding it.

@@ -38,6 +38,19 @@ TEST(SonarBeams, WhatMayHaveBeenThereHasNot) {
   EXPECT_FALSE(heard(5.0).has_come(beam(0.0, 3.0, kNow_ns))) << "far away";
 }
 
+TEST(SonarBeams, WhatWasHeardBeforeItWasClearedDoesNotCount) {
+  SonarBeams beams = heard(5.0);
+  beams.clear();
+  EXPECT_FALSE(beams.has_come(beam(0.0, 1.0, kNow_ns)));
+  for (std::size_t number = 1; number <= 5; ++number)
+    beams.add(beam(0.35 * (static_cast<double>(number) - 3.0), 1.0, kNow_ns - kSweep_ns));
+  EXPECT_FALSE(beams.has_come(beam(0.0, 1.0, kNow_ns))) << "it was there in every beam since";
+  beams.clear();
+  for (std::size_t number = 1; number <= 5; ++number)
+    beams.add(beam(0.35 * (static_cast<double>(number) - 3.0), 5.0, kNow_ns - kSweep_ns));
+  EXPECT_TRUE(beams.has_come(beam(0.0, 1.0, kNow_ns)));
+}
+
 TEST(SonarBeams, AWallThatTheRobotApproachesHasNotCome) {
   SonarBeams beams;
   for (double x_m = 0.0; x_m < 2.0; x_m += 0.02) {

@@ -37,6 +37,7 @@ double drive_back(const Config& config) {
   const auto far_enough = [&] {
     return touched() || driven_between(before, link.state().odometry) >= kBack_m;
   };
+  if (touched()) throw Error("a bumper is pressed or a wheel is stalled: nothing was moved");
   link.run(-kBackwards_m_s, 0.0, kLongestDrive_ns, far_enough);
   const bool was_touched = touched();
   link.run(0.0, 0.0, kToRest_ns, [] { return false; });

@@ -58,19 +58,26 @@ class TerminalLamp final : public Lamp {
   OpenFile terminal_;
 };
 
-std::string first_word(const std::string& path, const std::string& otherwise) {
+/// The number that is all the file holds. Throws heel::Error where it holds something else.
+std::string number_in(const std::string& path) {
   std::ifstream in(path);
-  std::string word;
-  return in >> word ? word : otherwise;
+  std::string number, more;
+  in >> number;
+  if (number.empty() || number.find_first_not_of("0123456789") != std::string::npos || in >> more)
+    throw Error(path +
+                ": holds no number (expected a light's file, such as /sys/class/leds/NAME/brightness)");
+  return number;
+}
+
+std::string brightest_of(const std::string& path) {
+  const std::string file = std::filesystem::path(path).replace_filename("max_brightness").string();
+  return std::filesystem::exists(file) ? number_in(file) : "1";
 }
 
 class FileLamp final : public Lamp {
  public:
   explicit FileLamp(const std::string& path)
-      : path_(path),
-        before_(first_word(path, "0")),
-        lit_(first_word(std::filesystem::path(path).replace_filename("max_brightness"), "1")),
-        file_(path, O_WRONLY) {}
+      : path_(path), file_(path, O_WRONLY), before_(number_in(path)), lit_(brightest_of(path)) {}
   ~FileLamp() override {
     try {
       write(before_);
@@ -86,8 +93,9 @@ class FileLamp final : public Lamp {
     write_whole(file_.fd(), number + "\n", path_);
   }
 
-  std::string path_, before_, lit_;
+  std::string path_;
   OpenFile file_;
+  std::string before_, lit_;
 };
 
 }  // namespace

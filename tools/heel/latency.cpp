@@ -24,7 +24,7 @@ using evaluation::LatencyFigures;
 using evaluation::LatencyHop;
 using LatencyJson = nlohmann::ordered_json;
 
-constexpr int kFewestSwitches = 4, kMostSwitches = 1000;
+constexpr int kFewestSwitches = 16, kMostSwitches = 1000;
 
 struct LatencyOptions {
   std::string recording;

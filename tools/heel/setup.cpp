@@ -138,12 +138,14 @@ void add_question_options(CLI::App& command, SetupOptions& options) {
       ->type_name("ADDRESS");
   command.add_flag("--wheels-on-blocks", options.wheels_on_blocks,
                    "wheels: they are off the floor and may turn");
-  command.add_option("--distance", options.distance_m, "shirt: from the camera to the back, metres")
-      ->type_name("M")
-      ->check(metres_from(0.3, 10.0));
-  command.add_flag(
-      "--drive-back", options.drive_back,
-      "shirt: in place of --distance the robot measures it, and drives half a metre back for it");
+  CLI::Option* distance =
+      command.add_option("--distance", options.distance_m, "shirt: from the camera to the back, metres")
+          ->type_name("M")
+          ->check(metres_from(0.3, 10.0));
+  command
+      .add_flag("--drive-back", options.drive_back,
+                "shirt: in place of --distance the robot measures it, and drives half a metre back for it")
+      ->excludes(distance);
   command.add_option("--height", options.height_m, "shirt: of the person, metres, to propose the outline")
       ->type_name("M")
       ->check(metres_from(0.8, 2.3));

@@ -122,6 +122,19 @@ class LiveCalibration {
   std::optional<BoardSeen> said_;
 };
 
+/// Where a new calibration goes: the configured file, unless it is somebody's own in another folder.
+std::string file_of_calibration(Setup& setup) {
+  Config wanted = setup.file.config();
+  const std::string beside = setup.file.beside(std::filesystem::path(wanted.camera.info).filename().string());
+  std::error_code ignored;
+  if (!std::filesystem::exists(wanted.camera.info, ignored) ||
+      std::filesystem::equivalent(wanted.camera.info, beside, ignored))
+    return wanted.camera.info;
+  wanted.camera.info = std::filesystem::absolute(beside).lexically_normal().string();
+  setup.file.write(wanted);
+  return wanted.camera.info;
+}
+
 PreflightStep live_calibration(Setup& setup, const Board& board) {
   PreflightStep step{.name = "calibration"};
   try {
@@ -131,8 +144,7 @@ PreflightStep live_calibration(Setup& setup, const Board& board) {
         "still for a moment in each place.");
     LiveCalibration live(setup, board);
     const Calibration result = live.run();
-    const std::string& file = setup.file.config().camera.info;
-    write_camera_model(result.camera, file);
+    write_camera_model(result.camera, file_of_calibration(setup));
     step = check_calibration(setup.file.config());
     step.measured += fmt::format("; {:.2f} px over {} views", result.rms_px, live.views());
     step.values["rms_px"] = result.rms_px;

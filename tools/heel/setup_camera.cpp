@@ -94,8 +94,8 @@ void make_upright(Setup& setup, const cv::Mat& as_sent, CameraConfig& camera) {
   };
   const TurnOptions& turn = setup.options.turn;
   if (turn.rotate || turn.mirror) {
-    camera.rotate = turn.rotate.value_or(0);
-    camera.mirror = turn.mirror;
+    camera.rotate = turn.rotate.value_or(camera.rotate);
+    camera.mirror = turn.mirror || camera.mirror;
     save();
     return;
   }

@@ -3,11 +3,15 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 #include "back_outline.h"
 #include "camera_look.h"
 #include "distance_by_driving.h"
+#include "files/atomic_file.h"
 #include "files/camera_info.h"
 #include "files/image_file.h"
 #include "files/template_file.h"
@@ -78,7 +82,7 @@ PersonThere ask_for_person(Setup& setup) {
 /// The distance by the robot itself. Throws heel::Error, also without consent.
 void drive_for_distance(Setup& setup, ShirtTemplate& shirt) {
   const bool consented =
-      setup.options.drive_back ||
+      std::exchange(setup.drive_back_consented, false) ||
       setup.dialogue.consents(
           "The robot drives half a metre back now, slowly. If a metre behind it is free, nobody is there, a "
           "hand "
@@ -174,6 +178,12 @@ PreflightStep judged_step(Setup& setup, const ShirtTemplate& shirt) {
   return step;
 }
 
+/// Of the file; empty where there is none.
+std::string bytes_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 }  // namespace
 
 PreflightStep set_up_shirt(Setup& setup) {
@@ -192,8 +202,14 @@ PreflightStep set_up_shirt(Setup& setup) {
       return step.fail(fmt::format("{} features in the outline: {}", verdict.features, verdict.reason),
                        "another shirt (docs/shirts.md), or an outline that fits better: --roi");
     if (shirt.distance_m == 0.0) drive_for_distance(setup, shirt);
+    const std::string before = bytes_of(file);
     write_template(shirt, file);
-    return judged_step(setup, shirt);
+    step = judged_step(setup, shirt);
+    if (step.verdict != StepVerdict::Pass && !before.empty()) {
+      write_file_atomically(file, before);
+      step.measured += "; the shirt taught before is kept";
+    }
+    return step;
   } catch (const Error& error) {
     return step.fail(error.what(), advice_on(error.what(), "pass the steps before this one first"));
   }

@@ -39,6 +39,7 @@ struct Setup {
   const SetupOptions& options;
   SetupFile& file;
   Dialogue& dialogue;
+  bool drive_back_consented = options.drive_back;  ///< to one drive: each further one is asked for
 };
 
 /// The metres that the person has typed; 0 when they are none from `least` to `most`.

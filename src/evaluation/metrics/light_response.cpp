@@ -15,7 +15,8 @@ constexpr double kSettledShare = 0.4;  // of the time between two switches, at i
 // differ.
 constexpr double kLeastContrast = 8.0;
 constexpr double kLeastDeviations = 4.0;
-constexpr double kShown = 0.5;  // share of the change
+constexpr std::size_t kLeastTiles = 4;  // fewer are chance: there are 768
+constexpr double kShown = 0.5;          // share of the change
 
 /// The frames between a switch and the next one: [first, last).
 struct Interval {
@@ -65,7 +66,7 @@ struct Settled {
     const double centre = mean(tile);
     double sum = 0.0;
     for (const TileLevels& of : means) sum += std::pow(static_cast<double>(of[tile]) - centre, 2);
-    return sum / static_cast<double>(means.size());
+    return sum / std::max(1.0, static_cast<double>(means.size()) - 1.0);
   }
 };
 
@@ -86,12 +87,13 @@ std::vector<LitTile> lit_tiles(const Settled& on, const Settled& off) {
     if (contrast >= kLeastContrast && contrast >= kLeastDeviations * deviation)
       lit.push_back({i, off.mean(i), contrast});
   }
-  if (lit.empty())
+  if (lit.size() < kLeastTiles)
     throw Error(
-        fmt::format("the light: no part of the picture follows it (the largest change is {:.1f} of 255; "
+        fmt::format("the light: no part of the picture follows it ({} of {} tiles do; the largest change is "
+                    "{:.1f} of 255; "
                     "expected {:g}): "
                     "point the camera at it, nearer, and darken the room",
-                    largest, kLeastContrast));
+                    lit.size(), TileLevels{}.size(), largest, kLeastContrast));
   return lit;
 }
 

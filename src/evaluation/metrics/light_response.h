@@ -41,9 +41,9 @@ struct LightResponse {
   std::vector<LightSeen> seen{};
 };
 
-/// Frames and switches in the order of time. Throws heel::Error when no tile follows the light, or no frame
-/// shows it switched off or on for long enough: by the last two fifths of the time between two switches the
-/// picture must have settled.
+/// Frames and switches in the order of time. Throws heel::Error when fewer than four tiles follow the light,
+/// or no frame shows it switched off or on for long enough: by the last two fifths of the time between two
+/// switches the picture must have settled.
 LightResponse light_response(std::span<const LightFrame> frames, std::span<const LightSwitch> switches);
 
 }  // namespace heel::evaluation

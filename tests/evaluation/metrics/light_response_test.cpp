@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/random.h"
 #include "heel/error.h"
 #include "support/complaint.h"
@@ -90,6 +92,24 @@ TEST(LightResponse, ALightThatTheCameraDoesNotShowIsRefused) {
   MadeCamera noisy{.contrast = 20.0, .noise = 40.0};
   noisy.run(20);
   EXPECT_THROW(light_response(noisy.frames, noisy.switches), Error);
+}
+
+/// Things that move in the picture, brighter and darker at their own times.
+TEST(LightResponse, WhatChangesByItselfIsNoLight) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    MadeCamera camera{.contrast = 0.0};
+    camera.run(16);
+    Random random(seed);
+    for (std::size_t things = 0; things < 40; ++things) {
+      const std::size_t first = static_cast<std::size_t>(random.index(700));
+      const double period_s = random.uniform(0.8, 6.0), phase = random.uniform(0.0, 6.3);
+      for (LightFrame& frame : camera.frames)
+        for (std::size_t tile = first; tile < first + 8; ++tile)
+          frame.tiles[tile] += static_cast<float>(
+              25.0 * std::sin(phase + 6.283 * seconds_from_ns(frame.t_capture_ns) / period_s));
+    }
+    EXPECT_THROW(light_response(camera.frames, camera.switches), Error) << seed;
+  }
 }
 
 TEST(LightResponse, WithoutFramesNothingIsSeen) {
