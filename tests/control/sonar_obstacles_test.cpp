@@ -258,8 +258,8 @@ TEST(SonarObstacleMap, APoleThatTheRobotDrivesPastIsNotExpectedToCome) {
   int heard = 0;
   for (int i = 0; i < 100; ++i) {
     past.sweep(1, 0.5, 2.2, [](double) { return 0.7; });
-    for (const ObstaclePoint& point :
-         past.map.obstacles_at(past.robot.odometry.t_ns, past.robot.odometry).points()) {
+    const SonarObstacles obstacles = past.map.obstacles_at(past.robot.odometry.t_ns, past.robot.odometry);
+    for (const ObstaclePoint& point : obstacles.points()) {
       EXPECT_EQ(point.reach_m, 0.0) << i << ": " << point.x_m << ", " << point.y_m;
       heard += std::hypot(point.x_m, point.y_m) < 2.5;
     }

@@ -75,11 +75,12 @@ Setup load_setup(const PoseOptions& options) {
     setup.target.shirt = options.template_files.front();
     setup.target.more_shirts.assign(options.template_files.begin() + 1, options.template_files.end());
   }
+  const std::vector<ShirtTemplate> shirts = read_templates(setup.target);
   setup.camera_file = options.camera_file.empty() ? config.camera.info : options.camera_file;
   setup.sent_camera = read_camera_model(setup.camera_file);
   setup.turn = turn_of(options.turn, config.camera);
   setup.camera = turned_camera(setup.sent_camera, setup.turn);
-  setup.templates = templates_for_turned(read_templates(setup.target), setup.sent_camera, setup.turn);
+  setup.templates = templates_for_turned(shirts, setup.sent_camera, setup.turn);
   for (ShirtTemplate& shirt : setup.templates.shirts) shirt.oriented = shirt.oriented || options.oriented;
   setup.image_rate_hz = options.rate_hz.value_or(config.camera.rate_hz);
   setup.vision = config.vision;

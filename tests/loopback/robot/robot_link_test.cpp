@@ -220,12 +220,19 @@ class UnreadPty {
   std::vector<std::uint8_t> carried_;
 };
 
-TEST(RobotLinkOverPty, ALineThatTakesNothingForASecondIsLost) {
+/// No robot answered on it: it ends, and is not called lost.
+TEST(RobotLinkOverPty, ALineThatTakesNothingForASecondEnds) {
   UnreadPty pty;
   LinkBench bench(pty.address());
   ASSERT_TRUE(bench.run_until(LinkPhase::Syncing));
   pty.fill();
-  EXPECT_TRUE(bench.run_until(LinkPhase::Lost));
+  std::vector<SessionEventKind> said;
+  EXPECT_TRUE(bench.run_until([&] {
+    for (SessionEvent event; bench.link.next_event(event);) said.push_back(event.kind);
+    return std::count(said.begin(), said.end(), SessionEventKind::LineEnded) > 0;
+  }));
+  EXPECT_EQ(std::count(said.begin(), said.end(), SessionEventKind::LineLost), 0);
+  EXPECT_EQ(bench.link.state().phase, LinkPhase::Syncing);
 }
 
 TEST(RobotLinkOverPty, ALoopBackPlugIsNamed) {
