@@ -65,11 +65,14 @@ Way SonarObstacles::way(double v_m_s, double yaw_rate_rad_s, double clearance_m)
     const double across_m = std::max(outside_m, 0.0);
     const double comes_m = std::sqrt(point.reach_m * point.reach_m - across_m * across_m);
     const double free_m = std::max(place.along_m - comes_m - to_bumper_m, 0.0);
-    const double in_way = 1.0 - std::clamp(beside_m / kUncertain_m, 0.0, 1.0);
+    double room_m = free_m - clearance_m;
+    const bool is_only_beside = beside_m > 0.0 && point.reach_m == 0.0;
+    if (is_only_beside) {
+      const double in_way = 1.0 - std::min(beside_m / kUncertain_m, 1.0);
+      room_m = std::max(room_m, kPassing_m - in_way * in_way * clearance_m);
+    }
     way.free_m = std::min(way.free_m, free_m);
-    const double passing_m = point.reach_m > 0.0 ? -clearance_m : kPassing_m - in_way * in_way * clearance_m;
-    way.room_m =
-        std::min(way.room_m, std::max(free_m - clearance_m, in_way < 1.0 ? passing_m : -clearance_m));
+    way.room_m = std::min(way.room_m, room_m);
   }
   return way;
 }

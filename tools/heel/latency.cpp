@@ -79,10 +79,6 @@ std::string table_of(const LatencyFigures& figures) {
              goal_ms(figures));
 }
 
-LatencyJson json_of(const LightHop& hop) {
-  return {{"name", hop.name}, {"p50_ms", hop.p50_ms}, {"p99_ms", hop.p99_ms}, {"max_ms", hop.max_ms}};
-}
-
 LatencyJson json_of(const LightFigures& figures) {
   LatencyJson json{{"camera", figures.camera},
                    {"switches", figures.switches},
@@ -91,23 +87,19 @@ LatencyJson json_of(const LightFigures& figures) {
                    {"contrast", figures.contrast},
                    {"with_vision", figures.no_vision.empty()},
                    {"control_period_ms", figures.period_ms}};
-  for (const LightHop& hop : figures.hops) json["hops"].push_back(json_of(hop));
+  for (const LatencyHop& hop : figures.hops) json["hops"].push_back(json_of(hop));
   json["light_to_dequeued"] = json_of(figures.to_dequeued);
   json["total"] = json_of(figures.total);
   return json;
 }
 
-std::string row(const LightHop& hop) {
-  return fmt::format("{:<22} {:>8.2f} {:>8.2f} {:>8.2f}\n", hop.name, hop.p50_ms, hop.p99_ms, hop.max_ms);
-}
-
 std::string table_of(const LightFigures& figures) {
   std::string text = fmt::format(
       "{}\n{} of {} switches seen, in {} of {} parts of the picture, {:.0f} grey levels\n{:<22} {:>8} {:>8} "
-      "{:>8}\n",
+      "{:>8} {:>8}\n",
       figures.camera, figures.seen, figures.switches, figures.tiles,
-      evaluation::kTileColumns * evaluation::kTileRows, figures.contrast, "ms", "p50", "p99", "max");
-  for (const LightHop& hop : figures.hops) text += row(hop);
+      evaluation::kTileColumns * evaluation::kTileRows, figures.contrast, "ms", "p50", "p99", "max", "seen");
+  for (const LatencyHop& hop : figures.hops) text += row(hop);
   text += row(figures.to_dequeued) + row(figures.total);
   if (!figures.no_vision.empty()) text += "vision is not included: " + figures.no_vision + "\n";
   return text;

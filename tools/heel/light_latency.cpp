@@ -1,7 +1,5 @@
 #include "light_latency.h"
 
-#include <algorithm>
-#include <csignal>
 #include <memory>
 #include <optional>
 
@@ -11,10 +9,12 @@
 #include "core/picture_turn.h"
 #include "core/random.h"
 #include "evaluation/metrics/light_response.h"
+#include "evaluation/metrics/samples.h"
 #include "files/camera_info.h"
 #include "files/template_file.h"
 #include "heel/error.h"
 #include "lamp.h"
+#include "preflight_step.h"
 #include "realtime/clock.h"
 #include "robot/robot_address.h"
 #include "vision/pose/template_selector.h"
@@ -31,8 +31,6 @@ constexpr TimeNs kNoFrame_ns = 2 * kNsPerS;
 // Switching at random moments meets every phase of the camera's frames. Automatic exposure settles meanwhile.
 constexpr double kShortest_s = 0.5, kLongest_s = 0.9;
 constexpr double kCommandBits = 2 * 9 * 10;  // VEL and RVEL, with start and stop bits
-
-std::sig_atomic_t volatile g_interrupted = 0;
 
 /// The stage that heeld runs, where the configuration's files are there.
 class MeasuredVision {
@@ -68,6 +66,7 @@ struct Watched {
   std::vector<LightSwitch> switches;
 };
 
+/// Not a Look, which does something between two frames only: the light must meet every phase of them.
 class LightWatch {
  public:
   LightWatch(const Config& config, Lamp& lamp)
@@ -81,7 +80,7 @@ class LightWatch {
     const auto pause_ns = [&] { return ns_from_seconds(random.uniform(kShortest_s, kLongest_s)); };
     commandline::Progress progress("switch", static_cast<std::uint64_t>(switches), show_progress);
     watch_until(monotonic_now_ns() + pause_ns());
-    for (int i = 0; i < switches && g_interrupted == 0; ++i) {
+    for (int i = 0; i < switches && !g_preflight_interrupted; ++i) {
       const bool on = i % 2 == 0;
       lamp_.set(on);
       watched_.switches.push_back({monotonic_now_ns(), on});
@@ -89,7 +88,7 @@ class LightWatch {
       watch_until(watched_.switches.back().t_ns + pause_ns());
     }
     progress.clear();
-    if (g_interrupted != 0) throw Error("interrupted; the light is as it was");
+    if (g_preflight_interrupted) throw Error("interrupted; the light is as it was");
     return std::move(watched_);
   }
   const std::string& no_vision() const { return vision_.missing(); }
@@ -98,14 +97,14 @@ class LightWatch {
  private:
   void wait_for_first_frame() {
     const TimeNs end_ns = monotonic_now_ns() + kFirstFrame_ns;
-    while (watched_.frames.empty() && g_interrupted == 0) {
+    while (watched_.frames.empty() && !g_preflight_interrupted) {
       if (monotonic_now_ns() > end_ns) throw Error(source_->address() + ": no picture came");
       watch_until(monotonic_now_ns() + kNsPerS / 10);
     }
   }
 
   void watch_until(TimeNs t_ns) {
-    while (g_interrupted == 0) {
+    while (!g_preflight_interrupted) {
       const TimeNs left_ns = t_ns - monotonic_now_ns();
       if (left_ns <= 0) return;
       FrameView frame;
@@ -139,20 +138,16 @@ struct Times {
   std::vector<double> ms;
 
   void add(TimeNs from_ns, TimeNs to_ns) { ms.push_back(1e-6 * static_cast<double>(to_ns - from_ns)); }
-  LightHop hop(const char* name) const {
-    std::vector<double> sorted = ms;
-    std::ranges::sort(sorted);
-    const auto at = [&](double share) {
-      return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
-    };
-    return {name, at(0.5), at(0.99), sorted.back()};
+  evaluation::LatencyHop hop(const char* name) const {
+    const auto at = [&](double share) { return evaluation::quantile(ms, share); };
+    return {name, ms.size(), at(0.5), at(0.99), at(1.0)};
   }
 };
 
 }  // namespace
 
 LightFigures measure_light(const Config& config, const std::string& lamp_file, int switches) {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { g_interrupted = 1; });
+  note_interrupts();
   const RobotAddress robot = parse_robot_address(config.robot.address);
   const std::unique_ptr<Lamp> lamp = lamp_file.empty() ? terminal_lamp() : file_lamp(lamp_file);
   LightWatch watch(config, *lamp);

@@ -7,13 +7,9 @@
 #include <vector>
 
 #include "core/config.h"
+#include "evaluation/reports/latency_figures.h"
 
 namespace heel::cli {
-
-struct LightHop {
-  const char* name = "";
-  double p50_ms = 0.0, p99_ms = 0.0, max_ms = 0.0;
-};
 
 struct LightFigures {
   std::string camera;        ///< what the source says of itself
@@ -25,9 +21,9 @@ struct LightFigures {
   double period_ms = 0.0;    ///< of control
   /// Light to the camera's stamp, to dequeued, to vision's end (where it is included), to the tick, to
   /// the command's last byte on the robot's line (not over TCP).
-  std::vector<LightHop> hops;
-  LightHop to_dequeued;  ///< from the light: what the camera, its cable and driver take
-  LightHop total;        ///< from the light to the end of the last hop
+  std::vector<evaluation::LatencyHop> hops;
+  evaluation::LatencyHop to_dequeued;  ///< from the light: what the camera, its cable and driver take
+  evaluation::LatencyHop total;        ///< from the light to the end of the last hop
 };
 
 /// Switches the light `switches` times, at random moments, while the camera runs. Throws heel::Error when the

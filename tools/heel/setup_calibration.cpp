@@ -123,28 +123,30 @@ class LiveCalibration {
 };
 
 /// Where a new calibration goes: the configured file, unless it is somebody's own in another folder.
-std::string file_of_calibration(Setup& setup) {
-  Config wanted = setup.file.config();
-  const std::string beside = setup.file.beside(std::filesystem::path(wanted.camera.info).filename().string());
+std::string file_of_calibration(const Setup& setup) {
+  const std::string& configured = setup.file.config().camera.info;
+  const std::string beside = setup.file.beside(std::filesystem::path(configured).filename().string());
   std::error_code ignored;
-  if (!std::filesystem::exists(wanted.camera.info, ignored) ||
-      std::filesystem::equivalent(wanted.camera.info, beside, ignored))
-    return wanted.camera.info;
-  wanted.camera.info = std::filesystem::absolute(beside).lexically_normal().string();
-  setup.file.write(wanted);
-  return wanted.camera.info;
+  const bool is_elsewhere = std::filesystem::exists(configured, ignored) &&
+                            !std::filesystem::equivalent(configured, beside, ignored);
+  return is_elsewhere ? beside : configured;
 }
 
 PreflightStep live_calibration(Setup& setup, const Board& board) {
   PreflightStep step{.name = "calibration"};
   try {
+    const std::string file = file_of_calibration(setup);
+    require_folder_takes(file);
     setup.dialogue.say(
         "Move the board through the picture: near, into each corner, tilted 30 to 45 degrees each way; hold "
         "it "
         "still for a moment in each place.");
     LiveCalibration live(setup, board);
     const Calibration result = live.run();
-    write_camera_model(result.camera, file_of_calibration(setup));
+    write_camera_model(result.camera, file);
+    Config wanted = setup.file.config();
+    wanted.camera.info = file;
+    setup.file.write(wanted);
     step = check_calibration(setup.file.config());
     step.measured += fmt::format("; {:.2f} px over {} views", result.rms_px, live.views());
     step.values["rms_px"] = result.rms_px;

@@ -25,12 +25,18 @@ constexpr const char* kWhatItIs = "a configuration of heeld";
 
 }  // namespace
 
+void require_folder_takes(const std::string& file) {
+  const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    throw Error(fmt::format("{}: its folder cannot be written: {} (expected a user who may; sudo?)", file,
+                            std::strerror(errno)));
+}
+
 SetupFile::SetupFile(const std::string& path) : path_(fs::absolute(path).lexically_normal().string()) {
   if (!fs::exists(path_)) {
     write_file_atomically(path_, kIntroduction);
-  } else if (access(fs::path(path_).parent_path().c_str(), W_OK) != 0) {
-    throw Error(fmt::format("{}: its folder cannot be written: {} (expected a user who may; sudo?)", path_,
-                            std::strerror(errno)));
+  } else {
+    require_folder_takes(path_);
   }
   loaded_ = load_config(path_);
 }

@@ -29,6 +29,10 @@ class SetupFile {
   LoadedConfig loaded_;
 };
 
+/// Throws heel::Error naming the file unless its folder is there and files can be made in it. People are not
+/// asked, and nothing is moved, for a result that cannot be kept.
+void require_folder_takes(const std::string& file);
+
 /// The path of a camera's or robot's address as it is meant here, and not in the folder of a file.
 std::string address_from_here(const std::string& address);
 

@@ -3,8 +3,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -27,6 +25,7 @@ namespace heel::cli {
 namespace {
 
 constexpr double kNearest_m = 0.3, kFarthest_m = 10.0;
+constexpr std::size_t kLargestTemplate_bytes = std::size_t{64} << 20;
 constexpr double kSmallest_m = 0.8, kTallest_m = 2.3;
 
 double asked_metres(Setup& setup, double given_m, double least_m, double most_m, const std::string& question,
@@ -178,18 +177,13 @@ PreflightStep judged_step(Setup& setup, const ShirtTemplate& shirt) {
   return step;
 }
 
-/// Of the file; empty where there is none.
-std::string bytes_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 }  // namespace
 
 PreflightStep set_up_shirt(Setup& setup) {
   PreflightStep step{.name = "shirt"};
   const std::string& file = setup.file.config().target.shirt;
   try {
+    require_folder_takes(file);
     if (!setup.options.again("shirt") && std::filesystem::exists(file)) {
       step = check_shirt(setup.file.config());
       if (step.verdict == StepVerdict::Pass &&
@@ -202,7 +196,8 @@ PreflightStep set_up_shirt(Setup& setup) {
       return step.fail(fmt::format("{} features in the outline: {}", verdict.features, verdict.reason),
                        "another shirt (docs/shirts.md), or an outline that fits better: --roi");
     if (shirt.distance_m == 0.0) drive_for_distance(setup, shirt);
-    const std::string before = bytes_of(file);
+    const std::string before =
+        std::filesystem::is_regular_file(file) ? read_whole_file(file, kLargestTemplate_bytes) : "";
     write_template(shirt, file);
     step = judged_step(setup, shirt);
     if (step.verdict != StepVerdict::Pass && !before.empty()) {
@@ -211,7 +206,8 @@ PreflightStep set_up_shirt(Setup& setup) {
     }
     return step;
   } catch (const Error& error) {
-    return step.fail(error.what(), advice_on(error.what(), "pass the steps before this one first"));
+    return step.fail(error.what(),
+                     advice_on(error.what(), "do what it says, or pass the steps before first"));
   }
 }
 

@@ -88,12 +88,11 @@ std::vector<LitTile> lit_tiles(const Settled& on, const Settled& off) {
       lit.push_back({i, off.mean(i), contrast});
   }
   if (lit.size() < kLeastTiles)
-    throw Error(
-        fmt::format("the light: no part of the picture follows it ({} of {} tiles do; the largest change is "
-                    "{:.1f} of 255; "
-                    "expected {:g}): "
-                    "point the camera at it, nearer, and darken the room",
-                    lit.size(), TileLevels{}.size(), largest, kLeastContrast));
+    throw Error(fmt::format(
+        "the light: no part of the picture follows it ({} of {} parts do, expected {} or more; the "
+        "largest change is {:.1f} of 255, expected {:g}): point the camera at it, nearer, and "
+        "darken the room",
+        lit.size(), TileLevels{}.size(), kLeastTiles, largest, kLeastContrast));
   return lit;
 }
 

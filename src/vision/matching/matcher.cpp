@@ -196,8 +196,8 @@ bool Matcher::Impl::is_nearest_of_cur(const Candidate& candidate, const FeatureS
                                       const FeatureSet& cur) const {
   const auto member = static_cast<std::size_t>(candidate.cur);
   const bool largest = candidate.byte_product == cur_first[member];
-  const Bounds others =
-      product_bounds(largest ? cur_second[member] : cur_first[member], error_with(ref_bytes.max_error()));
+  const Bounds others = product_bounds(largest ? cur_second[member] : cur_first[member],
+                                       ref_bytes.max_error() + cur_bytes.error(member));
   if (others.upper < candidate.product) return true;
   if (others.lower > candidate.product) return false;
   const Descriptor& descriptor = descriptor_of(cur, cur_members[member]);

@@ -168,6 +168,21 @@ TEST_F(Setup, TheRobotMeasuresTheDistanceByDrivingBackWithConsent) {
   EXPECT_TRUE(test::eventually([&] { return newest_speed() == 0.0; }));
 }
 
+/// The outline is on the wall, so the first drive measures nothing.
+TEST_F(Setup, EachFurtherDriveIsAskedFor) {
+  start_world();
+  configure_robot();
+  test::write_text(file("heel.toml"), test::read_text(file("heel.toml")) + "[camera]\nsource = \"" + camera_ +
+                                          "\"\ninfo = \"measured.yaml\"\n");
+  const Outcome outcome =
+      answered("1.7\nagain\n1.7\n\nstop\n",
+               "--step shirt --height 1.65 --countdown 0 --reach-time 0 --drive-back --roi 20,150,150,150");
+  EXPECT_EQ(outcome.status, 1) << outcome.out;
+  EXPECT_THAT(outcome.out, HasSubstr("type back"));
+  EXPECT_THAT(outcome.out, HasSubstr("nothing was moved, so the distance is not known"));
+  EXPECT_NEAR(way_m(), -0.52, 0.1) << outcome.out;
+}
+
 TEST_F(Setup, WheelsThatThePersonSawTurnOtherwiseFail) {
   start_world();
   configure_robot();

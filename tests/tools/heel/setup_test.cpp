@@ -1,4 +1,5 @@
 // heel setup without a robot: what it asks, what it writes, and a calibration from pictures of a board.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -7,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@ using test::BoardPose;
 using test::Outcome;
 using test::Process;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 namespace fs = std::filesystem;
 
@@ -154,6 +157,67 @@ TEST_F(Setup, ACalibrationOfAnotherSizeIsRefused) {
   const json result = step({"--step", "calibration", "--camera-info", file("other.yaml"), "--yes"}, 1);
   EXPECT_THAT(result["advice"], HasSubstr("640x480"));
   EXPECT_EQ(test::read_text(file("heel.toml")), "") << "it is not taken";
+}
+
+TEST_F(Setup, ATurnThatIsNotGivenStays) {
+  write_boards({test::kGoodPoses[0]});
+  write_config("[camera]\nsource = \"file:boards\"\nfile_speed = 0\nrotate = 180\n");
+  step({"--step", "camera", "--camera", "file:" + file("boards"), "--mirror", "--yes"});
+  EXPECT_EQ(config().camera.rotate, 180);
+  EXPECT_TRUE(config().camera.mirror);
+  step({"--step", "camera", "--camera", "file:" + file("boards"), "--rotate", "90", "--yes"});
+  EXPECT_EQ(config().camera.rotate, 90);
+  EXPECT_TRUE(config().camera.mirror);
+}
+
+TEST_F(Setup, ACalibrationInAnotherFolderIsSomebodysOwn) {
+  std::vector<BoardPose> poses = test::kGoodPoses;
+  poses.insert(poses.end(), kEdgePoses.begin(), kEdgePoses.end());
+  write_boards(poses);
+  fs::create_directory(file("mine"));
+  const std::string mine = test::write_text(file("mine/lab.yaml"), "# mine\n");
+  write_config("[camera]\nsource = \"file:boards\"\nfile_speed = 0\ninfo = \"mine/lab.yaml\"\n");
+  step({"--step", "calibration", "--board", "9x6", "--square", "0.03"});
+  EXPECT_EQ(test::read_text(mine), "# mine\n");
+  EXPECT_EQ(config().camera.info, file("lab.yaml"));
+  EXPECT_NEAR(read_camera_model(file("lab.yaml")).fx, test::kTrueK(0, 0), 3.0);
+}
+
+TEST_F(Setup, WhatCannotBeKeptIsNamedBeforeAnythingIsAsked) {
+  write_config("[target]\nshirt = \"/proc/none/shirt.heel\"\n[camera]\ninfo = \"/proc/none/camera.yaml\"\n");
+  for (const char* name : {"shirt", "calibration"}) {
+    const Outcome outcome = set_up({"--step", name, "--board", "9x6", "--square", "0.03", "--yes"});
+    EXPECT_EQ(outcome.status, 1) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("its folder cannot be written")) << name;
+    EXPECT_THAT(outcome.out, Not(HasSubstr("The person stands")));
+    EXPECT_THAT(outcome.out, Not(HasSubstr("Move the board")));
+  }
+}
+
+TEST_F(Setup, ADistanceByTapeAndByDrivingAreNotGivenTogether) {
+  write_config("");
+  const Outcome outcome = set_up({"--step", "shirt", "--distance", "1.5", "--drive-back", "--yes"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--distance"));
+}
+
+/// The sharpest picture shows a shirt, and the others are too blurred for it to be found.
+TEST_F(Setup, AShirtThatDoesNotPassLeavesTheOneBefore) {
+  HEEL_NEEDS_TEST_DATA("foreign");
+  const std::string data = test::data_path("foreign");
+  const cv::Mat sharp = read_grey_image(data + "/images/given_teach_avgman_blobs.jpg").grey;
+  cv::Mat blurred;
+  cv::GaussianBlur(sharp, blurred, {0, 0}, 12.0);
+  fs::create_directory(file("seen"));
+  for (int i = 0; i < 8; ++i) write_image(file(fmt::format("seen/{}.png", i)), i == 3 ? sharp : blurred);
+  const std::string shirt = test::write_text(file("shirt.heel"), "the one before");
+  write_config("[camera]\nsource = \"file:seen\"\nfile_speed = 0\ninfo = \"" + data +
+               "/camera.yaml\"\nmount_z_m = 1.05\n");
+  const json result = step({"--step", "shirt", "--distance", "1.4991", "--height", "1.77", "--countdown", "0",
+                            "--reach-time", "0", "--yes"},
+                           1);
+  EXPECT_THAT(result["measured"], HasSubstr("the shirt taught before is kept"));
+  EXPECT_EQ(test::read_text(shirt), "the one before");
 }
 
 TEST_F(Setup, WithoutAnAnswerItNamesTheOptionAndHowToGoOn) {
