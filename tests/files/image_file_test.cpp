@@ -56,9 +56,11 @@ class Pictures : public ::testing::Test {
 TEST_F(Pictures, OfEveryKindAreTurnedAsTheirFileSays) {
   const std::string jpeg = bytes_of(".jpg", ramp()), png = bytes_of(".png", ramp()),
                     webp = bytes_of(".webp", ramp());
-  for (int orientation = 1; orientation <= 8; ++orientation) {
-    SCOPED_TRACE(orientation);
-    const std::string exif = exif_block(orientation, orientation % 2 == 0);
+  for (int i = 0; i < 16; ++i) {
+    const int orientation = 1 + i % 8;
+    SCOPED_TRACE(i);
+    const std::string exif =
+        i < 8 ? exif_block(orientation, orientation % 2 == 0) : exif_block_with_long(orientation);
     const std::string segment = std::string("Exif\0\0", 6) + exif;
     const std::string app1 = std::string("\xff\xe1\0", 3) + static_cast<char>(segment.size() + 2) + segment;
     const std::string extended = "VP8X" + little_endian(10) + std::string("\x08\0\0\0", 4) +

@@ -22,7 +22,13 @@ inline std::string little_endian(std::uint32_t value, int count = 4) {
   return bytes;
 }
 
-/// An EXIF block that has an orientation alone, as a short number.
+/// An EXIF block that has an orientation alone, as a long number.
+inline std::string exif_block_with_long(int orientation) {
+  return "MM" + std::string("\0\x2a", 2) + big_endian(8) + std::string("\0\x01\x01\x12\0\x04", 6) +
+         big_endian(1) + big_endian(static_cast<std::uint32_t>(orientation)) + big_endian(0);
+}
+
+/// The same as a short number.
 inline std::string exif_block(int orientation, bool little = false) {
   if (little)
     return "II" + little_endian(42, 2) + little_endian(8) + little_endian(1, 2) + little_endian(0x112, 2) +

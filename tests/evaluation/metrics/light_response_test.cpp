@@ -20,6 +20,7 @@ constexpr TimeNs kPeriod_ns = kNsPerS / 30, kExposure_ns = 10 * kNsPerMs, kDeque
 struct MadeCamera {
   TimeNs delay_ns = 0;
   double contrast = 60.0;
+  std::size_t lit_tiles = 40;  // tiles that show the light
   double noise = 1.0;
 
   std::vector<LightSwitch> switches{};
@@ -36,8 +37,8 @@ struct MadeCamera {
       LightFrame frame{t, t + kDequeue_ns, {}};
       const double share = exposed_share(t);
       for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
-        const bool lit = i >= 100 && i < 140;
-        const double level = 40.0 + (lit ? contrast * share : 0.0) + noise * random.normal();
+        const bool shows = i >= 100 && i < 100 + lit_tiles;
+        const double level = 40.0 + (shows ? contrast * share : 0.0) + noise * random.normal();
         frame.tiles[i] = static_cast<float>(level);
       }
       frames.push_back(frame);
@@ -92,6 +93,15 @@ TEST(LightResponse, ALightThatTheCameraDoesNotShowIsRefused) {
   MadeCamera noisy{.contrast = 20.0, .noise = 40.0};
   noisy.run(20);
   EXPECT_THROW(light_response(noisy.frames, noisy.switches), Error);
+}
+
+TEST(LightResponse, AFewTilesMayBeChance) {
+  MadeCamera few{.lit_tiles = 3}, enough{.lit_tiles = 4};
+  few.run(20);
+  enough.run(20);
+  EXPECT_THAT(test::complaint_of([&] { light_response(few.frames, few.switches); }),
+              testing::HasSubstr("3 of 768 parts do"));
+  EXPECT_EQ(light_response(enough.frames, enough.switches).tiles, 4U);
 }
 
 /// Things that move in the picture, brighter and darker at their own times.

@@ -8,8 +8,10 @@
 #include <optional>
 
 #include "heel/motion.h"
+#include "heel/pose_tracker.h"
 #include "support/allocation_count.h"
 #include "vision/pose/average_back.h"
+#include "vision/pose/frame_sequence.h"
 #include "vision/pose/rendered_back.h"
 
 namespace heel {
@@ -90,6 +92,27 @@ TEST(OtherMinimum, TheDeviationSaysHowNearlyAsGoodTheOtherOneIs) {
     last_rad = sigma_rad;
   }
   EXPECT_NEAR(last_rad, own_sigma_rad, 0.02);
+}
+
+/// Relief the other way round hides which side is nearer: the back looks turned to either side.
+cv::Mat ambiguous_back(double yaw_rad) {
+  const DistantBack back(yaw_rad);
+  BackSurface shown = back.surface;
+  for (double* depth :
+       {&shown.depth.u2, &shown.depth.u4, &shown.depth.v, &shown.depth.v2, &shown.depth.v3, &shown.depth.u2v})
+    *depth *= -0.5;
+  const Eigen::Matrix3d R = test::rotation(yaw_rad, 0.0, 0.0);
+  return test::render_back(back.shirt, shown, R, test::t_over_d_for(R, 0.0, 3.2), 5);
+}
+
+TEST(OtherMinimum, TrackingStaysUnsureForAsLongAsThePictureDoes) {
+  PoseTracker tracker(test::shirt(), robot_camera(), VisionConfig{});
+  for (int number = 0; number < 3; ++number) {
+    const PoseEstimate pose = tracker.estimate(test::frame_at(ambiguous_back(0.2 + 0.01 * number), number));
+    ASSERT_TRUE(pose.found());
+    EXPECT_EQ(pose.tracked, number > 0);
+    EXPECT_GT(pose.frame_yaw_sigma_rad, 0.2) << number;
+  }
 }
 
 TEST(OtherMinimum, AllocatesNothing) {
