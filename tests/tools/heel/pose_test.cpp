@@ -1,23 +1,18 @@
-// heel teach, then heel pose, on pictures with known truth; their output and the template between them.
+// heel pose, on pictures with known truth, by a template of heel teach.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "files/camera_info.h"
 #include "files/template_file.h"
-#include "heel/shirt_template.h"
-#include "support/sanitized.h"
 #include "support/test_data.h"
 #include "tools/heel/printed_shirt.h"
-#include "tools/heel/run_heel.h"
+#include "tools/heel/taught_shirt.h"
 
 namespace heel {
 namespace {
@@ -27,10 +22,8 @@ using test::Outcome;
 using test::run_heel;
 using test::TrueMotion;
 using ::testing::AllOf;
-using ::testing::ContainsRegex;
 using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 /// The mean distance of the region's corners from their true places.
 double mean_corner_error_px(const json& found, const cv::Matx33d& truth) {
@@ -46,158 +39,9 @@ double mean_corner_error_px(const json& found, const cv::Matx33d& truth) {
   return sum_px / 4;
 }
 
-const std::vector<std::string> kNoHurry = {"--reach-time", "600"};  // complete also on a busy machine
+using Pose = test::TaughtShirt;
 
-class TeachAndPose : public ::testing::Test {
- protected:
-  void SetUp() override {
-    write_camera_model(test::shirt_camera(), camera);
-    reference = test::printed_plane();
-    cv::imwrite(image, reference);
-  }
-  /// Measures the reach only where `more` says how long.
-  Outcome teach(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments = {"teach",         "--roi", test::kRoi, "--distance", "1.5",
-                                          "--camera-info", camera,  "-o",       shirt};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    if (std::find(more.begin(), more.end(), "--image") == more.end())
-      arguments.insert(arguments.end(), {"--image", image});
-    if (std::find(more.begin(), more.end(), kNoHurry[0]) == more.end())
-      arguments.insert(arguments.end(), {kNoHurry[0], "0"});
-    return run_heel(arguments);
-  }
-  Outcome pose(const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"pose", "--template", shirt, "--camera-info", camera};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_heel(arguments);
-  }
-  static std::vector<json> lines_of(const std::string& text) {
-    std::vector<json> lines;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) lines.push_back(json::parse(line));
-    return lines;
-  }
-
-  test::TemporaryFolder folder;
-  std::string camera = folder.file("camera.yaml");
-  std::string image = folder.file("back.png");
-  std::string shirt = folder.file("shirt.heel");
-  cv::Mat reference;
-};
-
-TEST_F(TeachAndPose, TeachReportsTheQualityAndKeepsTheOptions) {
-  const std::string picture = folder.file("verdict.png");
-  const Outcome outcome = teach({"--picture", picture, "--oriented", "--max", "150"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(outcome.err, "");
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("150 features in the 160 x 200 px region"),
-                                 HasSubstr("twice the distance"), HasSubstr("wrote " + shirt)));
-  EXPECT_FALSE(cv::imread(picture).empty());
-
-  const ShirtTemplate kept = read_template(shirt);
-  EXPECT_EQ(kept.roi.x_px, 240);
-  EXPECT_EQ(kept.roi.y_px, 140);
-  EXPECT_EQ(kept.roi.width_px, 160);
-  EXPECT_EQ(kept.roi.height_px, 200);
-  EXPECT_EQ(kept.distance_m, 1.5);
-  EXPECT_TRUE(kept.oriented);
-  EXPECT_EQ(kept.max_features, 150);
-  EXPECT_EQ(kept.camera.fx, 610.0);
-  EXPECT_TRUE(std::equal(kept.grey.begin(), kept.grey.end(), reference.datastart, reference.dataend));
-}
-
-TEST_F(TeachAndPose, TeachSaysFromWhereTheShirtWillBeFound) {
-  if (test::kSanitized) GTEST_SKIP() << "with a small camera the same code runs for a shorter time";
-  const Outcome bold = teach(kNoHurry);
-  ASSERT_EQ(bold.status, 0) << bold.err;
-  EXPECT_THAT(bold.out,
-              ContainsRegex("\nfound from [0-9.]+ to [3-6][0-9.]* m facing away, to [4-7][0-9]° at 2 m"));
-  EXPECT_THAT(bold.out, ContainsRegex("\n +0° +[0-4]/4"));
-  EXPECT_THAT(bold.out, Not(HasSubstr("warning")));
-}
-
-TEST_F(TeachAndPose, TeachEndsItsMeasurementInTimeAndSaysSo) {
-  const Outcome hurried = teach({"--reach-time", "0.001"});
-  ASSERT_EQ(hurried.status, 0) << hurried.err;
-  EXPECT_THAT(hurried.out, HasSubstr(" (not measured further after 0.001 s: --reach-time)\n"));
-  EXPECT_THAT(hurried.out, Not(HasSubstr("warning")));
-  const Outcome none = teach({"--reach-time", "0"});
-  ASSERT_EQ(none.status, 0) << none.err;
-  EXPECT_THAT(none.out, AllOf(HasSubstr("wrote "), Not(HasSubstr("facing away"))));
-}
-
-TEST_F(TeachAndPose, TeachMeasuresForTheRobotsCameraAndWarnsWhenItSeesLittle) {
-  CameraModel small = test::shirt_camera();
-  small.width_px = 160;
-  small.height_px = 120;
-  for (double* value : {&small.fx, &small.fy, &small.cx, &small.cy}) *value /= 4.0;
-  const std::string robot = folder.file("robot.yaml");
-  write_camera_model(small, robot);
-  const Outcome outcome = teach({"--robot-camera-info", robot, kNoHurry[0], kNoHurry[1]});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out,
-              HasSubstr("\nwarning: the print is small or low in contrast: it is lost before 3 m"));
-  EXPECT_EQ(read_template(shirt).camera.width_px, test::kWidth_px);
-}
-
-TEST_F(TeachAndPose, TeachKeepsFurtherPicturesWithThePosesItFindsInThem) {
-  const std::string turned = folder.file("turned.png"), far = folder.file("far.png");
-  cv::imwrite(turned, TrueMotion{0.5, {0, 0, 0}}.picture(reference));
-  cv::imwrite(far, TrueMotion{-0.2, {0.1, 0, 0.3}}.picture(reference));
-  const Outcome outcome = teach({"--more", turned, far});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const ShirtTemplate kept = read_template(shirt);
-  ASSERT_EQ(kept.further_views.size(), 2u);
-  const Eigen::Matrix3d& R = kept.further_views[0].R_further_from_ref;
-  EXPECT_NEAR(std::atan2(R(0, 2), R(2, 2)), 0.5, 0.1);
-  const cv::Mat picture = cv::imread(far, cv::IMREAD_GRAYSCALE);
-  EXPECT_TRUE(std::equal(picture.datastart, picture.dataend, kept.further_views[1].grey.begin(),
-                         kept.further_views[1].grey.end()));
-  EXPECT_THAT(pose({turned}).err, HasSubstr("found in 1 of 1"));
-}
-
-TEST_F(TeachAndPose, TeachRefusesAFurtherPictureWithoutTheShirtByItsName) {
-  const std::string turned = folder.file("turned.png"), wall = folder.file("wall.png");
-  cv::imwrite(turned, TrueMotion{0.3, {0, 0, 0}}.picture(reference));
-  cv::imwrite(wall, cv::Mat(test::kHeight_px, test::kWidth_px, CV_8UC1, cv::Scalar(120)));
-  const Outcome outcome = teach({"--more", turned, wall});
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_EQ(outcome.err, "heel teach: --more " + wall + ": the shirt is not found: too few features\n");
-  EXPECT_FALSE(std::filesystem::exists(shirt));
-}
-
-TEST_F(TeachAndPose, TeachGivesTheSameTemplateThroughACameraAddress) {
-  ASSERT_EQ(teach().status, 0);
-  const std::string by_camera = folder.file("camera.heel");
-  const Outcome outcome = run_heel({"teach", "--camera", "file:" + image, "--roi", test::kRoi, "--distance",
-                                    "1.5", "--camera-info", camera, "-o", by_camera});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(test::read_text(by_camera), test::read_text(shirt));
-}
-
-/// The report of exif3.jpg: one photo gave two different templates.
-TEST_F(TeachAndPose, OnePhotoGivesOneTemplateHoweverItIsGiven) {
-  HEEL_NEEDS_TEST_DATA("reports");
-  const std::string reports = test::data_path("reports/");
-  const auto teach_photo = [&](const char* option, const std::string& photo, const std::string& output) {
-    return run_heel({"teach", option, photo, "--roi", test::kRoi, "--distance", "1.5", "--reach-time", "0",
-                     "--camera-info", reports + "common/camera.yaml", "-o", output});
-  };
-  const std::string photo = reports + "photo-exif/exif3.jpg", second = folder.file("second.heel");
-  ASSERT_EQ(teach_photo("--image", photo, shirt).status, 0);
-  ASSERT_EQ(teach_photo("--camera", "file:" + photo, second).status, 0);
-  EXPECT_EQ(test::read_text(shirt), test::read_text(second));
-  const Outcome cut = teach_photo("--image", reports + "jpeg-cut-short/cut.jpg", folder.file("cut.heel"));
-  EXPECT_EQ(cut.status, 2);
-  EXPECT_THAT(cut.err, AllOf(HasSubstr("cut.jpg: not a whole image"), ::testing::EndsWith("pixel)\n")));
-  EXPECT_FALSE(std::filesystem::exists(folder.file("cut.heel")));
-  const Outcome deep =
-      teach_photo("--image", reports + "picture-12-bit/mono12_in16.png", folder.file("deep.heel"));
-  EXPECT_EQ(deep.status, 0);
-  EXPECT_THAT(deep.err, HasSubstr("of which 12 are used"));
-}
-
-TEST_F(TeachAndPose, AVideoThatIsCutShortIsUsedAndSaid) {
+TEST_F(Pose, AVideoThatIsCutShortIsUsedAndSaid) {
   HEEL_NEEDS_TEST_DATA("reports");
   const std::string reports = test::data_path("reports/"), video = reports + "video-cut-short/cuttail.mkv";
   const Outcome outcome = run_heel({"pose", video, "--template", reports + "common/shirt.heel",
@@ -209,7 +53,7 @@ TEST_F(TeachAndPose, AVideoThatIsCutShortIsUsedAndSaid) {
                     ::testing::EndsWith("heel pose: " + video + ": ends after 20 of 40 frames\n")));
 }
 
-TEST_F(TeachAndPose, TheInputAfterAVideoGoesOnInTime) {
+TEST_F(Pose, TheInputAfterAVideoGoesOnInTime) {
   HEEL_NEEDS_TEST_DATA("reports");
   const std::string reports = test::data_path("reports/");
   const Outcome outcome = run_heel({"pose", reports + "video-last-frames-at-zero/walk.mp4",
@@ -224,7 +68,7 @@ TEST_F(TeachAndPose, TheInputAfterAVideoGoesOnInTime) {
 }
 
 /// A camera mounted upside down: its calibration is that of the pictures as it sends them.
-TEST_F(TeachAndPose, ACameraMountedUpsideDownGivesThePosesOfAnUprightOne) {
+TEST_F(Pose, ACameraMountedUpsideDownGivesThePosesOfAnUprightOne) {
   HEEL_NEEDS_TEST_DATA("reports");
   const std::string mounted = test::data_path("reports/camera-upside-down/");
   const Outcome taught = run_heel({"teach", "--image", mounted + "ref_upside.png", "--roi", test::kRoi,
@@ -243,7 +87,7 @@ TEST_F(TeachAndPose, ACameraMountedUpsideDownGivesThePosesOfAnUprightOne) {
 
 /// It was taught before the camera was mounted upside down, or after that and not turned: a template says
 /// which only if teach was told.
-TEST_F(TeachAndPose, ATemplateOfACameraThatWasTurnedSinceIsFound) {
+TEST_F(Pose, ATemplateOfACameraThatWasTurnedSinceIsFound) {
   const std::string turned = folder.file("upside_down.png");
   cv::Mat upside_down;
   cv::rotate(reference, upside_down, cv::ROTATE_180);
@@ -266,15 +110,7 @@ TEST_F(TeachAndPose, ATemplateOfACameraThatWasTurnedSinceIsFound) {
   }
 }
 
-TEST_F(TeachAndPose, TeachRefusesAPlainShirtWithTheReasonAndStatusOne) {
-  cv::imwrite(image, cv::Mat(test::kHeight_px, test::kWidth_px, CV_8UC1, cv::Scalar(120)));
-  const Outcome outcome = teach();
-  EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.out, HasSubstr("refused: only 0 features: the shirt is too plain"));
-  EXPECT_FALSE(std::filesystem::exists(shirt));
-}
-
-TEST_F(TeachAndPose, PoseFindsTheTruthAndGivesNoPoseForWhatItDoesNotFind) {
+TEST_F(Pose, PoseFindsTheTruthAndGivesNoPoseForWhatItDoesNotFind) {
   ASSERT_EQ(teach().status, 0);
   const double rad = CV_PI / 180.0;
   // More than ten frames, so that the order of the names is not the order of the numbers.
@@ -340,7 +176,7 @@ TEST_F(TeachAndPose, PoseFindsTheTruthAndGivesNoPoseForWhatItDoesNotFind) {
   }
 }
 
-TEST_F(TeachAndPose, EveryLineHasExactlyTheDocumentedKeysInTheirOrder) {
+TEST_F(Pose, EveryLineHasExactlyTheDocumentedKeysInTheirOrder) {
   ASSERT_EQ(teach().status, 0);
   const Outcome outcome = pose({image, "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -352,7 +188,7 @@ TEST_F(TeachAndPose, EveryLineHasExactlyTheDocumentedKeysInTheirOrder) {
                                       "position_m", "H_cur_from_ref", "ms"}));
 }
 
-TEST_F(TeachAndPose, PosesOfSeveralTemplatesNameTheirOwn) {
+TEST_F(Pose, PosesOfSeveralTemplatesNameTheirOwn) {
   ASSERT_EQ(teach().status, 0);
   const std::string side = folder.file("side.heel"), side_image = folder.file("side.png");
   cv::Mat print = reference.clone();  // another print of the same size
@@ -372,7 +208,7 @@ TEST_F(TeachAndPose, PosesOfSeveralTemplatesNameTheirOwn) {
   EXPECT_NEAR(lines[1]["yaw_rad"].get<double>(), -CV_PI / 2.0, 0.02);
 }
 
-TEST_F(TeachAndPose, RepeatsToTheBitExceptForTimes) {
+TEST_F(Pose, RepeatsToTheBitExceptForTimes) {
   ASSERT_EQ(teach().status, 0);
   cv::imwrite(image, TrueMotion{0.3, {0.05, 0, 0.2}}.picture(reference));
   std::vector<json> first = lines_of(pose({image, "--json"}).out);
@@ -384,7 +220,7 @@ TEST_F(TeachAndPose, RepeatsToTheBitExceptForTimes) {
   EXPECT_EQ(first, second);
 }
 
-TEST_F(TeachAndPose, UsesOnlyTheRequestedFramesAndDrawsThem) {
+TEST_F(Pose, UsesOnlyTheRequestedFramesAndDrawsThem) {
   ASSERT_EQ(teach().status, 0);
   const std::string pictures = folder.file("pictures/of/this");
   const Outcome outcome =
