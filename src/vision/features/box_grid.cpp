@@ -53,13 +53,19 @@ struct GridColumns {
   HWY_ALIGN std::array<float, kPadded> fraction;
   HWY_ALIGN std::array<std::uint32_t, 2 * kPadded>
       base;  // the sums of the base row there: left, right, left …
+
+  // How many columns of the image lie between the first grid line and the last that is computed.
+  int span(int lines) const {
+    return index[static_cast<std::size_t>((lines + 3) / 4 * 4 - 1)] + 2 - index[0];
+  }
 };
 
 // The sums left and right of each of two grid lines. One 64-bit read for each grid line replaces two reads of
 // a gather.
-HWY_INLINE hn::Vec<U4> load_pairs(const std::uint32_t* line, const std::int32_t* index) {
-  const hn::FixedTag<std::uint32_t, 2> d2;
-  return hn::Combine(U4(), hn::LoadU(d2, line + index[1]), hn::LoadU(d2, line + index[0]));
+template <class T>
+HWY_INLINE hn::Vec<hn::FixedTag<T, 4>> load_pairs(const T* low, const T* high) {
+  const hn::FixedTag<T, 2> d2;
+  return hn::Combine(hn::FixedTag<T, 4>(), hn::LoadU(d2, high), hn::LoadU(d2, low));
 }
 
 void place_columns(const IntegralImage& integral, float x0, float first, float spacing_px,
@@ -73,47 +79,121 @@ void place_columns(const IntegralImage& integral, float x0, float first, float s
         hn::Min(hn::Max(hn::ConvertTo(di, hn::Floor(x)), hn::Zero(di)), hn::Set(di, integral.width_px() - 1));
     hn::Store(index, di, columns.index.data() + i);
     hn::Store(hn::Sub(x, hn::ConvertTo(d, index)), d, columns.fraction.data() + i);
-    hn::Store(load_pairs(base, columns.index.data() + i), U4(), columns.base.data() + 2 * i);
-    hn::Store(load_pairs(base, columns.index.data() + i + 2), U4(), columns.base.data() + 2 * i + 4);
+    const std::int32_t* at = columns.index.data() + i;
+    hn::Store(load_pairs(base + at[0], base + at[1]), U4(), columns.base.data() + 2 * i);
+    hn::Store(load_pairs(base + at[2], base + at[3]), U4(), columns.base.data() + 2 * i + 4);
+  }
+}
+
+// One grid line between two rows of the integral image. Sums are relative to the grid's centre.
+struct GridLine {
+  const std::uint32_t *upper, *lower;
+  std::uint32_t upper_origin, lower_origin;
+  float down;  // from the upper row to the lower one
+
+  // The sums at columns of the image, of which both rows and the base row are given.
+  template <class D>
+  HWY_INLINE hn::Vec<D> blend(D d, hn::Vec<hn::RebindToUnsigned<D>> above,
+                              hn::Vec<hn::RebindToUnsigned<D>> below,
+                              hn::Vec<hn::RebindToUnsigned<D>> base) const {
+    const hn::RebindToUnsigned<D> du;
+    const auto at = [&](auto sums, std::uint32_t origin) {
+      const auto relative = hn::Sub(hn::Sub(sums, base), hn::Set(du, origin));
+      return hn::ConvertTo(d, hn::BitCast(hn::RebindToSigned<D>(), relative));
+    };
+    const auto top = at(above, upper_origin);
+    return hn::Add(top, hn::Mul(hn::Set(d, down), hn::Sub(at(below, lower_origin), top)));
+  }
+};
+
+// Where the grid lies in the image, and its lines.
+struct UprightGrid {
+  const IntegralImage& integral;
+  float first, spacing_px, y0;
+  const std::uint32_t* base;
+  int base_x;
+
+  HWY_INLINE GridLine line(int j) const {
+    const float y = y0 + (first + static_cast<float>(j)) * spacing_px;
+    const int row = std::min(std::max(static_cast<int>(std::floor(y)), 0), integral.height_px() - 1);
+    const std::uint32_t *upper = integral.row(row), *lower = integral.row(row + 1);
+    return {upper, lower, upper[base_x] - base[base_x], lower[base_x] - base[base_x],
+            y - static_cast<float>(row)};
+  }
+};
+
+// Four points of the grid, from the sums left and right of each, alternating.
+HWY_INLINE void store_across(hn::Vec<F4> low, hn::Vec<F4> high, const float* fraction, float* out) {
+  const F4 d;
+  const auto left = hn::ConcatEven(d, high, low), right = hn::ConcatOdd(d, high, low);
+  hn::StoreU(hn::Add(left, hn::Mul(hn::Load(d, fraction), hn::Sub(right, left))), d, out);
+}
+
+// A narrow grid: all columns of the image that it spans are blended between rows, many at a time, and then
+// each grid line takes the two beside it.
+constexpr int kNarrow = 12 * static_cast<int>(hn::MaxLanes(F32()));
+
+HWY_INLINE void sample_narrow(const UprightGrid& at, const GridColumns& columns, int lines, Patch& grid) {
+  const F32 d;
+  const U32 du;
+  const int n = static_cast<int>(hn::Lanes(d));
+  const int begin = columns.index[0] / n * n, end = columns.index[0] + columns.span(lines);
+  // NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
+  HWY_ALIGN std::array<float, static_cast<std::size_t>(kGridLines) * kNarrow> blended;
+  std::array<GridLine, kGridLines> line;
+  // NOLINTEND(cppcoreguidelines-pro-type-member-init)
+  for (int j = 0; j < lines; ++j) line[static_cast<std::size_t>(j)] = at.line(j);
+  for (int x = begin; x < end; x += n) {
+    const auto base = hn::Load(du, at.base + x);
+    float* out = blended.data() + (x - begin);
+    for (int j = 0; j < lines; ++j, out += kNarrow) {
+      const GridLine& l = line[static_cast<std::size_t>(j)];
+      hn::Store(l.blend(d, hn::Load(du, l.upper + x), hn::Load(du, l.lower + x), base), d, out);
+    }
+  }
+  for (int i = 0; i < lines; i += 4) {
+    const std::int32_t* index = columns.index.data() + i;
+    const std::ptrdiff_t x0 = index[0] - begin, x1 = index[1] - begin, x2 = index[2] - begin,
+                         x3 = index[3] - begin;
+    const float *row = blended.data(), *fraction = columns.fraction.data() + i;
+    for (int j = 0; j < lines; ++j, row += kNarrow)
+      store_across(load_pairs(row + x0, row + x1), load_pairs(row + x2, row + x3), fraction,
+                   grid.data() + j * kPatchStride + i);
+  }
+}
+
+// A wide grid: only the columns beside its lines are read.
+HWY_INLINE void sample_wide(const UprightGrid& at, const GridColumns& columns, int lines, Patch& grid) {
+  for (int j = 0; j < lines; ++j) {
+    const GridLine line = at.line(j);
+    const auto pairs = [&](int i) {
+      const std::int32_t* index = columns.index.data() + i;
+      return line.blend(F4(), load_pairs(line.upper + index[0], line.upper + index[1]),
+                        load_pairs(line.lower + index[0], line.lower + index[1]),
+                        hn::Load(U4(), columns.base.data() + 2 * i));
+    };
+    for (int i = 0; i < lines; i += 4)
+      store_across(pairs(i), pairs(i + 2), columns.fraction.data() + i, grid.data() + j * kPatchStride + i);
   }
 }
 
 void SampleUprightGrid(const IntegralImage& integral, float x_px, float y_px, float spacing_px, int lines,
                        Patch& grid) {
-  const F4 d;
-  const float first = -0.5f * static_cast<float>(lines - 1);
   const float x0 = x_px + 0.5f, y0 = y_px + 0.5f;  // pixel centres in the integral image
   const int base_y = std::min(std::max(static_cast<int>(y0), 0), integral.height_px());
-  const std::uint32_t* base = integral.row(base_y);
-  const int base_x = std::min(std::max(static_cast<int>(x0), 0), integral.width_px());
+  const UprightGrid at{integral,
+                       -0.5f * static_cast<float>(lines - 1),
+                       spacing_px,
+                       y0,
+                       integral.row(base_y),
+                       std::min(std::max(static_cast<int>(x0), 0), integral.width_px())};
   // Filled at once: clearing it would cost time. NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
   GridColumns columns;
-  place_columns(integral, x0, first, spacing_px, base, columns);
-  for (int j = 0; j < lines; ++j) {
-    const float y = y0 + (first + static_cast<float>(j)) * spacing_px;
-    const int row = std::min(std::max(static_cast<int>(std::floor(y)), 0), integral.height_px() - 1);
-    const std::uint32_t* upper = integral.row(row);
-    const std::uint32_t* lower = integral.row(row + 1);
-    const auto upper_origin = hn::Set(U4(), upper[base_x] - base[base_x]);
-    const auto lower_origin = hn::Set(U4(), lower[base_x] - base[base_x]);
-    const auto down = hn::Set(d, y - static_cast<float>(row));
-    // The sums left and right of two grid lines at height y, alternating.
-    const auto between_rows = [&](int i) {
-      const auto base_sums = hn::Load(U4(), columns.base.data() + 2 * i);
-      const auto at = [&](const std::uint32_t* line, hn::Vec<U4> origin) {
-        const auto sums = hn::Sub(load_pairs(line, columns.index.data() + i), base_sums);
-        return hn::ConvertTo(d, hn::BitCast(I4(), hn::Sub(sums, origin)));
-      };
-      const auto top = at(upper, upper_origin);
-      return hn::Add(top, hn::Mul(down, hn::Sub(at(lower, lower_origin), top)));
-    };
-    for (int i = 0; i < lines; i += 4) {
-      const auto low = between_rows(i), high = between_rows(i + 2);
-      const auto left = hn::ConcatEven(d, high, low), right = hn::ConcatOdd(d, high, low);
-      const auto across = hn::Load(d, columns.fraction.data() + i);
-      hn::StoreU(hn::Add(left, hn::Mul(across, hn::Sub(right, left))), d, grid.data() + j * kPatchStride + i);
-    }
-  }
+  place_columns(integral, x0, at.first, spacing_px, at.base, columns);
+  if (columns.span(lines) <= kNarrow - static_cast<int>(hn::Lanes(F32())))
+    sample_narrow(at, columns, lines, grid);
+  else
+    sample_wide(at, columns, lines, grid);
 }
 
 void SampleUprightCells(const IntegralImage& integral, float x_px, float y_px, float spacing_px,

@@ -73,10 +73,11 @@ struct ColumnSums {
   HWY_INLINE void add(const Haar& haar, int row_inside) {
     const F32 d;
     const auto weight = hn::Set(d, kWeights.inside[static_cast<std::size_t>(row_inside)]);
-    dx = hn::Add(dx, hn::Mul(weight, haar.dx));
-    dy = hn::Add(dy, hn::Mul(weight, haar.dy));
-    abs_dx = hn::Add(abs_dx, hn::Mul(weight, hn::Abs(haar.dx)));
-    abs_dy = hn::Add(abs_dy, hn::Mul(weight, hn::Abs(haar.dy)));
+    const auto weighted_dx = hn::Mul(weight, haar.dx), weighted_dy = hn::Mul(weight, haar.dy);
+    dx = hn::Add(dx, weighted_dx);
+    dy = hn::Add(dy, weighted_dy);
+    abs_dx = hn::Add(abs_dx, hn::Abs(weighted_dx));
+    abs_dy = hn::Add(abs_dy, hn::Abs(weighted_dy));
   }
   HWY_INLINE void store(float* sums) const { hn::StoreInterleaved4(dx, dy, abs_dx, abs_dy, F32(), sums); }
 };
