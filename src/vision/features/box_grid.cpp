@@ -41,18 +41,16 @@ HWY_INLINE hn::Vec<F32> lerp(hn::Vec<F32> a, hn::Vec<F32> b, hn::Vec<F32> t) {
   return hn::Add(a, hn::Mul(t, hn::Sub(b, a)));
 }
 
-// Where the columns of an upright grid lie in the integral image, four at a time: the index of the column
-// before each grid line, and the fraction of a column beyond it.
 using F4 = hn::FixedTag<float, 4>;
 using I4 = hn::RebindToSigned<F4>;
 using U4 = hn::RebindToUnsigned<F4>;
 
+// Where the columns of an upright grid lie in the integral image, four at a time: the index of the column
+// before each grid line, and the fraction of a column beyond it.
 struct GridColumns {
   static constexpr int kPadded = (kGridLines + 3) / 4 * 4;
   HWY_ALIGN std::array<std::int32_t, kPadded> index;
   HWY_ALIGN std::array<float, kPadded> fraction;
-  HWY_ALIGN std::array<std::uint32_t, 2 * kPadded>
-      base;  // the sums of the base row there: left, right, left …
 
   // How many columns of the image lie between the first grid line and the last that is computed.
   int span(int lines) const {
@@ -69,7 +67,7 @@ HWY_INLINE hn::Vec<hn::FixedTag<T, 4>> load_pairs(const T* low, const T* high) {
 }
 
 void place_columns(const IntegralImage& integral, float x0, float first, float spacing_px,
-                   const std::uint32_t* base, GridColumns& columns) {
+                   GridColumns& columns) {
   const F4 d;
   const I4 di;
   for (int i = 0; i < GridColumns::kPadded; i += 4) {
@@ -79,9 +77,6 @@ void place_columns(const IntegralImage& integral, float x0, float first, float s
         hn::Min(hn::Max(hn::ConvertTo(di, hn::Floor(x)), hn::Zero(di)), hn::Set(di, integral.width_px() - 1));
     hn::Store(index, di, columns.index.data() + i);
     hn::Store(hn::Sub(x, hn::ConvertTo(d, index)), d, columns.fraction.data() + i);
-    const std::int32_t* at = columns.index.data() + i;
-    hn::Store(load_pairs(base + at[0], base + at[1]), U4(), columns.base.data() + 2 * i);
-    hn::Store(load_pairs(base + at[2], base + at[3]), U4(), columns.base.data() + 2 * i + 4);
   }
 }
 
@@ -106,21 +101,26 @@ struct GridLine {
   }
 };
 
-// Where the grid lies in the image, and its lines.
-struct UprightGrid {
-  const IntegralImage& integral;
-  float first, spacing_px, y0;
+// Where the lines of an upright grid lie in the integral image. Sums are relative to those of the base row.
+struct GridRows {
+  int lines;
   const std::uint32_t* base;
-  int base_x;
+  std::array<GridLine, kGridLines> line;
+};
 
-  HWY_INLINE GridLine line(int j) const {
+void place_rows(const IntegralImage& integral, float x0, float y0, float first, float spacing_px,
+                GridRows& rows) {
+  const int base_x = std::min(std::max(static_cast<int>(x0), 0), integral.width_px());
+  const int base_y = std::min(std::max(static_cast<int>(y0), 0), integral.height_px());
+  rows.base = integral.row(base_y);
+  for (int j = 0; j < rows.lines; ++j) {
     const float y = y0 + (first + static_cast<float>(j)) * spacing_px;
     const int row = std::min(std::max(static_cast<int>(std::floor(y)), 0), integral.height_px() - 1);
     const std::uint32_t *upper = integral.row(row), *lower = integral.row(row + 1);
-    return {upper, lower, upper[base_x] - base[base_x], lower[base_x] - base[base_x],
-            y - static_cast<float>(row)};
+    rows.line[static_cast<std::size_t>(j)] = {upper, lower, upper[base_x] - rows.base[base_x],
+                                              lower[base_x] - rows.base[base_x], y - static_cast<float>(row)};
   }
-};
+}
 
 // Four points of the grid, from the sums left and right of each, alternating.
 HWY_INLINE void store_across(hn::Vec<F4> low, hn::Vec<F4> high, const float* fraction, float* out) {
@@ -131,69 +131,67 @@ HWY_INLINE void store_across(hn::Vec<F4> low, hn::Vec<F4> high, const float* fra
 
 // A narrow grid: all columns of the image that it spans are blended between rows, many at a time, and then
 // each grid line takes the two beside it.
-constexpr int kNarrow = 12 * static_cast<int>(hn::MaxLanes(F32()));
+constexpr int kNarrow = 11 * static_cast<int>(hn::MaxLanes(F32()));
 
-HWY_INLINE void sample_narrow(const UprightGrid& at, const GridColumns& columns, int lines, Patch& grid) {
+HWY_INLINE void sample_narrow(const GridRows& rows, const GridColumns& columns, Patch& grid) {
   const F32 d;
   const U32 du;
   const int n = static_cast<int>(hn::Lanes(d));
-  const int begin = columns.index[0] / n * n, end = columns.index[0] + columns.span(lines);
-  // NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
+  const int begin = columns.index[0] / n * n, end = columns.index[0] + columns.span(rows.lines);
+  // Filled as far as it is read. NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
   HWY_ALIGN std::array<float, static_cast<std::size_t>(kGridLines) * kNarrow> blended;
-  std::array<GridLine, kGridLines> line;
-  // NOLINTEND(cppcoreguidelines-pro-type-member-init)
-  for (int j = 0; j < lines; ++j) line[static_cast<std::size_t>(j)] = at.line(j);
   for (int x = begin; x < end; x += n) {
-    const auto base = hn::Load(du, at.base + x);
+    const auto base = hn::Load(du, rows.base + x);
     float* out = blended.data() + (x - begin);
-    for (int j = 0; j < lines; ++j, out += kNarrow) {
-      const GridLine& l = line[static_cast<std::size_t>(j)];
-      hn::Store(l.blend(d, hn::Load(du, l.upper + x), hn::Load(du, l.lower + x), base), d, out);
+    for (int j = 0; j < rows.lines; ++j, out += kNarrow) {
+      const GridLine& line = rows.line[static_cast<std::size_t>(j)];
+      hn::Store(line.blend(d, hn::Load(du, line.upper + x), hn::Load(du, line.lower + x), base), d, out);
     }
   }
-  for (int i = 0; i < lines; i += 4) {
+  for (int i = 0; i < rows.lines; i += 4) {
     const std::int32_t* index = columns.index.data() + i;
     const std::ptrdiff_t x0 = index[0] - begin, x1 = index[1] - begin, x2 = index[2] - begin,
                          x3 = index[3] - begin;
-    const float *row = blended.data(), *fraction = columns.fraction.data() + i;
-    for (int j = 0; j < lines; ++j, row += kNarrow)
-      store_across(load_pairs(row + x0, row + x1), load_pairs(row + x2, row + x3), fraction,
-                   grid.data() + j * kPatchStride + i);
+    const float* row = blended.data();
+    for (int j = 0; j < rows.lines; ++j, row += kNarrow)
+      store_across(load_pairs(row + x0, row + x1), load_pairs(row + x2, row + x3),
+                   columns.fraction.data() + i, grid.data() + j * kPatchStride + i);
   }
 }
 
 // A wide grid: only the columns beside its lines are read.
-HWY_INLINE void sample_wide(const UprightGrid& at, const GridColumns& columns, int lines, Patch& grid) {
-  for (int j = 0; j < lines; ++j) {
-    const GridLine line = at.line(j);
-    const auto pairs = [&](int i) {
-      const std::int32_t* index = columns.index.data() + i;
-      return line.blend(F4(), load_pairs(line.upper + index[0], line.upper + index[1]),
-                        load_pairs(line.lower + index[0], line.lower + index[1]),
-                        hn::Load(U4(), columns.base.data() + 2 * i));
-    };
-    for (int i = 0; i < lines; i += 4)
-      store_across(pairs(i), pairs(i + 2), columns.fraction.data() + i, grid.data() + j * kPatchStride + i);
+HWY_INLINE void sample_wide(const GridRows& rows, const GridColumns& columns, Patch& grid) {
+  for (int i = 0; i < rows.lines; i += 4) {
+    const std::int32_t* x = columns.index.data() + i;
+    const auto base_low = load_pairs(rows.base + x[0], rows.base + x[1]);
+    const auto base_high = load_pairs(rows.base + x[2], rows.base + x[3]);
+    for (int j = 0; j < rows.lines; ++j) {
+      const GridLine& line = rows.line[static_cast<std::size_t>(j)];
+      const auto pairs = [&](int first, int second, hn::Vec<U4> base) {
+        return line.blend(F4(), load_pairs(line.upper + first, line.upper + second),
+                          load_pairs(line.lower + first, line.lower + second), base);
+      };
+      store_across(pairs(x[0], x[1], base_low), pairs(x[2], x[3], base_high), columns.fraction.data() + i,
+                   grid.data() + j * kPatchStride + i);
+    }
   }
 }
 
 void SampleUprightGrid(const IntegralImage& integral, float x_px, float y_px, float spacing_px, int lines,
                        Patch& grid) {
+  const float first = -0.5f * static_cast<float>(lines - 1);
   const float x0 = x_px + 0.5f, y0 = y_px + 0.5f;  // pixel centres in the integral image
-  const int base_y = std::min(std::max(static_cast<int>(y0), 0), integral.height_px());
-  const UprightGrid at{integral,
-                       -0.5f * static_cast<float>(lines - 1),
-                       spacing_px,
-                       y0,
-                       integral.row(base_y),
-                       std::min(std::max(static_cast<int>(x0), 0), integral.width_px())};
-  // Filled at once: clearing it would cost time. NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
+  // Filled at once: clearing them would cost time. NOLINTBEGIN(cppcoreguidelines-pro-type-member-init)
+  GridRows rows;
   GridColumns columns;
-  place_columns(integral, x0, at.first, spacing_px, at.base, columns);
+  // NOLINTEND(cppcoreguidelines-pro-type-member-init)
+  rows.lines = lines;
+  place_rows(integral, x0, y0, first, spacing_px, rows);
+  place_columns(integral, x0, first, spacing_px, columns);
   if (columns.span(lines) <= kNarrow - static_cast<int>(hn::Lanes(F32())))
-    sample_narrow(at, columns, lines, grid);
+    sample_narrow(rows, columns, grid);
   else
-    sample_wide(at, columns, lines, grid);
+    sample_wide(rows, columns, grid);
 }
 
 void SampleUprightCells(const IntegralImage& integral, float x_px, float y_px, float spacing_px,
