@@ -2,7 +2,6 @@
 // descriptor.
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -55,6 +54,11 @@ void check_settings(const FeatureSettings& settings) {
 }  // namespace
 
 struct FeatureExtractor::Impl {
+  struct Height {
+    float y_px;
+    std::uint32_t feature;  // its place in the set
+  };
+
   Impl(int width_px, int height_px, const FeatureSettings& given)
       : settings(given),
         max_width_px(width_px),
@@ -79,22 +83,22 @@ struct FeatureExtractor::Impl {
   IntegralImage integral;
   FastHessian hessian;
   KeypointSelection selection;
-  std::vector<std::uint32_t> top_down;  // the features found, in the order of y
+  std::vector<Height> top_down;  // the features found, in the order of y
   StageTimes* times = nullptr;
 };
 
 /// In the order of y, not of strength, so that the part of the integral image that is read stays in the
 /// cache.
 void FeatureExtractor::Impl::describe_all(FeatureSet& out) {
-  top_down.resize(out.features.size());
-  std::iota(top_down.begin(), top_down.end(), 0U);
+  top_down.clear();
+  for (std::uint32_t i = 0; i < out.features.size(); ++i) top_down.push_back({out.features[i].y_px, i});
   std::sort(top_down.begin(), top_down.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return out.features[a].y_px < out.features[b].y_px; });
+            [](const Height& a, const Height& b) { return a.y_px < b.y_px; });
   out.descriptors.resize(out.features.size());
-  for (const std::uint32_t i : top_down) {
-    Feature& feature = out.features[i];
+  for (const Height& height : top_down) {
+    Feature& feature = out.features[height.feature];
     if (settings.oriented) feature.angle_rad = dominant_orientation(integral, feature);
-    describe(integral, feature, !settings.oriented, out.descriptors[i]);
+    describe(integral, feature, !settings.oriented, out.descriptors[height.feature]);
   }
 }
 

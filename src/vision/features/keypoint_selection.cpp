@@ -28,7 +28,7 @@ bool stronger(const Feature& a, const Feature& b) {
 
 KeypointSelection::KeypointSelection(std::size_t capacity) : capacity_(capacity) {
   keypoints_.reserve(2 * capacity_);
-  rest_.reserve(2 * capacity_);
+  ranking_.reserve(2 * capacity_);
 }
 
 void KeypointSelection::start(float threshold) {
@@ -71,18 +71,28 @@ void KeypointSelection::strongest_spread(std::size_t count, const Region& region
   std::size_t share = 0;
   while (taken(share + 1) <= count) ++share;
 
-  std::sort(keypoints_.begin(), keypoints_.end(), stronger);
+  rank_all();
   std::array<std::size_t, kCells> used{};
+  std::size_t left = count - taken(share);  // for the strongest of those beyond the shares
   out.clear();
-  rest_.clear();
-  for (const Feature& keypoint : keypoints_) {
-    std::size_t& n = used[cell_of(keypoint, region)];
-    (n < share ? out : rest_).push_back(keypoint);
-    ++n;
+  for (const Ranked& ranked : ranking_) {
+    const Feature& keypoint = keypoints_[ranked.place];
+    const bool within_share = used[cell_of(keypoint, region)]++ < share;
+    if (!within_share && left == 0) continue;
+    if (!within_share) --left;
+    out.push_back(keypoint);
   }
-  const std::size_t left = std::min(count - out.size(), rest_.size());
-  out.insert(out.end(), rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(left));
-  std::sort(out.begin(), out.end(), stronger);
+}
+
+/// Sorts places, which are quickly moved, in place of the keypoints.
+void KeypointSelection::rank_all() {
+  ranking_.clear();
+  for (std::uint32_t place = 0; place < keypoints_.size(); ++place)
+    ranking_.push_back({keypoints_[place].response, place});
+  std::sort(ranking_.begin(), ranking_.end(), [this](const Ranked& a, const Ranked& b) {
+    return a.response != b.response ? a.response > b.response
+                                    : stronger(keypoints_[a.place], keypoints_[b.place]);
+  });
 }
 
 }  // namespace heel

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "heel/features.h"
@@ -35,12 +36,19 @@ class KeypointSelection {
   void strongest_spread(std::size_t count, const Region& region, std::vector<Feature>& out);
 
  private:
+  /// A keypoint by its place among those kept.
+  struct Ranked {
+    float response;
+    std::uint32_t place;
+  };
+
   void drop_weaker_half();
+  void rank_all();
 
   std::size_t capacity_;
   float threshold_ = 0.f;
   std::vector<Feature> keypoints_;
-  std::vector<Feature> rest_;
+  std::vector<Ranked> ranking_;  // strongest first
 };
 
 }  // namespace heel
