@@ -17,21 +17,22 @@ namespace {
 constexpr float kFloatError = 1e-5f;  // bounds the rounding error of a sum of 64 floats
 constexpr float kUnitError = 2.f;     // bounds the error of a byte product from rounding its excesses
 
-// Bounds of an exact inner product.
-struct Bounds {
-  float lower, upper;
-};
-
 float distance_of(float inner_product) {
   return std::sqrt(std::max(0.f, 2.f - 2.f * inner_product));
 }
 
+float product_of(float distance) {
+  return 1.f - 0.5f * distance * distance;
+}
+
 /// Bounds of the exact product, from a byte product whose distance is wrong by at most `error`.
-Bounds product_bounds(std::int16_t byte_product, float error) {
+float upper_bound(std::int16_t byte_product, float error) {
   const float units = static_cast<float>(byte_product);
-  const float shortest = std::max(0.f, distance_of((units + kUnitError) / kProductUnit) - error);
-  const float longest = distance_of((units - kUnitError) / kProductUnit) + error;
-  return {1.f - 0.5f * longest * longest - kFloatError, 1.f - 0.5f * shortest * shortest + kFloatError};
+  return product_of(std::max(0.f, distance_of((units + kUnitError) / kProductUnit) - error)) + kFloatError;
+}
+float lower_bound(std::int16_t byte_product, float error) {
+  const float units = static_cast<float>(byte_product);
+  return product_of(distance_of((units - kUnitError) / kProductUnit) + error) - kFloatError;
 }
 
 /// Summed in a fixed order: the same to the bit on every instruction set.
@@ -46,13 +47,17 @@ const Descriptor& descriptor_of(const FeatureSet& set, std::int32_t feature) {
   return set.descriptors[static_cast<std::size_t>(feature)];
 }
 
+/// Without a branch for each feature, which would be wrong for every second one.
 void members_of_sign(const FeatureSet& set, std::size_t max_count, bool dark,
                      std::vector<std::int32_t>& members) {
-  members.clear();
   const std::size_t count = std::min(set.features.size(), max_count);
+  members.resize(count);
+  std::size_t found = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if ((set.features[i].laplacian > 0) == dark) members.push_back(static_cast<std::int32_t>(i));
+    members[found] = static_cast<std::int32_t>(i);
+    found += (set.features[i].laplacian > 0) == dark ? 1 : 0;
   }
+  members.resize(found);
 }
 
 }  // namespace
@@ -93,10 +98,11 @@ struct Matcher::Impl {
     ref_members.reserve(ref_capacity);
     cur_members.reserve(cur_capacity);
     candidates.reserve(ref_capacity);
+    dark_matches.reserve(ref_capacity);
+    bright_matches.reserve(ref_capacity);
   }
 
-  void match_features_of_sign(const FeatureSet& ref, const FeatureSet& cur, bool dark,
-                              std::vector<Match>& out);
+  void match_features_of_sign(const FeatureSet& ref, const FeatureSet& cur, bool dark);
   void find_candidates(const FeatureSet& ref, const FeatureSet& cur);
   bool passes_ratio(float best, float second) const {
     return distance_of(best) < settings.ratio * distance_of(second);
@@ -118,11 +124,12 @@ struct Matcher::Impl {
   hwy::AlignedFreeUniquePtr<std::int16_t[]> cur_first, cur_second;  // the two largest of every cur
   std::vector<std::int32_t> places, ref_members, cur_members;
   std::vector<Candidate> candidates;
+  std::vector<Match> dark_matches, bright_matches;  // in the order of the refs
 };
 
 bool Matcher::Impl::cannot_pass_ratio(const Row& row) const {
-  return cur_members.size() > 1 && !passes_ratio(product_bounds(row.largest.first, row.error).upper,
-                                                 product_bounds(row.largest.second, row.error).lower);
+  return cur_members.size() > 1 &&
+         !passes_ratio(upper_bound(row.largest.first, row.error), lower_bound(row.largest.second, row.error));
 }
 
 /// Among the places of a row but `left_out`, of whose byte products `largest` is the largest; of equals the
@@ -144,11 +151,11 @@ Matcher::Impl::LargestExact Matcher::Impl::largest_exact(const Row& row, std::in
   }
   const float distance = distance_of(least) + row.error;
   LargestExact found;
-  for (const std::int32_t place : places_above_product(
-           std::floor((1.f - 0.5f * distance * distance - kFloatError) * kProductUnit) - kUnitError)) {
+  for (const std::int32_t place :
+       places_above_product(std::floor((product_of(distance) - kFloatError) * kProductUnit) - kUnitError)) {
     const auto member = static_cast<std::size_t>(place);
     if (place == left_out ||
-        product_bounds(row.products[member], row.ref_error + cur_bytes.error(member)).upper < least)
+        upper_bound(row.products[member], row.ref_error + cur_bytes.error(member)) < least)
       continue;
     const float product = exact(place);
     found.next = std::max(found.next, std::min(product, found.product));
@@ -164,9 +171,8 @@ bool Matcher::Impl::passes_ratio(const Row& row, const LargestExact& nearest, co
   if (!passes_ratio(nearest.product, nearest.next)) return false;
   const bool largest = row.products[static_cast<std::size_t>(nearest.place)] == row.largest.first;
   const std::int16_t others = largest ? row.largest.second : row.largest.first;
-  const Bounds second = product_bounds(others, row.error);
-  if (passes_ratio(nearest.product, second.upper)) return true;
-  if (!passes_ratio(nearest.product, second.lower)) return false;
+  if (passes_ratio(nearest.product, upper_bound(others, row.error))) return true;
+  if (!passes_ratio(nearest.product, lower_bound(others, row.error))) return false;
   return passes_ratio(nearest.product, largest_exact(row, others, nearest.place, cur).product);
 }
 
@@ -196,10 +202,10 @@ bool Matcher::Impl::is_nearest_of_cur(const Candidate& candidate, const FeatureS
                                       const FeatureSet& cur) const {
   const auto member = static_cast<std::size_t>(candidate.cur);
   const bool largest = candidate.byte_product == cur_first[member];
-  const Bounds others = product_bounds(largest ? cur_second[member] : cur_first[member],
-                                       ref_bytes.max_error() + cur_bytes.error(member));
-  if (others.upper < candidate.product) return true;
-  if (others.lower > candidate.product) return false;
+  const std::int16_t others = largest ? cur_second[member] : cur_first[member];
+  const float error = ref_bytes.max_error() + cur_bytes.error(member);
+  if (upper_bound(others, error) < candidate.product) return true;
+  if (lower_bound(others, error) > candidate.product) return false;
   const Descriptor& descriptor = descriptor_of(cur, cur_members[member]);
   for (std::size_t i = 0; i < ref_members.size(); ++i) {
     const float product = inner_product(descriptor_of(ref, ref_members[i]), descriptor);
@@ -209,8 +215,9 @@ bool Matcher::Impl::is_nearest_of_cur(const Candidate& candidate, const FeatureS
   return true;
 }
 
-void Matcher::Impl::match_features_of_sign(const FeatureSet& ref, const FeatureSet& cur, bool dark,
-                                           std::vector<Match>& out) {
+void Matcher::Impl::match_features_of_sign(const FeatureSet& ref, const FeatureSet& cur, bool dark) {
+  std::vector<Match>& out = dark ? dark_matches : bright_matches;
+  out.clear();
   members_of_sign(ref, max_ref, dark, ref_members);
   members_of_sign(cur, max_cur, dark, cur_members);
   if (ref_members.empty() || cur_members.empty()) return;
@@ -232,10 +239,11 @@ Matcher::Matcher(Matcher&&) noexcept = default;
 Matcher& Matcher::operator=(Matcher&&) noexcept = default;
 
 void Matcher::match(const FeatureSet& ref, const FeatureSet& cur, std::vector<Match>& out) {
-  out.clear();
-  impl_->match_features_of_sign(ref, cur, true, out);
-  impl_->match_features_of_sign(ref, cur, false, out);
-  std::sort(out.begin(), out.end(), [](const Match& a, const Match& b) { return a.ref < b.ref; });
+  for (const bool dark : {true, false}) impl_->match_features_of_sign(ref, cur, dark);
+  out.resize(impl_->dark_matches.size() + impl_->bright_matches.size());
+  std::merge(impl_->dark_matches.begin(), impl_->dark_matches.end(), impl_->bright_matches.begin(),
+             impl_->bright_matches.end(), out.begin(),
+             [](const Match& a, const Match& b) { return a.ref < b.ref; });
 }
 
 }  // namespace heel
