@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "commands.h"
 #include "config/config_load.h"
@@ -28,6 +29,7 @@ constexpr int kFewestSwitches = 16, kMostSwitches = 1000;
 
 struct LatencyOptions {
   std::string recording;
+  std::string truth;
   bool light = false;
   std::string config_file;
   std::string lamp;
@@ -57,6 +59,7 @@ LatencyJson json_of(const LatencyFigures& figures) {
   for (const LatencyHop& hop : figures.hops) json["hops"].push_back(json_of(hop));
   json["total"] = json_of(figures.total);
   json["dequeued_to_last_byte"] = json_of(figures.dequeued_to_last);
+  if (figures.to_wheels) json["to_wheels"] = json_of(*figures.to_wheels);
   json["goal_p99_ms"] = goal_ms(figures);
   json["reached"] = figures.dequeued_to_last.p99_ms <= goal_ms(figures);
   json["slowest_ms"] = figures.slowest_ms;
@@ -73,6 +76,7 @@ std::string table_of(const LatencyFigures& figures) {
                                  figures.frames, figures.commands, "ms", "p50", "p99", "max", "frames");
   for (const LatencyHop& hop : figures.hops) text += row(hop);
   text += row(figures.dequeued_to_last) + row(figures.total);
+  if (figures.to_wheels) text += row(*figures.to_wheels);
   return text +
          fmt::format(
              "goal: dequeued to last byte, p99 at most that of vision and a control period: {:.2f} ms\n",
@@ -108,7 +112,9 @@ std::string table_of(const LightFigures& figures) {
 void run_light(const LatencyOptions& options) {
   if (!options.recording.empty())
     throw Error(options.recording + ": given with --light (expected one of the two)");
-  if (!options.picture.empty()) throw Error("--picture: given with --light (expected with a recording)");
+  for (const auto& [name, value] :
+       {std::pair{"--picture", options.picture}, std::pair{"--truth", options.truth}})
+    if (!value.empty()) throw Error(fmt::format("{}: given with --light (expected with a recording)", name));
   if (options.config_file.empty()) throw Error("--config: missing (expected with --light)");
   const LightFigures figures =
       measure_light(load_config(options.config_file).config, options.lamp, options.switches);
@@ -122,7 +128,9 @@ void run_latency(const LatencyOptions& options) {
     if (!value.empty()) throw Error(fmt::format("{}: given without --light", name));
   if (options.recording.empty()) throw Error("a recording: missing (expected one, or --light)");
   if (!options.picture.empty()) require_writable_image_name(options.picture);
-  const LatencyFigures figures = evaluation::latency_of(options.recording);
+  std::optional<evaluation::WheelResponse> wheels;
+  if (!options.truth.empty()) wheels.emplace(options.truth);
+  const LatencyFigures figures = evaluation::latency_of(options.recording, wheels ? &*wheels : nullptr);
   if (figures.commands == 0) throw Error(figures.file + ": no frame has become a command");
   std::cout << (options.json ? json_of(figures).dump(2) + "\n" : table_of(figures));
   if (options.picture.empty()) return;
@@ -148,6 +156,10 @@ void add_latency_command(CLI::App& app) {
       ->add_option("recording", options->recording,
                    "a recording (*.mcap), or a folder of which the newest one is taken")
       ->type_name("RECORDING");
+  command
+      ->add_option("--truth", options->truth,
+                   "what heel-sim --truth wrote in the same run: how long the wheels took, too")
+      ->type_name("T.csv");
   command->add_flag("--light", options->light,
                     "measure the configured camera: it must see the light, and little else may change");
   command->add_option("--config", options->config_file, "with --light: the daemon's configuration file")

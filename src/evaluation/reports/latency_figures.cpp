@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <utility>
 
 #include "heel/error.h"
 #include "heel/flow.h"
@@ -13,12 +14,20 @@
 namespace heel::evaluation {
 namespace {
 
-constexpr std::size_t kStamps = 6;
-constexpr std::array<const char*, kStamps - 1> kHops{"capture to dequeued", "dequeued to vision", "vision",
-                                                     "vision to tick", "tick to last byte"};
+constexpr std::size_t kStamps = 7;
+constexpr std::size_t kLastByte = 5, kWheels = 6;
+constexpr std::array<const char*, kStamps - 1> kHops{
+    "capture to dequeued", "dequeued to vision", "vision",
+    "vision to tick",      "tick to last byte",  "last byte to wheels"};
 
-/// capture, dequeued, vision's start, vision's end, tick, last byte; 0: not known.
+/// capture, dequeued, vision's start, vision's end, tick, last byte, wheels; 0: not known.
 using Stamps = std::array<TimeNs, kStamps>;
+
+/// The tick that first used a frame.
+struct UsingTick {
+  TimeNs t_capture_ns = 0;
+  double v_before_m_s = 0.0, v_m_s = 0.0;  // commanded
+};
 
 class StampCollector final : public RecordingVisitor {
  public:
@@ -30,9 +39,10 @@ class StampCollector final : public RecordingVisitor {
   void on_tick(const TickRecord& tick) override {
     if (t_tick_ns_ != 0) periods_ms.push_back(1e-6 * static_cast<double>(tick.input.now_ns - t_tick_ns_));
     t_tick_ns_ = tick.input.now_ns;
+    const double v_before_m_s = std::exchange(v_m_s_, tick.command.v_m_s);
     if (!tick.input.has_pose || tick.input.pose.t_capture_ns == t_used_ns_) return;
     t_used_ns_ = tick.input.pose.t_capture_ns;
-    ticks_[tick.input.now_ns] = t_used_ns_;
+    ticks_[tick.input.now_ns] = {t_used_ns_, v_before_m_s, v_m_s_};
   }
   void on_wire(const WireBytes& bytes) override {
     if (bytes.to_robot) written_.push_back(bytes.t_ns);
@@ -42,18 +52,20 @@ class StampCollector final : public RecordingVisitor {
   }
 
   /// Of every frame that a tick has used; in the order of the ticks.
-  std::vector<Stamps> commands() {
+  std::vector<Stamps> commands(const WheelResponse* wheels) {
     std::sort(written_.begin(), written_.end());
     std::vector<Stamps> found;
-    for (auto tick = ticks_.begin(); tick != ticks_.end(); ++tick) {
-      const auto stamps = stamps_.find(tick->second);
+    for (const auto& [t_tick_ns, tick] : ticks_) {
+      const auto stamps = stamps_.find(tick.t_capture_ns);
       if (stamps == stamps_.end()) continue;
       Stamps all = stamps->second;
-      all[4] = tick->first;
+      all[4] = t_tick_ns;
       // A tick writes its command at once; what is written later is that of another tick.
-      const auto byte = std::lower_bound(written_.begin(), written_.end(), tick->first);
-      if (byte == written_.end() || *byte - tick->first > kLongestTick_ns) continue;
-      all[5] = *byte;
+      const auto byte = std::lower_bound(written_.begin(), written_.end(), t_tick_ns);
+      if (byte == written_.end() || *byte - t_tick_ns > kLongestTick_ns) continue;
+      all[kLastByte] = *byte;
+      if (wheels != nullptr)
+        all[kWheels] = wheels->half_way_ns(*byte, tick.v_before_m_s, tick.v_m_s).value_or(0);
       found.push_back(all);
     }
     return found;
@@ -67,10 +79,11 @@ class StampCollector final : public RecordingVisitor {
 
   // By the time of capture: a camera that is opened again may count its frames from 0 again.
   std::map<TimeNs, Stamps> stamps_;
-  std::map<TimeNs, TimeNs> ticks_;  // first tick with a frame, and the time of its capture
+  std::map<TimeNs, UsingTick> ticks_;
   std::vector<TimeNs> written_;
   TimeNs t_tick_ns_ = 0;
   TimeNs t_used_ns_ = 0;
+  double v_m_s_ = 0.0;  // commanded by the last tick
 };
 
 /// Of sorted values: the smallest that so great a share of them does not exceed.
@@ -90,7 +103,7 @@ LatencyHop hop(const char* name, const std::vector<Stamps>& commands, std::size_
 
 }  // namespace
 
-LatencyFigures latency_of(const std::string& recording) {
+LatencyFigures latency_of(const std::string& recording, const WheelResponse* wheels) {
   StampCollector collector;
   LatencyFigures figures;
   figures.file = recording_in(recording);
@@ -99,19 +112,28 @@ LatencyFigures latency_of(const std::string& recording) {
   if (figures.frames == 0)
     throw Error(figures.file +
                 ": no stamps of frames (expected a recording of heeld since it writes /heel/timing)");
-  const std::vector<Stamps> commands = collector.commands();
+  const std::vector<Stamps> commands = collector.commands(wheels);
   figures.commands = commands.size();
   std::sort(collector.periods_ms.begin(), collector.periods_ms.end());
   figures.period_ms = quantile(collector.periods_ms, 0.5);
-  for (std::size_t i = 0; i + 1 < kStamps; ++i) figures.hops.push_back(hop(kHops[i], commands, i, i + 1));
-  figures.total = hop("capture to last byte", commands, 0, kStamps - 1);
-  figures.dequeued_to_last = hop("dequeued to last byte", commands, 1, kStamps - 1);
+  const std::size_t last = wheels == nullptr ? kLastByte : kWheels;
+  for (std::size_t i = 0; i < last; ++i) figures.hops.push_back(hop(kHops[i], commands, i, i + 1));
+  figures.total = hop("capture to last byte", commands, 0, kLastByte);
+  figures.dequeued_to_last = hop("dequeued to last byte", commands, 1, kLastByte);
+  if (wheels != nullptr) {
+    figures.to_wheels = hop("capture to wheels", commands, 0, kWheels);
+    if (figures.to_wheels->count == 0)
+      throw Error(figures.file +
+                  ": no command of it has moved the wheels of the truth (expected both of one run)");
+  }
+  // Without its last stamp (0), a way is shorter than any other.
+  const auto way_ns = [last](const Stamps& stamps) { return stamps[last] - stamps[0]; };
   const auto slowest =
       std::max_element(commands.begin(), commands.end(),
-                       [](const Stamps& a, const Stamps& b) { return a[5] - a[0] < b[5] - b[0]; });
+                       [&](const Stamps& a, const Stamps& b) { return way_ns(a) < way_ns(b); });
   if (slowest != commands.end())
-    for (const TimeNs stamp : *slowest)
-      figures.slowest_ms.push_back(1e-6 * static_cast<double>(stamp - (*slowest)[0]));
+    for (std::size_t i = 0; i <= last; ++i)
+      figures.slowest_ms.push_back(1e-6 * static_cast<double>((*slowest)[i] - (*slowest)[0]));
   return figures;
 }
 

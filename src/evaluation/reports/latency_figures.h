@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "evaluation/reports/wheel_response.h"
 #include "heel/time.h"
 
 namespace heel::evaluation {
@@ -22,15 +24,17 @@ struct LatencyFigures {
   std::size_t commands = 0;  ///< of them, those that a written command has used
   double period_ms = 0.0;    ///< of control: the median time between ticks
   /// In order: capture to dequeued, to vision's start, to its end, to the tick that uses it, to the last byte
-  /// of that tick's command.
+  /// of that tick's command; with the truth of a simulated robot, to its wheels.
   std::vector<LatencyHop> hops;
-  LatencyHop total;             ///< from the capture to the last byte
-  LatencyHop dequeued_to_last;  ///< what heeld itself adds
+  LatencyHop total;                     ///< from the capture to the last byte
+  LatencyHop dequeued_to_last;          ///< what heeld itself adds
+  std::optional<LatencyHop> to_wheels;  ///< from the capture to the wheels, of commands that change the speed
   /// The slowest command's stamps after its capture, in the order of the hops.
   std::vector<double> slowest_ms;
 };
 
-/// Throws heel::Error when it cannot be read, or has no stamps of frames.
-LatencyFigures latency_of(const std::string& recording);
+/// `wheels`: of the same run; null: the way ends at the last byte. Throws heel::Error when the recording
+/// cannot be read, or has no stamps of frames, and when no command of it is in the truth's time.
+LatencyFigures latency_of(const std::string& recording, const WheelResponse* wheels = nullptr);
 
 }  // namespace heel::evaluation
