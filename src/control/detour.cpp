@@ -27,7 +27,8 @@ struct Beside {
 Beside beside_trail(const Trail& trail, double from_m, double to_m, double x_m, double y_m) {
   Beside best{from_m, 0.0};
   double best_m = 1e9;
-  for (double s = from_m; s <= to_m; s += kSearch_m) {
+  for (int i = 0; from_m + i * kSearch_m <= to_m; ++i) {
+    const double s = from_m + i * kSearch_m;
     const Trail::Place place = trail.at(s, 0.3);
     const double dx = x_m - place.x_m, dy = y_m - place.y_m;
     const double distance_m = std::hypot(dx, dy);
@@ -67,7 +68,9 @@ double Detour::offset_m(const Trail& trail, double robot_s_m, const Pose2& robot
     };
     if (!free(wanted_m_)) {
       double best_m = 0.0, best_cost = 1e9;
-      for (double offset = -most_m_; offset <= most_m_ + 1e-9; offset += kStep_m) {
+      const int steps = static_cast<int>(2.0 * most_m_ / kStep_m + 1e-9);
+      for (int i = 0; i <= steps; ++i) {
+        const double offset = i * kStep_m - most_m_;
         const double cost = std::abs(offset) + 0.5 * std::abs(offset - wanted_m_);
         if (free(offset) && cost < best_cost) best_m = offset, best_cost = cost;
       }

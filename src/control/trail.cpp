@@ -119,8 +119,11 @@ Trail::Place Trail::at(double s_m, double half_width_m) const {
        i < size_ && point(i).s_m < centre_m + half_width_m; ++i)
     include(point(i).s_m, point(i).at_m);
   const double lead_end_m = std::min(first_m() - kSpacing_m, centre_m + half_width_m);
-  for (double s = lead_end_m; s > centre_m - half_width_m; s -= kSpacing_m)
+  const double lead_m = lead_end_m - (centre_m - half_width_m);
+  for (int i = 0; i * kSpacing_m < lead_m; ++i) {
+    const double s = lead_end_m - i * kSpacing_m;
     include(s, origin_m + (s - first_m()) * lead_in_);
+  }
   normal(2, 2) += kFlatness * normal(0, 0);
   const Eigen::Matrix<double, 3, 2> c = normal.ldlt().solve(right);
 

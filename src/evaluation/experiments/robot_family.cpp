@@ -41,9 +41,9 @@ class FamilyBench {
     session_.line_opened(0);
   }
 
+  TimeNs now_ns() const { return now_ns_; }
   void connect() {
-    for (double t_s = 0.0; t_s < kToConnect_s && state().phase != LinkPhase::Running; t_s += 0.02)
-      tick(0.0, 0.0);
+    while (now_ns_ < ns_from_seconds(kToConnect_s) && state().phase != LinkPhase::Running) tick(0.0, 0.0);
     if (state().phase != LinkPhase::Running)
       throw Error(fmt::format("{}: the session is {} after {} s (expected running)", robot_.model().subclass,
                               to_string(state().phase), kToConnect_s));
@@ -74,13 +74,14 @@ class FamilyBench {
     robot_.receive(session_.send(last_, now_ns_), now_ns_);
   }
   void run(double v_m_s, double yaw_rate_rad_s, double seconds) {
-    for (double t_s = 0.0; t_s < seconds; t_s += 0.02) tick(v_m_s, yaw_rate_rad_s);
+    for (const TimeNs end_ns = now_ns_ + ns_from_seconds(seconds); now_ns_ < end_ns;)
+      tick(v_m_s, yaw_rate_rad_s);
   }
   /// Until `arrived` says so; throws heel::Error when that takes too long.
   template <typename Arrived>
   void run_until(double v_m_s, double yaw_rate_rad_s, Arrived arrived) {
-    for (double t_s = 0.0; !arrived(truth().pose); t_s += 0.02) {
-      if (t_s > kTooLong_s) throw Error(fmt::format("{}: does not arrive", robot_.model().subclass));
+    for (const TimeNs end_ns = now_ns_ + ns_from_seconds(kTooLong_s); !arrived(truth().pose);) {
+      if (now_ns_ > end_ns) throw Error(fmt::format("{}: does not arrive", robot_.model().subclass));
       tick(v_m_s, yaw_rate_rad_s);
     }
   }
@@ -131,7 +132,7 @@ void drive_to_wall(const Config& config, std::uint64_t seed, FamilyDrive& drive)
   FamilyBench bench(settings, config, seed);
   bench.set_wall(kWall_m);
   bench.connect();
-  for (double t_s = 0.0; t_s < kToWall_s; t_s += 0.02) {
+  for (const TimeNs end_ns = bench.now_ns() + ns_from_seconds(kToWall_s); bench.now_ns() < end_ns;) {
     bench.tick(config.gate.v_max_m_s, 0.0);
     drive.wall_speed_m_s = std::max(drive.wall_speed_m_s, bench.truth().v_m_s);
   }
