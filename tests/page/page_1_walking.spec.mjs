@@ -2,7 +2,7 @@
 // what needs them in view comes first.
 
 import { HangingProxy } from "./hanging_proxy.mjs";
-import { expectAccessible, kDesktop, kPhone, pictureContent, screenshots } from "./page_checks.mjs";
+import { expectAccessible, kDesktop, kPhone, pictureContent, plotsFilled, screenshots, smallTargets } from "./page_checks.mjs";
 import { expect, Operator, test } from "./page_fixture.mjs";
 import { eventually } from "./walk.mjs";
 
@@ -27,7 +27,7 @@ test.describe("desktop, walking", () => {
     await expect(page.locator("#control-note")).toBeEmpty();
   });
 
-  test("follows after Start, with the quadrilateral on the shirt", async ({ operator, page, walk }) => {
+  test("follows after Start, with the quadrilateral on the shirt", { tag: "@picture" }, async ({ operator, page, walk }) => {
     await operator.signedIn();
     await operator.follow();
     await expect(page.locator("#sentence")).toHaveText("Following");
@@ -61,7 +61,28 @@ test.describe("desktop, walking", () => {
     console.log(`picture from exposure to drawn: p50 ${at(0.5)} ms, p95 ${at(0.95)} ms, most ${at(1)} ms`);
     expect(at(0.5)).toBeGreaterThan(0);
     expect(at(0.5)).toBeLessThan(5 * (await operator.bound_ms()));
+    await expect(page.getByLabel("Latency, capture to command")).not.toHaveText("–");
+    await plotsFilled(page);
     await operator.screenshot("following", screenshots());
+  });
+
+  test("says why it rests and what to do, from the robot's STOP button to the next walk", { tag: "@picture" }, async ({ operator, page, walk }) => {
+    await page.emulateMedia({ colorScheme: "dark" });
+    await operator.signedIn();
+    await operator.follow();
+    await plotsFilled(page);
+    walk.fault("stop_button+3");
+    await expect(page.locator("#sentence")).toHaveText("At rest: stop button pressed");
+    await expect(page.locator("#advice")).toHaveText("Release the STOP button on the robot, then press Reset, then Start.");
+    await expect(page.locator("body")).toHaveAttribute("data-level", "bad");
+    expect((await page.locator("#sentence").boundingBox()).height, "the sentence is in one line").toBeLessThan(50);
+    await expect(page.locator("#figure-speed")).toHaveText("0.00 m/s");
+    await operator.screenshot("rest", screenshots());
+    await eventually(async () => !(await operator.newest("tick")).robot.stop_button, "the button is released");
+    await page.locator("#reset").click();
+    await expect(page.locator("#sentence")).toHaveText("At rest: not started");
+    await operator.follow();
+    await page.locator("#stop").click();
   });
 
   test("stops by the button and by the space bar within 100 ms, wherever the focus is", async ({ operator, page }) => {
@@ -74,7 +95,6 @@ test.describe("desktop, walking", () => {
     const bound_ms = await operator.bound_ms();
     expect(button_ms).toBeLessThan(bound_ms);
     expect(space_ms).toBeLessThan(bound_ms);
-    await operator.screenshot("emergency", screenshots());
     await page.locator("#reset").click();
     await expect(page.locator("#sentence")).toHaveText("At rest: not started");
     // On a button the space bar stops and does not press; in a text field it writes, and after Esc it stops.
@@ -139,11 +159,12 @@ test.describe("desktop, walking", () => {
 test.describe("phone", () => {
   test.use({ viewport: kPhone, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
 
-  test("has state and emergency stop on the screen in each view, and stops by a finger", async ({ operator, page }) => {
+  test("has state and emergency stop on the screen in each view, and stops by a finger", { tag: "@picture" }, async ({ operator, page }) => {
     await operator.signedIn();
     await operator.follow();
     await expect.poll(async () => (await pictureContent(page)).yellow).toBeGreaterThan(200);
-    await page.waitForTimeout(1500);
+    const [map, controls] = await Promise.all(["#map", ".controls"].map((id) => page.locator(id).boundingBox()));
+    expect(map.y + map.height, "the whole map above the controls").toBeLessThanOrEqual(controls.y);
     await operator.screenshot("phone", screenshots());
     for (const tab of ["plots", "settings", "log", "live"]) {
       await page.locator(`#tab-${tab}`).tap();
@@ -151,11 +172,15 @@ test.describe("phone", () => {
       for (const id of ["#sentence", "#estop", "#stop"]) await expect(page.locator(id)).toBeInViewport({ ratio: 1 });
       const width = await page.evaluate(() => document.documentElement.scrollWidth);
       expect(width).toBe(kPhone.width);
+      expect(await smallTargets(page), tab).toEqual([]);
     }
     await expectAccessible(page);
     const stopped_ms = await operator.stoppedAfter_ms(() => page.locator("#estop").tap());
     console.log(`zero on the wire after a finger: ${stopped_ms.toFixed(0)} ms`);
     expect(stopped_ms).toBeLessThan(await operator.bound_ms());
+    await expect(page.locator("#figure-speed")).toHaveText("0.00 m/s");
+    await page.emulateMedia({ colorScheme: "dark" });
+    await operator.screenshot("phone-emergency", screenshots());
     await page.locator("#reset").tap();
     await expect(page.locator("#sentence")).toHaveText("At rest: not started");
   });

@@ -1,13 +1,13 @@
 // The page while the robot rests: settings, log, accessibility, and the loss of heeld. After page_1_walking.spec.mjs, with the same heeld.
 
 import { readFileSync } from "node:fs";
-import { expectAccessible, kDesktop, screenshots } from "./page_checks.mjs";
+import { expectAccessible, kDesktop, plotsFilled, screenshots } from "./page_checks.mjs";
 import { expect, test } from "./page_fixture.mjs";
 
 test.describe("desktop, at rest", () => {
   test.use({ viewport: kDesktop });
 
-  test("sets a gain, shows the difference, takes it back and saves it", async ({ operator, page, walk }) => {
+  test("sets a gain, shows the difference, takes it back and saves it", { tag: "@picture" }, async ({ operator, page, walk }) => {
     await operator.signedIn();
     await page.locator("#tab-settings").click();
     await page.locator("#setting-search").fill("gain_yaw");
@@ -34,6 +34,7 @@ test.describe("desktop, at rest", () => {
     await gain.fill("0.7");
     await page.keyboard.press("Enter");
     await expect(page.locator("#setting-save")).toHaveText("Save 1 to file");
+    await expect(page.locator("#setting-note")).toHaveText("control.gain_yaw_1_s is 0.7");
     await operator.screenshot("settings", screenshots());
     await page.locator("#setting-save").click();
     await expect(page.locator("#setting-note")).toContainText("Saved 1");
@@ -114,9 +115,10 @@ test.describe("desktop, at rest", () => {
 test.describe("without heeld", () => {
   test.use({ viewport: kDesktop, losesConnection: true });
 
-  test("says that the connection is lost, marks the picture as old, and comes back by itself", async ({ operator, page, walk }) => {
+  test("says that the connection is lost, marks the picture as old, and comes back by itself", { tag: "@picture" }, async ({ operator, page, walk }) => {
     await operator.signedIn();
     await expect(page.locator("#sentence")).toHaveText("At rest: not started");
+    await plotsFilled(page);
     await walk.end("heeld", "SIGKILL");
     await expect(page.locator("#banner")).toContainText("Connection lost");
     await expect(page.locator("#banner")).toContainText(/Last news \d+\.\d s ago/);

@@ -20,6 +20,24 @@ export async function expectAccessible(page, rules = kRules) {
   expect(found).toEqual([]);
 }
 
+/** Seconds that the plots show in the documents' pictures; the tests do not wait for them. */
+const kPlotted_s = 24;
+
+/** Until the plots show as much as a picture of them needs, where the pictures are for the documents. */
+export async function plotsFilled(page) {
+  if (!process.env.HEEL_PAGE_PICTURES) return;
+  await page.getByRole("radio", { name: "30 s" }).click();
+  await page.waitForTimeout(kPlotted_s * 1000);
+}
+
+/** The controls in view that are too small for a thumb. */
+export function smallTargets(page) {
+  return page.evaluate(() => [...document.querySelectorAll("button, input, select")].filter((one) => one.checkVisibility())
+    .map((one) => ({ name: one.id || one.textContent, box: one.getBoundingClientRect() }))
+    .filter(({ box }) => box.width < 44 || box.height < 44)
+    .map(({ name, box }) => `${name}: ${Math.round(box.width)} x ${Math.round(box.height)}`));
+}
+
 /** How many pixels of the picture are of the quadrilateral's colour, and how different the others are. */
 export function pictureContent(page) {
   return page.evaluate(() => {

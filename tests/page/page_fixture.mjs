@@ -130,7 +130,9 @@ export class Operator {
     return pressed_ms / 1000 - wallMinusMonotonic_s;
   }
 
+  /** Writes the picture page-`name`.jpg. The pointer rests on nothing that would look chosen. */
   async screenshot(name, folder) {
-    await this.page.screenshot({ path: `${folder}/${name}.jpg`, type: "jpeg", quality: 76 });
+    await this.page.mouse.move(0, 0);
+    await this.page.screenshot({ path: `${folder}/page-${name}.jpg`, type: "jpeg", quality: 76 });
   }
 }

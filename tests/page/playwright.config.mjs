@@ -20,5 +20,6 @@ export default defineConfig({
     locale: "en-GB",
     launchOptions: { executablePath: chromium, args: ["--no-sandbox"] },
   },
-  metadata: { screenshots: `${out}/screenshots` },
+  // Where pictures of the page go: tools/page-pictures has those written that the documents show.
+  metadata: { screenshots: process.env.HEEL_PAGE_PICTURES ?? `${out}/screenshots` },
 });

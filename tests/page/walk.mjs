@@ -77,7 +77,7 @@ export class Walk {
     writeFileSync(this.path("token"), `${kToken}\n`);
     chmodSync(this.path("token"), 0o600);
     this.writeConfig();
-    this.spawn("heel-sim", ["--scenario", this.path("walk.toml"), "--robot", `pty:${this.path("robot")}`, "--camera", this.camera,
+    this.spawn("heel-sim", ["--scenario", this.path("walk.toml"), "--live-faults", "--robot", `pty:${this.path("robot")}`, "--camera", this.camera,
       "--truth", this.path("truth.csv"), "--wire", this.path("wire.txt")]);
     await eventually(() => existsSync(this.path("robot")), "heel-sim has its pty");
     await this.startDaemon();
@@ -118,11 +118,16 @@ realtime = false
   }
 
   spawn(name, args, env = {}) {
-    const child = spawn(join(kPrograms, name), args, { env: { ...process.env, ...env }, stdio: ["ignore", "pipe", "pipe"] });
+    const child = spawn(join(kPrograms, name), args, { env: { ...process.env, ...env }, stdio: ["pipe", "pipe", "pipe"] });
     const entry = { child, log: "" };
     for (const stream of [child.stdout, child.stderr]) stream.on("data", (text) => (entry.log += text));
     this.processes.set(name, entry);
     return entry;
+  }
+
+  /** What happens to the robot now, as heel-sim --live-faults reads it. */
+  fault(line) {
+    this.processes.get("heel-sim").child.stdin.write(`${line}\n`);
   }
 
   async startDaemon() {

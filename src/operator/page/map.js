@@ -63,17 +63,18 @@ export class MapView {
     const info = this.bus.newest("info");
     const px = fitCanvas(this.#canvas);
     const { width, height } = this.#canvas;
+    const top = this.#top() * px;
     let scale = this.#scale * px;
     if (tick && this.#follows) {
       // Halfway to the person, and so small that both are in view.
       const person = knownPlace(tick.target);
       this.#middle = odomFromRobot(tick.robot, (person?.x_m ?? 0) / 2, (person?.y_m ?? 0) / 2);
-      if (person) scale = Math.min(scale, Math.min(width, height) / (Math.hypot(person.x_m, person.y_m) + kMargin_m));
+      if (person) scale = Math.min(scale, Math.min(width, height - top) / (Math.hypot(person.x_m, person.y_m) + kMargin_m));
     }
     const view = {
       context: this.#context, width, height, px, scale,
       place: (/** @type {import("./map_paths.js").Point} */ point) => /** @type {[number, number]} */ ([
-        width / 2 - (point.y - this.#middle.y) * scale, height / 2 - (point.x - this.#middle.x) * scale]) };
+        width / 2 - (point.y - this.#middle.y) * scale, (height + top) / 2 - (point.x - this.#middle.x) * scale]) };
     this.#context.clearRect(0, 0, width, height);
     this.#context.globalAlpha = 1;
     drawGrid(view);
@@ -87,6 +88,12 @@ export class MapView {
       this.#speak(tick);
     }
     drawScaleBar(view);
+  }
+
+  /** CSS pixels at the upper edge which the buttons cover. */
+  #top() {
+    const buttons = byId("map-buttons");
+    return buttons.offsetTop + buttons.offsetHeight;
   }
 
   /** @param {import("./messages.js").Tick} tick */
@@ -128,7 +135,7 @@ export class MapView {
     this.#follow(false);
     this.#middle = { x: (xLeast + xMost) / 2, y: (yLeast + yMost) / 2 };
     this.#scale = 1;
-    this.#zoom(Math.min(this.#canvas.clientHeight / (xMost - xLeast + kMargin_m), this.#canvas.clientWidth / (yMost - yLeast + kMargin_m)));
+    this.#zoom(Math.min((this.#canvas.clientHeight - this.#top()) / (xMost - xLeast + kMargin_m), this.#canvas.clientWidth / (yMost - yLeast + kMargin_m)));
   }
 
   /**

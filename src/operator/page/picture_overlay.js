@@ -2,6 +2,10 @@
 
 import { colour } from "./dom.js";
 
+/** Radius of an inlier's dot on the screen. */
+const kInlierLeast = 0.6;
+const kInlierMost = 1.7;
+
 /**
  * Draws quadrilateral, inliers and predicted region of one pose.
  * @param {CanvasRenderingContext2D} context in pixels of the whole picture
@@ -18,10 +22,11 @@ export function drawPose(context, pose, px) {
     context.strokeRect(x0, y0, x1 - x0, y1 - y0);
     context.setLineDash([]);
   }
+  const radius = inlierRadius(pose, px);
+  context.fillStyle = "rgba(60, 220, 120, 0.9)";
   for (const [x, y] of pose.inlier_px ?? []) {
-    context.fillStyle = "rgba(60, 220, 120, 0.9)";
     context.beginPath();
-    context.arc(x, y, 1.7 * px, 0, 2 * Math.PI);
+    context.arc(x, y, radius, 0, 2 * Math.PI);
     context.fill();
   }
   if (!pose.quad) return;
@@ -36,6 +41,19 @@ export function drawPose(context, pose, px) {
   context.strokeStyle = pose.found ? quad : colour("line-strong");
   context.stroke();
   drawUpMark(context, pose.quad, px);
+}
+
+/**
+ * So small that the print is still seen between many inliers in a small picture.
+ * @param {import("./messages.js").Pose} pose
+ * @param {number} px
+ */
+function inlierRadius({ quad, inlier_px }, px) {
+  if (!quad || !inlier_px?.length) return kInlierMost * px;
+  const [[x0, y0], [x1, y1], [x2, y2], [x3, y3]] = quad;
+  const area = Math.abs((x2 - x0) * (y3 - y1) - (x3 - x1) * (y2 - y0)) / 2;
+  const apart = Math.sqrt(area / inlier_px.length);
+  return Math.max(kInlierLeast * px, Math.min(kInlierMost * px, apart / 4));
 }
 
 /**

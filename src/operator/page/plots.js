@@ -24,6 +24,9 @@ const kPlots = [
   { name: "latency", title: "Latency", unit: "ms", digits: 0, span: 20, labels: ["capture to command", "capture to pose"] },
 ];
 
+/** Of which a value is missing for most times: not every pose leads to a command. */
+const kSparse = "latency";
+
 export class PlotsView {
   /** @type {Map<string, {series: Series, graph: any, box: HTMLElement, values: HTMLElement[]}>} */
   #plots = new Map();
@@ -130,7 +133,7 @@ export class PlotsView {
       const range = { dateWindow, valueRange: plot.series.range(dateWindow[0], span) };
       if (plot.graph) plot.graph.updateOptions({ file: plot.series.rows, ...range });
       else plot.graph = this.#makeGraph(plot, labels, range);
-      if (!this.#paused) this.#showValues(plot, plot.series.rows[plot.series.rows.length - 1], digits);
+      if (!this.#paused) this.#showValues(plot, name === kSparse ? plot.series.newest() : plot.series.rows[plot.series.rows.length - 1], digits);
     }
   }
 
@@ -168,7 +171,7 @@ export class PlotsView {
       labels: ["time", ...labels], ...range, colors: seriesColours(), strokeWidth: 1.5,
       legend: "never", gridLineColor: colour("grid"), axisLineColor: colour("line"), axisLabelFontSize: 11,
       axes: { y: { axisLabelWidth: 38, pixelsPerLabel: 17 }, x: { axisLabelWidth: 66, pixelsPerLabel: 90, drawAxis: plot === last } },
-      xRangePad: 0, highlightCircleSize: 3, connectSeparatedPoints: plot === last,
+      xRangePad: 0, highlightCircleSize: 3, connectSeparatedPoints: plot === this.#plots.get(kSparse),
       highlightCallback: (/** @type {any} */ _event, /** @type {number} */ wall_ms) => {
         if (this.#paused) showAt(wall_ms);
       },

@@ -1,6 +1,8 @@
 // Values over time for the plots: the newest few minutes, in order of time.
 
 const kKept_s = 330;
+/** A value that is missing in so many rows is not known any more. */
+const kNewest = 30;
 
 export class Series {
   /** @type {(number | null | Date)[][]} rows: time, then the values */
@@ -22,6 +24,15 @@ export class Series {
       const first = this.rows.findIndex((row) => Number(row[0]) > wall_ms - kKept_s * 1000);
       if (first > 0) this.rows.splice(0, first);
     }
+  }
+
+  /**
+   * The newest value of each column that is known, of the last rows.
+   * @returns {(number | null | Date)[]} as a row
+   */
+  newest() {
+    const rows = this.rows.slice(-kNewest).reverse();
+    return (rows[0] ?? []).map((_, column) => rows.find((row) => row[column] !== null)?.[column] ?? null);
   }
 
   /**

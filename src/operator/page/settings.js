@@ -128,6 +128,7 @@ export class SettingsView {
     const answer = await this.channel.ask({ do: "set", values: { [key]: value } });
     if (!answer.ok) return String(answer.error).replace(`${key}: `, "");
     if (canBeUndone) this.#undo = [...this.#undo, { key, value: before }].slice(-kUndoMost);
+    this.#say(`${key} is ${written(value)}`);
     await this.reload();
     return "";
   }

@@ -4,14 +4,17 @@ import { byId, setText, signed } from "./dom.js";
 import { describe, describeOld } from "./sentence.js";
 
 const kChips_ms = 500;
-/** A sentence with more letters is written smaller. */
+/** A sentence with more letters is written smaller: it then needs one line beside the figures, or at most two. */
+const kMiddle = 22;
 const kLong = 44;
+/** Over which the frames are counted. */
+const kRate_s = 2;
 /** So long without a pose, and the camera counts as silent. */
 const kCameraSilent_ms = 1000;
 
 export class StatusView {
-  #frames = 0;
-  #framesSince_ms = performance.now();
+  /** @type {number[]} times of the newest frames */
+  #frames_s = [];
   #pose_ms = 0;
   #spoken = "";
 
@@ -24,8 +27,9 @@ export class StatusView {
       if (old) this.#showSentence(describeOld(tick), "old");
       else if (tick) this.#showTick(tick);
     });
-    bus.on("pose", () => {
-      ++this.#frames;
+    bus.on("pose", (/** @type {import("./messages.js").Pose} */ { t_s }) => {
+      // A daemon that has started again may begin with an earlier time.
+      this.#frames_s = [...this.#frames_s.filter((one_s) => one_s < t_s && one_s > t_s - kRate_s), t_s];
       this.#pose_ms = performance.now();
     });
     bus.on("info", (/** @type {import("./messages.js").Info} */ info) => {
@@ -43,7 +47,7 @@ export class StatusView {
    */
   #showSentence({ sentence, advice, level }, what) {
     setText(byId("sentence"), sentence);
-    byId("sentence").dataset.long = String(sentence.length > kLong);
+    byId("sentence").dataset.length = sentence.length > kLong ? "long" : sentence.length > kMiddle ? "middle" : "short";
     setText(byId("advice"), advice);
     document.body.dataset.level = level;
     if (what === this.#spoken) return;
@@ -67,9 +71,6 @@ export class StatusView {
     const tick = this.bus.newest("tick");
     const old = this.bus.newest("old") ?? true;
     const now_ms = performance.now();
-    const rate_hz = Math.round((this.#frames * 1000) / (now_ms - this.#framesSince_ms));
-    this.#frames = 0;
-    this.#framesSince_ms = now_ms;
     if (!tick || old) {
       for (const name of ["battery", "link", "camera"]) chip(name, `${name === "link" ? "robot" : name} ?`, "", "not known");
     } else {
@@ -79,10 +80,16 @@ export class StatusView {
       const linked = tick.robot.link === "running";
       chip("link", linked ? "robot" : `robot ${tick.robot.link}`, linked ? "good" : "bad", `the line to the robot is ${tick.robot.link}`);
       const silent = now_ms - this.#pose_ms > kCameraSilent_ms;
-      chip("camera", silent ? "camera silent" : `camera ${rate_hz}/s`, silent ? "bad" : "good", "frames that vision has processed in a second");
+      chip("camera", silent ? "camera silent" : `camera ${this.#rate_hz()}/s`, silent ? "bad" : "good", "frames that vision has processed in a second");
     }
     const recording = this.bus.newest("info")?.recording;
     chip("recording", recording ? "recording" : "not recording", recording ? "good" : "", "telemetry.directory");
+  }
+
+  /** By the times of the frames, not of their news, which come in bursts on a busy network. */
+  #rate_hz() {
+    const [first_s, last_s] = [this.#frames_s[0], this.#frames_s[this.#frames_s.length - 1]];
+    return last_s > first_s ? Math.round((this.#frames_s.length - 1) / (last_s - first_s)) : 0;
   }
 
   /** @param {number} battery_v */
