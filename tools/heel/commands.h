@@ -34,6 +34,7 @@ CLI::Validator whole_number(const std::string& kind);
 CLI::Validator duration_s();
 
 void add_calibrate_command(CLI::App& app);
+void add_card_command(CLI::App& app);
 void add_teach_command(CLI::App& app);
 void add_pose_command(CLI::App& app);
 void add_preflight_command(CLI::App& app);

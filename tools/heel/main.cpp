@@ -22,6 +22,7 @@ void add_commands(CLI::App& app) {
   add_pose_command(app);
   add_preflight_command(app);
   add_setup_command(app);
+  add_card_command(app);
   add_features_command(app);
   add_simulate_command(app);
   add_tune_command(app);

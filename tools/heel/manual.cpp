@@ -39,8 +39,13 @@ std::map<std::string, CommandText> files_and_pictures() {
                           "from a photograph, taken 1.5 m behind the person"},
                          {"heel teach --camera v4l2:/dev/video0 --roi 250,120,140,180 --distance 1.5 "
                           "--camera-info camera.yaml -o shirt.heel",
-                          "from the camera, now"}},
+                          "from the camera, now"},
+                         {"heel teach --image person.png --roi 250,120,140,180 --card card.png --camera-info "
+                          "camera.yaml -o shirt.heel",
+                          "the distance from a second picture, with the printed card against the back"}},
                         "the shirt is refused, the reason is printed")},
+      {"card", offline({{"heel card -o card.pdf", "to print on A4, at 100 %"},
+                        {"heel card -o card.pdf --paper letter", "on Letter"}})},
       {"setup",
        offline({{"heel setup --config /etc/heel/heel.toml", "questions, from nothing to the first walk"},
                 {"heel setup --config heel.toml --step shirt", "another shirt; all else stays"},

@@ -1,6 +1,7 @@
 // heel teach: one view of a shirt's back → a template file, and how well the shirt can be followed.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,6 +10,8 @@
 
 #include "capture/factory/frame_source_factory.h"
 #include "capture/frame_source.h"
+#include "card_distance.h"
+#include "card_sheet.h"
 #include "commands.h"
 #include "core/angles.h"
 #include "files/camera_info.h"
@@ -30,6 +33,7 @@ namespace {
 
 constexpr TimeNs kFrameTimeout_ns = kNsPerS;
 constexpr TimeNs kLongestSilence_ns = 10 * kNsPerS;
+constexpr double kMostCardMiss = 0.05;         // of the distance: the card against the tape
 constexpr std::uint64_t kSettlingFrames = 30;  // the camera's automatic exposure has settled by then
 
 using TeachJson = nlohmann::ordered_json;
@@ -38,7 +42,9 @@ struct TeachOptions {
   std::string image;
   std::string camera_address;
   std::vector<std::string> roi;
-  double distance_m = 0.0;
+  std::optional<double> distance_m;
+  std::string card;
+  double card_square_m = kCardSquare_m;
   double yaw_deg = 0.0;
   std::string camera_file;
   std::string robot_camera_file;
@@ -108,7 +114,32 @@ std::vector<std::uint8_t> grey_from_camera(const TeachOptions& options, int& wid
   return grey;
 }
 
-ShirtTemplate make_template(const TeachOptions& options) {
+/// What the picture of the card says, which must not contradict --distance.
+std::optional<CardDistance> measured_card(const TeachOptions& options, const CameraModel& camera) {
+  if (options.card.empty()) return std::nullopt;
+  FrameInput input({options.card}, 30.0);
+  InputFrame frame;
+  if (!input.next(frame)) throw Error(fmt::format("--card {}: no picture in it", options.card));
+  frame.grey = turned_picture(frame.grey, turn_of(options.turn));
+  require_size(frame, camera, options.camera_file);
+  CardDistance card;
+  try {
+    card = distance_of_card(frame.grey, camera, options.card_square_m);
+  } catch (const Error& error) {
+    throw Error(fmt::format("--card {}: {}", options.card, error.what()));
+  }
+  const double tape_m = options.distance_m.value_or(card.distance_m);
+  if (std::abs(card.distance_m - tape_m) > kMostCardMiss * tape_m)
+    throw Error(fmt::format(
+        "--card {}: the card is {:.2f} m away, and --distance says {:g} m (expected the same to {:g} %: it "
+        "may be printed at {:.0f} %, see its line of {:g} mm, or the distance was not measured along the "
+        "view)",
+        options.card, card.distance_m, tape_m, 100.0 * kMostCardMiss, 100.0 * tape_m / card.distance_m,
+        1000.0 * kCardLine_m));
+  return card;
+}
+
+ShirtTemplate make_template(const TeachOptions& options, std::optional<CardDistance>& card) {
   ShirtTemplate shirt;
   const CameraModel sent_camera = read_camera_model(options.camera_file);
   const PictureTurn turn = turn_of(options.turn);
@@ -124,7 +155,8 @@ ShirtTemplate make_template(const TeachOptions& options) {
                             height_px, shirt.camera.width_px, shirt.camera.height_px, options.camera_file));
   }
   shirt.roi = parse_roi(options.roi, shirt.camera);
-  shirt.distance_m = options.distance_m;
+  card = measured_card(options, shirt.camera);
+  shirt.distance_m = options.distance_m ? *options.distance_m : card->distance_m;
   shirt.yaw_rad = options.yaw_deg / kDegPerRad;
   shirt.oriented = options.oriented;
   if (options.max_features > 0) shirt.max_features = options.max_features;
@@ -140,6 +172,14 @@ void print_verdict(const ShirtTemplate& shirt, const TemplateVerdict& verdict) {
              100.0 * verdict.coarse_share);
 }
 
+TeachJson card_json(const std::optional<CardDistance>& card) {
+  if (!card) return nullptr;
+  return {{"distance_m", card->distance_m},
+          {"sigma_m", card->sigma_m},
+          {"tilt_rad", card->tilt_rad},
+          {"rms_px", card->rms_px}};
+}
+
 TeachJson json_of(const TeachOptions& options, const TemplateVerdict& verdict) {
   return {{"usable", verdict.usable},
           {"reason", verdict.reason},
@@ -152,15 +192,21 @@ TeachJson json_of(const TeachOptions& options, const TemplateVerdict& verdict) {
 }
 
 /// Measures how far the shirt is found, and prints everything.
-void print_results(const TeachOptions& options, const ShirtTemplate& shirt, const TemplateVerdict& verdict,
+void print_results(const TeachOptions& options, const ShirtTemplate& shirt,
+                   const std::optional<CardDistance>& card, const TemplateVerdict& verdict,
                    const CameraModel& robot_camera) {
   const bool measures = verdict.usable && options.reach_time_s > 0.0;
   if (options.json) {
     TeachJson json = json_of(options, verdict);
+    json["distance_m"] = shirt.distance_m;
+    json["card"] = card_json(card);
     if (measures) json["reach"] = reach_json(measured_reach(shirt, robot_camera, options.reach_time_s));
     fmt::print("{}\n", json.dump(2));
     return;
   }
+  if (card)
+    fmt::print("the card is {:.3f} m ± {:.3f} m away, turned by {:.0f}°\n", card->distance_m, card->sigma_m,
+               card->tilt_rad * kDegPerRad);
   print_verdict(shirt, verdict);
   if (!verdict.usable) fmt::print("refused: {}\n", verdict.reason);
   if (measures) print_reach(measured_reach(shirt, robot_camera, options.reach_time_s), options.reach_time_s);
@@ -172,7 +218,11 @@ void run_teach(const TeachOptions& options) {
     throw Error("expected either --image or --camera (see heel teach --help)");
   }
   if (!options.picture.empty()) require_writable_image_name(options.picture);
-  ShirtTemplate shirt = make_template(options);
+  if (!options.distance_m && options.card.empty()) {
+    throw Error("expected --distance, or --card (see heel teach --help)");
+  }
+  std::optional<CardDistance> card;
+  ShirtTemplate shirt = make_template(options, card);
   const CameraModel robot_camera =
       options.robot_camera_file.empty()
           ? shirt.camera
@@ -184,7 +234,7 @@ void run_teach(const TeachOptions& options) {
       shirt.further_views = further_views(shirt, options.more, options.camera_file, turn_of(options.turn));
     write_template(shirt, options.output);
   }
-  print_results(options, shirt, verdict, robot_camera);
+  print_results(options, shirt, card, verdict, robot_camera);
   if (!verdict.usable) throw CLI::RuntimeError(kExitNo);
 }
 
@@ -217,10 +267,21 @@ void add_teach_command(CLI::App& app) {
       ->expected(1, 4)
       ->type_name("X,Y,W,H");
   command
-      ->add_option("--distance", options->distance_m, "from the camera to the back, metres, along the view")
-      ->required()
+      ->add_option("--distance", options->distance_m,
+                   "from the camera to the back, metres, along the view; required without --card")
       ->type_name("M")
       ->check(metres_from(0.1, 100.0));
+  command
+      ->add_option(
+          "--card", options->card,
+          "picture by the same camera of the printed card (heel card) against the back, the person at "
+          "the\nplace of the view: the distance is measured; with --distance it is compared")
+      ->type_name("IMAGE");
+  command
+      ->add_option("--card-square", options->card_square_m,
+                   "side of a square of the card as printed, metres (default 0.034)")
+      ->type_name("M")
+      ->check(metres_from(0.005, 0.5));
   command
       ->add_option("--yaw", options->yaw_deg,
                    "how far the person is turned in the view: 0 from behind (default), 90 walking to the\n"

@@ -54,6 +54,10 @@ class Json(unittest.TestCase):
                             self.file("view.png"))
         self.assertTrue(pose["found"])
 
+    def test_card(self):
+        card = self.json_of("card", "-o", self.file("card.pdf"))
+        self.assertEqual((card["columns"], card["rows"], card["square_m"]), (5, 7, 0.034))
+
     def test_features(self):
         found = self.json_of("features", self.file("view.png"), "-o", self.file("view.kpd"), "--max", "50")
         self.assertEqual(found["features"], 50)
@@ -86,7 +90,7 @@ class Json(unittest.TestCase):
         self.assertGreater(family[0]["robots"], 5)
 
     def test_every_command_that_is_not_tested_here_is_tested_elsewhere(self):
-        here = {"teach", "pose", "features", "simulate", "replay", "export", "bundle", "report", "experiment"}
+        here = {"teach", "card", "pose", "features", "simulate", "replay", "export", "bundle", "report", "experiment"}
         # many_runs_test, calibrate_test, experiment_test, bench_vision_test, measured_heeld_test, operator_test,
         # preflight_test, setup_test, tune_test
         elsewhere = {"merge", "calibrate", "fit", "latency", "bench", "status", "start", "stop", "estop", "reset", "set", "save",
