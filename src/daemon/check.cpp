@@ -41,6 +41,7 @@ void add_what_it_holds(Json& answer, const std::string& path) {
                       {"height_px", inputs.camera.height_px},
                       {"fx", inputs.camera.fx},
                       {"fy", inputs.camera.fy}};
+  answer["warnings"] = inputs.warnings;
   answer["templates"] = template_lines(loaded.config, inputs);
   answer["page"] = page_exposure(loaded.config.view);
   answer["mqtt"] = mqtt_exposure(loaded.config.mqtt);
@@ -54,6 +55,7 @@ void check_configuration(const std::string& path) {
   const Inputs inputs = load_inputs(loaded.config);
   fmt::print("{}: {}×{} pixels, fx {:.1f}, fy {:.1f}\n", loaded.config.camera.info, inputs.camera.width_px,
              inputs.camera.height_px, inputs.camera.fx, inputs.camera.fy);
+  for (const std::string& warning : inputs.warnings) fmt::print("warning: {}\n", warning);
   for (const std::string& line : template_lines(loaded.config, inputs)) fmt::print("{}\n", line);
   for (const std::string& exposure : {page_exposure(loaded.config.view), mqtt_exposure(loaded.config.mqtt)})
     if (!exposure.empty()) fmt::print("{}\n", exposure);

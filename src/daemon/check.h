@@ -14,8 +14,8 @@ struct CheckAnswer {
 };
 
 /// The same for programs: {"file", "valid", "errors": lines}, and of a valid configuration "keys" (each with
-/// its "value" and "line"; 0: default), "camera", "templates" (lines), "page" (who can reach it) and
-/// "mqtt" (where the status goes).
+/// its "value" and "line"; 0: default), "camera", "warnings" and "templates" (lines), "page" (who can reach
+/// it) and "mqtt" (where the status goes).
 CheckAnswer check_configuration_as_json(const std::string& path);
 
 }  // namespace heel

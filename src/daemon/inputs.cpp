@@ -66,7 +66,8 @@ void check_against_camera(const Config& config, const CameraModel& camera) {
 
 Inputs load_inputs(const Config& config) {
   Inputs inputs;
-  const CameraModel camera = read_camera_model(config.camera.info);
+  const auto [camera, warning] = read_camera_file(config.camera.info);
+  if (!warning.empty()) inputs.warnings.push_back(warning);
   parse_robot_address(config.robot.address);  // throws for one that cannot be understood
   check_pace(config.camera);
   check_frame_size(config.camera, camera);
@@ -138,6 +139,7 @@ void log_configuration(const LoadedConfig& loaded, const Inputs& inputs) {
   spdlog::info("configuration: {}", loaded.file);
   spdlog::info("camera: {}, calibration {}, {}×{} pixels", c.camera.source, c.camera.info,
                inputs.camera.width_px, inputs.camera.height_px);
+  for (const std::string& warning : inputs.warnings) spdlog::warn("{}", warning);
   for (const std::string& line : template_lines(c, inputs)) spdlog::info("template: {}", line);
   spdlog::info("robot: {}", c.robot.address);
   if (c.supervisor.start == "at_once")

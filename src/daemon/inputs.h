@@ -16,6 +16,7 @@ namespace heel {
 
 struct Inputs {
   CameraModel camera;
+  std::vector<std::string> warnings;      ///< of the files, one line each
   std::vector<ShirtTemplate> shirts;      ///< templates_for_turned() of read_templates()
   std::vector<std::size_t> taught;        ///< one for each: its place in read_templates()
   std::vector<TemplateVerdict> verdicts;  ///< one for each

@@ -27,12 +27,18 @@ namespace {
 // From a wide-angle lens to a long telephoto lens.
 constexpr double kMinFocalPerWidth = 0.2;
 constexpr double kMaxFocalPerWidth = 10.0;
-// Pixels of a sensor are squares, or, where lines or columns are left out, twice as long as wide.
-constexpr double kMinPixelAspect = 0.5;
-constexpr double kMaxPixelAspect = 2.0;
+// fy / fx: the width of a pixel by its height. Analogue video has 0.91 (NTSC, 720x480) and 1.09 (PAL,
+// 720x576); of one field half of that, of half the columns twice that. The lenses of wide-screen films
+// squeeze twofold.
+constexpr double kMinPixelAspect = 0.44;
+constexpr double kMaxPixelAspect = 2.25;
+constexpr double kMinUsualAspect = 0.8;
+constexpr double kMaxUsualAspect = 1.25;
 // The middle part of each side of the picture, in which the principal point is.
 constexpr double kMinCentre = 0.1;
 constexpr double kMaxCentre = 0.9;
+constexpr double kMinUsualCentre = 0.35;
+constexpr double kMaxUsualCentre = 0.65;
 // The field of view through the principal point, along the side where it is larger. No plane is seen beyond
 // 180 degrees, and the vision takes the shirt for a plane.
 constexpr double kMinView_deg = 5.0;
@@ -66,18 +72,24 @@ void require_possible(const CameraModel& camera, const std::string& path, const 
   focal("fx", camera.fx);
   focal("fy", camera.fy);
   if (camera.fy < kMinPixelAspect * camera.fx || camera.fy > kMaxPixelAspect * camera.fx) {
-    throw camera_key_error(path, key, fmt::format("fy {:g} beside fx {:g}", camera.fy, camera.fx),
-                           fmt::format("fy {:g}…{:g} px; nearly fx with square pixels",
-                                       kMinPixelAspect * camera.fx, kMaxPixelAspect * camera.fx));
+    throw camera_key_error(
+        path, key, fmt::format("fy {:g} beside fx {:g}", camera.fy, camera.fx),
+        fmt::format("fy {:g}…{:g} px, with square pixels nearly fx; was one of them edited?",
+                    kMinPixelAspect * camera.fx, kMaxPixelAspect * camera.fx));
   }
   centre("cx", camera.cx, camera.width_px, "image_width");
   centre("cy", camera.cy, camera.height_px, "image_height");
 }
 
-void read_intrinsics(const CameraYaml& file, CameraModel& camera) {
+/// Where the numbers of the camera matrix stand.
+std::string matrix_data_key(const CameraYaml& file) {
   const std::string key = file.matrix_key();
   const bool bare = key == "K" || key == "k" || file.has_single_values();
-  const std::string data_key = bare ? key : key + ".data";
+  return bare ? key : key + ".data";
+}
+
+void read_intrinsics(const CameraYaml& file, CameraModel& camera) {
+  const std::string key = file.matrix_key(), data_key = matrix_data_key(file);
   const std::vector<double> k = file.has_single_values() ? file.matrix_of_single_values()
                                                          : file.matrix(key, "3 × 3: fx 0 cx, 0 fy cy, 0 0 1");
   const auto refuse = [&](const std::string& found, const std::string& expected) {
@@ -90,7 +102,9 @@ void read_intrinsics(const CameraYaml& file, CameraModel& camera) {
   if (k[1] != 0.0)
     throw camera_key_error(file.path(), data_key + "[1]", fmt::format("skew {}", k[1]), "0: no skew");
   if (k[3] != 0.0 || k[6] != 0.0 || k[7] != 0.0 || k[8] != 1.0)
-    refuse("not a pinhole camera's matrix", "fx 0 cx, 0 fy cy, 0 0 1, row by row");
+    refuse(k[2] == 0.0 && k[5] == 0.0 && k[6] > 0.0 ? "rows and columns are exchanged, as MATLAB writes it"
+                                                    : "not a pinhole camera's matrix",
+           "fx 0 cx, 0 fy cy, 0 0 1, row by row");
   if (k[0] <= 0.0 || k[4] <= 0.0)
     refuse(fmt::format("fx {}, fy {}", k[0], k[4]), "focal lengths above 0, px");
   camera.fx = k[0];
@@ -266,6 +280,31 @@ std::string matrix_yaml(const std::string& key, int rows, int cols, const std::v
 }  // namespace
 
 CameraModel read_camera_model(const std::string& path) {
+  return read_camera_file(path).camera;
+}
+
+std::string unusual_values(const CameraModel& camera) {
+  const double aspect = camera.fy / camera.fx;
+  if (aspect >= kMinUsualAspect && aspect <= kMaxUsualAspect) {
+    const double across = camera.cx / camera.width_px, down = camera.cy / camera.height_px;
+    const auto is_usual = [](double share) { return share >= kMinUsualCentre && share <= kMaxUsualCentre; };
+    if (is_usual(across) && is_usual(down)) return "";
+    return fmt::format(
+        "the centre cx {:.6g}, cy {:.6g} is at {:.0f} % of the width and {:.0f} % of the height (expected "
+        "{:.0f}…{:.0f} "
+        "%; were cx and cy exchanged, or were the pictures cut at one side?)",
+        camera.cx, camera.cy, 100.0 * across, 100.0 * down, 100.0 * kMinUsualCentre, 100.0 * kMaxUsualCentre);
+  }
+  return fmt::format(
+      "fy {:.6g} is {:.2f} times fx {:.6g} (expected {:g}…{:g} times, with square pixels 1; were the "
+      "pictures "
+      "squeezed to {}x{}, or was one of the numbers edited? It is right for one field of analogue video, and "
+      "for "
+      "half of its columns)",
+      camera.fy, aspect, camera.fx, kMinUsualAspect, kMaxUsualAspect, camera.width_px, camera.height_px);
+}
+
+CameraFile read_camera_file(const std::string& path) {
   const CameraYaml file(path);
   CameraModel camera;
   camera.width_px = file.side_px(file.width_key());
@@ -274,7 +313,8 @@ CameraModel read_camera_model(const std::string& path) {
   read_intrinsics(file, camera);
   read_distortion(file, camera);
   require_lens(camera, file);
-  return camera;
+  const std::string unusual = unusual_values(camera);
+  return {camera, unusual.empty() ? "" : fmt::format("{}: {}: {}", path, matrix_data_key(file), unusual)};
 }
 
 const char* lens_model_name(LensModel lens) {

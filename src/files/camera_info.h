@@ -12,6 +12,17 @@ namespace heel {
 /// that no camera has.
 CameraModel read_camera_model(const std::string& path);
 
+/// What a camera can have, but hardly has: found, expected and the likely cause in one line; empty for usual
+/// cameras.
+std::string unusual_values(const CameraModel& camera);
+
+struct CameraFile {
+  CameraModel camera;
+  std::string warning;  ///< unusual_values() with file and key; empty without any
+};
+/// As read_camera_model, for those who tell a person.
+CameraFile read_camera_file(const std::string& path);
+
 /// As ROS calls it.
 const char* lens_model_name(LensModel lens);
 

@@ -8,19 +8,35 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <optional>
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "files/atomic_file.h"
+#include "files/byte_view.h"
+#include "files/other_file_kind.h"
+#include "files/picture_kind.h"
 
 namespace heel {
 namespace {
 
 constexpr std::size_t kMaxCameraInfoBytes = 1 << 20;
 constexpr int kMaxSensorSide_px = 32768;
+constexpr std::size_t kMostNodes = 10000;
+/// By which the camera files of other programs are known.
+constexpr std::array<std::pair<const char*, const char*>, 6> kForeignKeys{{
+    {"cam0", "a camera chain of kalibr"},
+    {"Camera.fx", "settings of ORB-SLAM"},
+    {"Camera1.fx", "settings of ORB-SLAM"},
+    {"projection_parameters", "a camera file of VINS or camodocal"},
+    {"value0", "a calibration of basalt"},
+    {"mtx", "a camera matrix without the size of the picture"},
+}};
+constexpr std::size_t kBeginningBytes = 64;  // of a file say what it is
 
 /// OpenCV begins its files with "%YAML:1.0", which is not a YAML directive. The line is emptied, not removed,
 /// so that line numbers in messages stay right.
@@ -32,10 +48,41 @@ std::string without_opencv_directive(std::string text) {
   return text;
 }
 
+/// What a file is that was given in place of a camera file; empty for text that may be one.
+std::string mistaken_file(ByteView head) {
+  for (const std::string& picture : {unreadable_picture_kind(head), readable_picture_kind(head)})
+    if (!picture.empty()) return picture + " picture";
+  if (const std::string video = video_kind(head); !video.empty()) return video + " video";
+  if (begins_with(head, "heel-template ")) return "a template of a shirt";
+  return other_file_kind(head);
+}
+
+/// Before the whole of it is read: pictures and videos may be too large for that.
+void refuse_mistaken_file(const std::string& path) {
+  require_regular_file(path);
+  std::array<char, kBeginningBytes> head{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return;  // read_whole_file says why
+  file.read(head.data(), head.size());
+  const std::string kind = mistaken_file(
+      {reinterpret_cast<const std::uint8_t*>(head.data()), static_cast<std::size_t>(file.gcount())});
+  if (!kind.empty())
+    throw Error(
+        fmt::format("{}: {} (expected a camera file: YAML with image_width, image_height, camera_matrix, "
+                    "distortion_coefficients; were two files exchanged?)",
+                    path, kind));
+}
+
 YAML::Node parse_camera_file(const std::string& path) {
+  refuse_mistaken_file(path);
   const std::string text = read_whole_file(path, kMaxCameraInfoBytes);
   if (text.starts_with("<?xml")) {
     throw Error(path + ": this is XML (expected camera_info YAML, or OpenCV FileStorage in YAML or JSON)");
+  }
+  if (text.starts_with("# oST")) {
+    throw Error(path +
+                ": parameters in ROS's old form (expected camera_info YAML; the calibrator writes ost.yaml "
+                "beside ost.txt)");
   }
   YAML::Node root;
   try {
@@ -44,6 +91,7 @@ YAML::Node parse_camera_file(const std::string& path) {
     std::string why = error.msg;  // which may quote a byte of the file
     std::replace_if(
         why.begin(), why.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+    if (text.find("\n\t") != std::string::npos) why += "; lines begin with tabs, which YAML does not take";
     throw Error(fmt::format("{}:{}:{}: not YAML: {} (expected a camera_info file)", path, error.mark.line + 1,
                             error.mark.column + 1, why));
   }
@@ -59,16 +107,32 @@ const std::vector<std::string> kMatrix{"camera_matrix", "Camera_Matrix", "camera
 const std::vector<std::string> kFx{"fx", "Fx"}, kFy{"fy", "Fy"}, kPpx{"ppx", "PPX", "cx"},
     kPpy{"ppy", "PPY", "cy"};
 
+/// Counts nodes, because aliases make a few lines as large as they like, or endless.
+class NodeCount {
+ public:
+  explicit NodeCount(const std::string& path) : path_(path) {}
+  void add_one() {
+    if (++nodes_ > kMostNodes)
+      throw Error(fmt::format("{}: more than {} values, by aliases (expected a camera_info file)", path_,
+                              kMostNodes));
+  }
+
+ private:
+  const std::string& path_;
+  std::size_t nodes_ = 0;
+};
+
 /// YAML takes the first of two values and says nothing.
-void refuse_duplicates(const YAML::Node& map, const std::string& path) {
+void refuse_duplicates(const YAML::Node& map, const std::string& path, NodeCount& nodes) {
   std::set<std::string> keys;
   for (const auto& entry : map) {
+    nodes.add_one();
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
     if (!keys.insert(key).second) {
       throw Error(
           fmt::format("{}:{}: {}: given twice (expected once)", path, entry.first.Mark().line + 1, key));
     }
-    if (entry.second.IsMap()) refuse_duplicates(entry.second, path);
+    if (entry.second.IsMap()) refuse_duplicates(entry.second, path, nodes);
   }
 }
 
@@ -84,9 +148,10 @@ std::optional<long> whole_number(const YAML::Node& node) {
 
 /// Adds the numbers of a node: one, several between spaces, or a list of these.
 void add_numbers(const YAML::Node& node, const std::string& path, const std::string& key,
-                 std::vector<double>& values) {
+                 std::vector<double>& values, NodeCount& nodes) {
+  nodes.add_one();
   if (node.IsSequence()) {
-    for (const YAML::Node& part : node) add_numbers(part, path, key, values);
+    for (const YAML::Node& part : node) add_numbers(part, path, key, values, nodes);
     return;
   }
   std::istringstream words(node.IsScalar() ? node.Scalar() : "?");
@@ -109,11 +174,14 @@ Error camera_key_error(const std::string& path, const std::string& key, const st
 }
 
 CameraYaml::CameraYaml(const std::string& path) : path_(path), root_(parse_camera_file(path)) {
-  refuse_duplicates(root_, path);
-  if (root_["cam0"]) {
-    throw Error(path +
-                ": cam0: a camera chain of kalibr (expected camera_info YAML: image_width, image_height, "
-                "camera_matrix, distortion_model, distortion_coefficients)");
+  NodeCount nodes(path);
+  refuse_duplicates(root_, path, nodes);
+  for (const auto& [key, kind] : kForeignKeys) {
+    if (!root_[key]) continue;
+    throw Error(
+        fmt::format("{}: {}: {} (expected camera_info YAML: image_width, image_height, camera_matrix, "
+                    "distortion_model, distortion_coefficients)",
+                    path, key, kind));
   }
 }
 
@@ -194,7 +262,8 @@ std::vector<double> CameraYaml::matrix(const std::string& key, const std::string
     throw camera_key_error(path_, data_key, "missing or not a list", expected);
 
   std::vector<double> values;
-  add_numbers(data, path_, data_key, values);
+  NodeCount nodes(path_);
+  add_numbers(data, path_, data_key, values, nodes);
   if (is_map && matrix["rows"] && matrix["cols"]) {
     const std::optional<long> rows = whole_number(matrix["rows"]), cols = whole_number(matrix["cols"]);
     if (!rows || !cols || *rows * *cols != static_cast<long>(values.size()))

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "files/atomic_file.h"
 #include "files/image_file.h"
@@ -57,6 +58,7 @@ struct FrameInput::Impl {
   double t_last_s = 0.0;     // of the last frame
   int white = 0;             // of the deepest image so far
   bool video_noted = false;  // the current one
+  bool missing_noted = false;
   std::vector<std::string> notes;
   std::vector<std::string> problems;
 
@@ -81,6 +83,9 @@ cv::Mat FrameInput::Impl::read_image(const std::string& path) {
     notes.push_back(path + ": " + image.note);
     white = image.white;
   }
+  // Once, because a camera that leaves the ends out does so in every picture.
+  if (!image.missing.empty() && !std::exchange(missing_noted, true))
+    notes.push_back(path + ": " + image.missing);
   return image.grey;
 }
 

@@ -33,6 +33,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kReadableKinds = "PNG, JPEG, PGM, PPM, BMP, TIFF or WebP";
+constexpr const char* kEndMissing =
+    "its end is missing, as of a download that was interrupted; every row is there";
 constexpr std::size_t kMaxPixels = std::size_t{1} << 27;
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 29;
 
@@ -44,17 +46,27 @@ bool is_png(ByteView file) {
   return begins_with(file, "\x89PNG");
 }
 
+bool is_pnm(ByteView file, char first, char last) {
+  return file.size() > 2 && file[0] == 'P' && file[1] >= first && file[1] <= last &&
+         std::isspace(file[2]) != 0;
+}
+
+/// As a picture has it that is spelled in base64, or a message in place of a picture.
+bool is_text(ByteView file) {
+  const ByteView head = file.first(std::min(file.size(), kPictureKindBytes));
+  return std::all_of(head.begin(), head.end(),
+                     [](int c) { return std::isprint(c) != 0 || std::isspace(c) != 0; });
+}
+
 /// BMP, PGM, PPM, TIFF and WebP. OpenCV is given no other kind: its reader of DICOM files ends the program at
 /// some.
 bool is_for_opencv(ByteView file) {
-  const bool is_pnm =
-      file.size() > 2 && file[0] == 'P' && file[1] >= '1' && file[1] <= '6' && std::isspace(file[2]) != 0;
   const bool is_webp = begins_with(file, "RIFF") && file.size() >= 12 && begins_with(file.subspan(8), "WEBP");
   return begins_with(file, "BM") || begins_with(file, std::string_view("II*\0", 4)) ||
-         begins_with(file, std::string_view("MM\0*", 4)) || is_pnm || is_webp;
+         begins_with(file, std::string_view("MM\0*", 4)) || is_pnm(file, '1', '6') || is_webp;
 }
 
-cv::Mat decode_jpeg(ByteView file, std::string& problem) {
+cv::Mat decode_jpeg(ByteView file, std::string& missing, std::string& problem) {
   JpegDecoder decoder;
   std::uint32_t width_px = 0, height_px = 0;
   cv::Mat grey;
@@ -64,17 +76,21 @@ cv::Mat decode_jpeg(ByteView file, std::string& problem) {
       return {};
     }
     grey.create(static_cast<int>(height_px), static_cast<int>(width_px), CV_8U);
-    if (decoder.decode(file.data(), file.size(), width_px, height_px, grey.data)) return grey;
+    if (decoder.decode(file.data(), file.size(), width_px, height_px, grey.data)) {
+      if (!decoder.has_end()) missing = kEndMissing;
+      return grey;
+    }
   }
   problem = decoder.problem();
   return {};
 }
 
-cv::Mat picture_in_png(ByteView file, int& significant_bits, std::string& problem) {
+cv::Mat picture_in_png(ByteView file, int& significant_bits, std::string& missing, std::string& problem) {
   PngPicture picture = decode_png(file);
   significant_bits = picture.significant_bits;
   problem = picture.problem;
   if (picture.bytes.empty()) return {};
+  if (!picture.has_end) missing = kEndMissing;
   return cv::Mat(static_cast<int>(picture.height_px), static_cast<int>(picture.width_px),
                  picture.deep ? CV_16U : CV_8U, picture.bytes.data())
       .clone();
@@ -132,13 +148,19 @@ std::string problem_of(const cv::Mat& raw, const TiffTags& tags, const std::stri
   const std::string expected =
       std::string(" (expected ") + kReadableKinds + " of 8 to 16 bits a pixel; export it as such)";
   if (tags.has_floats || raw.depth() > CV_32S) return "its pixels are floating-point numbers" + expected;
+  if (raw.depth() == CV_16S || raw.depth() == CV_8S) return "its pixels are signed numbers" + expected;
   if (tags.bits > 16 || !raw.empty()) return "its pixels have more than 16 bits" + expected;
   return "not a whole image" + (problem.empty() ? "" : ": " + problem) + " (expected " + kReadableKinds +
          " of 8 to 16 bits a pixel)";
 }
 
+ByteView view_of(const std::string& bytes) {
+  return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
+}
+
 GreyImage decode_bytes(std::string& bytes, int least_white) {
-  const ByteView file(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  if (is_pnm(view_of(bytes), '1', '3')) bytes += '\n';  // OpenCV needs a character after the last number
+  const ByteView file = view_of(bytes);
   GreyImage image;
   if (const std::string kind = unreadable_picture_kind(file); !kind.empty()) {
     image.problem = kind + " file, which heel does not read (expected " + kReadableKinds +
@@ -157,11 +179,13 @@ GreyImage decode_bytes(std::string& bytes, int least_white) {
   int significant_bits = 0;
   cv::Mat raw;
   if (is_jpeg(file)) {
-    raw = decode_jpeg(file, image.problem);
+    raw = decode_jpeg(file, image.missing, image.problem);
   } else if (is_png(file)) {
-    raw = picture_in_png(file, significant_bits, image.problem);
+    raw = picture_in_png(file, significant_bits, image.missing, image.problem);
   } else if (is_for_opencv(file)) {
     raw = decode_by_opencv(bytes, file);
+  } else if (is_text(file)) {
+    image.problem = "it is text";
   }
   if (raw.empty() || (raw.depth() != CV_8U && raw.depth() != CV_16U)) {
     image.problem = problem_of(raw, read_tiff_tags(file), image.problem);
@@ -247,7 +271,7 @@ GreyImage decode_grey_image(const std::string& path, int least_white) {
     std::string file = read_whole_file(path, kMaxFileBytes);
     return decode_bytes(file, least_white);
   } catch (const std::exception& error) {  // Error, or no memory
-    return {{}, error.what(), "", 0};
+    return {{}, error.what(), "", "", 0};
   }
 }
 

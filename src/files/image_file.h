@@ -32,6 +32,7 @@ struct GreyImage {
   cv::Mat grey;         ///< one block of memory; empty when there is no whole picture
   std::string problem;  ///< then: why, with what was expected, without the file's name
   std::string note;     ///< what was taken for the depth of the pixels, where that is not plain
+  std::string missing;  ///< what the file lacks, where the picture is whole without it
   int white = 255;      ///< the value in the file that became 255
 };
 

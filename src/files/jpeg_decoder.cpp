@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <csetjmp>
 #include <cstdio>
@@ -20,6 +21,8 @@ struct ErrorManager {
   jpeg_error_mgr base{};  // must be first: libjpeg passes a pointer to it
   std::jmp_buf back{};
   std::array<char, JMSG_LENGTH_MAX> message{};
+  bool end_missing = false;
+  bool bytes_left_over = false;
 };
 
 void keep_message(j_common_ptr jpeg) {
@@ -38,13 +41,36 @@ constexpr int kMaxHarmlessBytes = 16;
 
 void count_warning(j_common_ptr jpeg, int level) {
   if (level >= 0) return;
-  const bool harmless =
-      jpeg->err->msg_code == JWRN_EXTRANEOUS_DATA && jpeg->err->msg_parm.i[0] <= kMaxHarmlessBytes;
-  if (harmless) return;
-  if (jpeg->err->num_warnings++ == 0) keep_message(jpeg);
+  auto* manager = reinterpret_cast<ErrorManager*>(jpeg->err);
+  if (manager->message[0] == '\0') keep_message(jpeg);
+  switch (jpeg->err->msg_code) {
+    case JWRN_JPEG_EOF:
+      manager->end_missing = true;
+      return;
+    case JWRN_EXTRANEOUS_DATA:
+      manager->bytes_left_over = true;
+      if (jpeg->err->msg_parm.i[0] <= kMaxHarmlessBytes) return;
+      break;
+    default:
+      break;
+  }
+  ++jpeg->err->num_warnings;
 }
 
 void print_nothing(j_common_ptr) {}
+
+/// Of an image whose rows are all decoded: whether every scan was there. The library warns of bits that are
+/// missing in a scan, but not of whole scans, nor of the end of arithmetic codes.
+bool has_all_scans(const jpeg_decompress_struct& jpeg) {
+  if (jpeg.arith_code != FALSE) return false;
+  for (int i = 0; i < jpeg.num_components; ++i) {
+    if (jpeg.comp_info[i].quant_table == nullptr) return false;  // kept when the first scan of it begins
+    if (jpeg.progressive_mode == FALSE) continue;
+    const int* const missing_bits = jpeg.coef_bits[i];
+    if (std::any_of(missing_bits, missing_bits + DCTSIZE2, [](int bits) { return bits != 0; })) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -52,7 +78,9 @@ struct JpegDecoder::Impl {
   jpeg_decompress_struct jpeg{};
   ErrorManager errors;
   std::vector<std::uint8_t> cmyk_row;
+  bool all_scans = false;  // of the last image
 
+  bool has_end() const { return !errors.end_missing; }
   void read_rows(std::uint8_t* grey);
 };
 
@@ -88,6 +116,10 @@ const char* JpegDecoder::problem() const {
   return impl_->errors.message.data();
 }
 
+bool JpegDecoder::has_end() const {
+  return impl_->has_end();
+}
+
 // These functions must not hold an object with a destructor, because longjmp skips destructors.
 bool JpegDecoder::read_size(const std::uint8_t* jpeg, std::size_t bytes, std::uint32_t& width_px,
                             std::uint32_t& height_px) {
@@ -110,6 +142,7 @@ bool JpegDecoder::decode(const std::uint8_t* jpeg, std::size_t bytes, std::uint3
   Impl& d = *impl_;
   d.errors.base.num_warnings = 0;
   d.errors.message[0] = '\0';
+  d.errors.end_missing = d.errors.bytes_left_over = false;
   if (setjmp(d.errors.back) != 0) {
     jpeg_abort_decompress(&d.jpeg);
     return false;
@@ -129,8 +162,11 @@ bool JpegDecoder::decode(const std::uint8_t* jpeg, std::size_t bytes, std::uint3
   if (cmyk) d.cmyk_row.resize(std::size_t{width_px} * 4);
   jpeg_start_decompress(&d.jpeg);
   d.read_rows(grey);
+  d.all_scans = has_all_scans(d.jpeg);
   jpeg_finish_decompress(&d.jpeg);
-  return d.errors.base.num_warnings == 0;
+  // Where bytes are left over, the end of the image may have been read out of what is none, as of zeros.
+  const bool whole = d.has_end() || (d.all_scans && !d.errors.bytes_left_over);
+  return whole && d.errors.base.num_warnings == 0;
 }
 
 }  // namespace heel

@@ -3,7 +3,9 @@
 // it again.
 //
 // A few bytes too many before a marker, which the encoders of many cameras leave there, do no harm and are
-// passed over. Every other warning of the library means a damaged image, whose rest it would fill with grey.
+// passed over. So is a missing end marker, as some cameras and interrupted downloads leave it, when nothing
+// else is missing. Every other warning of the library means a damaged image, whose rest it would fill with
+// grey.
 #pragma once
 
 #include <cstddef>
@@ -28,6 +30,8 @@ class JpegDecoder {
   bool decode(const std::uint8_t* jpeg, std::size_t bytes, std::uint32_t width_px, std::uint32_t height_px,
               std::uint8_t* grey);
   const char* problem() const;
+  /// Whether the last decoded image had its end marker.
+  bool has_end() const;
 
  private:
   struct Impl;

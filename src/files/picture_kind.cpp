@@ -36,6 +36,12 @@ constexpr std::array kUnreadablePictures{
     Beginning{"P7\n"sv, "a PAM"},
 };
 
+constexpr std::array kReadablePictures{
+    Beginning{"\xff\xd8\xff"sv, "a JPEG"}, Beginning{"\x89PNG"sv, "a PNG"}, Beginning{"BM"sv, "a BMP"},
+    Beginning{"II*\0"sv, "a TIFF"},        Beginning{"MM\0*"sv, "a TIFF"},  Beginning{"P5\n"sv, "a PGM"},
+    Beginning{"P2\n"sv, "a PGM"},          Beginning{"P6\n"sv, "a PPM"},    Beginning{"P3\n"sv, "a PPM"},
+};
+
 constexpr std::array kVideos{
     Beginning{"\x1a\x45\xdf\xa3"sv, "a Matroska or WebM"},
     Beginning{"FLV\x01"sv, "an FLV"},
@@ -83,6 +89,10 @@ std::string unreadable_picture_kind(ByteView file) {
   if (is_animated_webp(file)) return "an animated WebP";
   const std::string by_brand = picture_of_brand(brand_of(file));
   return by_brand.empty() ? kind_in(kUnreadablePictures, file) : by_brand;
+}
+
+std::string readable_picture_kind(ByteView file) {
+  return is_riff(file, "WEBP") ? "a WebP" : kind_in(kReadablePictures, file);
 }
 
 std::string video_kind(ByteView file) {

@@ -13,6 +13,9 @@ inline constexpr std::size_t kPictureKindBytes = 32;  ///< of a file's beginning
 /// it reads, and unknown ones.
 std::string unreadable_picture_kind(ByteView file);
 
+/// "a PNG" for a picture of a kind that heel reads; empty for others.
+std::string readable_picture_kind(ByteView file);
+
 /// "an AVI" for a video; empty for others, and for videos without a beginning of their own.
 std::string video_kind(ByteView file);
 

@@ -21,11 +21,15 @@ struct PngReading {
   std::size_t at = 0;
   PngPicture picture;
   std::vector<png_bytep> rows;
+  bool all_rows = false;
 };
 
 void read_bytes(png_structp png, png_bytep out, std::size_t count) {
   auto& reading = *static_cast<PngReading*>(png_get_io_ptr(png));
-  if (count > reading.file.size() - reading.at) png_error(png, "ends too early");
+  if (count > reading.file.size() - reading.at) {
+    reading.picture.has_end = false;
+    png_error(png, "ends too early");
+  }
   std::memcpy(out, reading.file.data() + reading.at, count);
   reading.at += count;
 }
@@ -72,6 +76,7 @@ void read_all(png_structp png, png_infop info, PngReading& reading) {
   reading.rows.resize(picture.height_px);
   for (std::size_t y = 0; y < picture.height_px; ++y) reading.rows[y] = picture.bytes.data() + y * row_bytes;
   png_read_image(png, reading.rows.data());
+  reading.all_rows = true;
   png_read_end(png, nullptr);
 }
 
@@ -85,7 +90,7 @@ PngPicture decode_png(ByteView file) {
     png_set_read_fn(png, &reading, read_bytes);
     if (setjmp(png_jmpbuf(png)) == 0) {
       read_all(png, info, reading);
-    } else {
+    } else if (!reading.all_rows || reading.picture.has_end) {
       reading.picture.bytes.clear();
     }
   }

@@ -16,6 +16,7 @@ struct PngPicture {
   int significant_bits = 0;         ///< of the values, by the file's sBIT chunk; 0 when it has none
   std::vector<std::uint8_t> bytes;  ///< row-major without gaps
   std::string problem;
+  bool has_end = true;  ///< false: the file ends early, but after the last row
 };
 
 PngPicture decode_png(ByteView file);

@@ -180,8 +180,8 @@ TEST_F(CameraFile, RefusalsNameFileKeyAndWhatIsExpected) {
       {"700.5, 0,", "3.6, 0,", "camera_matrix.data: fx 3.6", "128…6400 px; is it in millimetres?"},
       {"701.5, 240", "3.6, 240", "camera_matrix.data: fy 3.6", "128…6400 px; is it in millimetres?"},
       {"700.5, 0,", "100000, 0,", "camera_matrix.data: fx 100000", "128…6400 px; was image_width edited?"},
-      {"701.5, 240", "6000, 240", "camera_matrix.data: fy 6000 beside fx 700.5", "fy 350.25…1401 px"},
-      {"701.5, 240", "350, 240", "camera_matrix.data: fy 350 beside fx 700.5", "fy 350.25…1401 px"},
+      {"701.5, 240", "6000, 240", "camera_matrix.data: fy 6000 beside fx 700.5", "fy 308.22…1576.12 px"},
+      {"701.5, 240", "300, 240", "camera_matrix.data: fy 300 beside fx 700.5", "fy 308.22…1576.12 px"},
       {"320.25", "9999", "cx 9999", "the middle of the picture, 64…576 px; was image_width edited?"},
       {"320.25", "-331", "cx -331", "the middle of the picture, 64…576 px)"},
       {"320.25", "1", "cx 1", "the middle of the picture, 64…576 px)"},
@@ -373,7 +373,7 @@ TEST_F(CameraFile, OfPublicReportsAreTakenOrRefusedAsTheyShould) {
 }
 
 TEST_F(CameraFile, RefusesFilesWithoutKeys) {
-  EXPECT_THAT(refusal_of(""), HasSubstr("not a camera file"));
+  EXPECT_THAT(refusal_of(""), HasSubstr("an empty file (expected a camera file"));
   EXPECT_THAT(refusal_of("just words\n"), HasSubstr("not a camera file"));
   EXPECT_THAT(refusal_of("%YAML:1.0"), HasSubstr("not a camera file"));
   EXPECT_THAT(refusal_of("width: \"\\\n"), Not(HasSubstr("\n"))) << "yaml-cpp quotes the line's end";

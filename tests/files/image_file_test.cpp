@@ -31,6 +31,7 @@ cv::Mat ramp(int depth = CV_8U, double white = 255.0) {
     for (int x = 0; x < picture.cols; ++x) {
       const double value = white * (x + 4.0 * y) / (39 + 4.0 * 23);
       if (depth == CV_8U) picture.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(value);
+      if (depth == CV_16S) picture.at<std::int16_t>(y, x) = cv::saturate_cast<std::int16_t>(value);
       if (depth == CV_16U) picture.at<std::uint16_t>(y, x) = cv::saturate_cast<std::uint16_t>(value);
     }
   }
@@ -173,6 +174,46 @@ TEST_F(Pictures, CutAnywhereAreRefusedWithoutALineOfALibrary) {
   }
 }
 
+TEST_F(Pictures, WithoutTheEndMarkerOfTheJpegSayThatItIsMissing) {
+  const std::string whole = bytes_of(".jpg", ramp());
+  EXPECT_EQ(decode(whole).missing, "");
+  const GreyImage image = decode(whole.substr(0, whole.size() - 2));
+  EXPECT_EQ(difference(image.grey, decode(whole).grey), 0.0);
+  EXPECT_THAT(image.missing, HasSubstr("its end is missing"));
+}
+
+/// The last 12 bytes of a PNG say that it ends, those before them are the sum of its last pixels.
+TEST_F(Pictures, WithoutTheEndOfThePngSayThatItIsMissing) {
+  const std::string whole = bytes_of(".png", ramp());
+  EXPECT_EQ(decode(whole).missing, "");
+  for (const std::size_t cut : {1u, 8u, 12u}) {
+    const GreyImage image = decode(whole.substr(0, whole.size() - cut));
+    ASSERT_FALSE(image.grey.empty()) << cut << image.problem;
+    EXPECT_EQ(difference(image.grey, ramp()), 0.0);
+    EXPECT_THAT(image.missing, HasSubstr("its end is missing"));
+  }
+  std::string damaged = whole;
+  damaged[whole.size() - 14] = static_cast<char>(damaged[whole.size() - 14] ^ 1);
+  EXPECT_TRUE(decode(damaged).grey.empty()) << "the sum is wrong";
+  EXPECT_TRUE(decode(whole.substr(0, whole.size() - 40)).grey.empty());
+}
+
+TEST_F(Pictures, OfTextAreReadWithoutALineEndAfterTheLastNumber) {
+  const std::string text = "P2\n# x\n3 2\n255\n0 50 100\n150 200 250";
+  const cv::Mat expected = (cv::Mat_<std::uint8_t>(2, 3) << 0, 50, 100, 150, 200, 250);
+  for (const std::string& file : {text, text + "\n"}) {
+    const GreyImage image = decode(file);
+    ASSERT_EQ(image.grey.size(), expected.size()) << image.problem;
+    EXPECT_EQ(difference(image.grey, expected), 0.0);
+  }
+  EXPECT_TRUE(decode(text.substr(0, text.size() - 4)).grey.empty()) << "a number is missing";
+}
+
+TEST_F(Pictures, ThatAreTextAreSaidToBe) {
+  EXPECT_THAT(decode("data:image/jpeg;base64,/9j/4AAQSkZJRgABAQ").problem,
+              HasSubstr("it is text (expected PNG"));
+}
+
 /// OpenCV's reader of DICOM files ends the program at an assertion in some of them.
 TEST_F(Pictures, OfUnknownKindsAreNotGivenToOpenCv) {
   const std::string dicom = std::string(128, '\0') + "DICM\xff" + "FFFOBFF?\x0e" + std::string(40, '\0');
@@ -213,6 +254,7 @@ TEST_F(Pictures, OfDeeperPixelsThanAreReadSayWhatTheyHave) {
   cv::Mat floats, numbers;
   ramp().convertTo(floats, CV_32F, 1.0 / 255.0);
   ramp().convertTo(numbers, CV_32S);
+  EXPECT_THAT(decode(tiff_of(ramp(CV_16S, 900), 1)).problem, HasSubstr("signed numbers (expected PNG"));
   EXPECT_THAT(decode(tiff_of(floats, 1)).problem, HasSubstr("floating-point numbers (expected PNG"));
   EXPECT_THAT(decode(tiff_of(numbers, 1)).problem, HasSubstr("more than 16 bits (expected PNG"));
 }

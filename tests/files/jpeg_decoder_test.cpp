@@ -5,6 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+// libjpeg's header needs <cstdio> before it.
+#include <jpeglib.h>
+
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <random>
@@ -34,6 +39,35 @@ std::vector<std::uint8_t> made_jpeg() {
   std::vector<std::uint8_t> jpeg;
   cv::imencode(".jpg", made_image(), jpeg, {cv::IMWRITE_JPEG_QUALITY, 95});
   return jpeg;
+}
+
+/// Grey, with arithmetic codes in place of Huffman's.
+std::vector<std::uint8_t> arithmetic_jpeg() {
+  cv::Mat grey;
+  cv::cvtColor(made_image(), grey, cv::COLOR_BGR2GRAY);
+  jpeg_compress_struct jpeg{};
+  jpeg_error_mgr errors{};
+  jpeg.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&jpeg);
+  unsigned char* bytes = nullptr;
+  unsigned long count = 0;
+  jpeg_mem_dest(&jpeg, &bytes, &count);
+  jpeg.image_width = kWidth;
+  jpeg.image_height = kHeight;
+  jpeg.input_components = 1;
+  jpeg.in_color_space = JCS_GRAYSCALE;
+  jpeg_set_defaults(&jpeg);
+  jpeg.arith_code = TRUE;
+  jpeg_start_compress(&jpeg, TRUE);
+  for (int y = 0; y < kHeight; ++y) {
+    JSAMPROW row = grey.ptr(y);
+    jpeg_write_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_compress(&jpeg);
+  jpeg_destroy_compress(&jpeg);
+  std::vector<std::uint8_t> file(bytes, bytes + count);
+  std::free(bytes);
+  return file;
 }
 
 class JpegDecoderTest : public testing::Test {
@@ -114,6 +148,55 @@ TEST_F(JpegDecoderTest, AFewBytesTooManyBeforeAMarkerDoNoHarm) {
     EXPECT_FALSE(decode(stuffed)) << "so many are the rest of a damaged picture";
   }
   EXPECT_GE(markers, 4);
+}
+
+// Cameras leave it out, and interrupted downloads.
+TEST_F(JpegDecoderTest, AMissingEndMarkerDoesNoHarmWhereEveryRowIsThere) {
+  for (const std::vector<int>& settings : {std::vector<int>{cv::IMWRITE_JPEG_QUALITY, 95},
+                                           {cv::IMWRITE_JPEG_PROGRESSIVE, 1},
+                                           {cv::IMWRITE_JPEG_RST_INTERVAL, 2}}) {
+    SCOPED_TRACE(settings.front());
+    std::vector<std::uint8_t> jpeg;
+    cv::imencode(".jpg", made_image(), jpeg, settings);
+    ASSERT_TRUE(decode(jpeg)) << decoder_.problem();
+    EXPECT_TRUE(decoder_.has_end());
+    const std::vector<std::uint8_t> clean = grey_;
+    for (const int missing : {1, 2}) {
+      jpeg.pop_back();
+      grey_.assign(grey_.size(), 0);
+      EXPECT_TRUE(decode(jpeg)) << missing << ": " << decoder_.problem();
+      EXPECT_FALSE(decoder_.has_end());
+      EXPECT_EQ(grey_, clean);
+    }
+    jpeg.insert(jpeg.end(), 40, 0);
+    EXPECT_FALSE(decode(jpeg)) << "zeros may stand in place of rows";
+    jpeg.resize(jpeg.size() - 43);
+    EXPECT_FALSE(decode(jpeg)) << "bits of the last block are missing";
+    EXPECT_STRNE(decoder_.problem(), "");
+  }
+}
+
+// Between two scans no bit is missing, only detail: nothing but the end marker says that there is no more of
+// it.
+TEST_F(JpegDecoderTest, AProgressiveImageThatEndsBetweenItsScansIsRefused) {
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", made_image(), jpeg, {cv::IMWRITE_JPEG_PROGRESSIVE, 1});
+  int scans = 0;
+  for (std::size_t at = jpeg.size() / 4; at + 1 < jpeg.size(); ++at) {
+    if (jpeg[at] != 0xff || (jpeg[at + 1] != 0xda && jpeg[at + 1] != 0xc4)) continue;
+    ++scans;
+    const std::vector<std::uint8_t> part(jpeg.begin(), jpeg.begin() + static_cast<long>(at));
+    EXPECT_FALSE(decode(part)) << at << " of " << jpeg.size() << " bytes";
+  }
+  EXPECT_GE(scans, 4);
+}
+
+// Their codes go on as zeros where bytes are missing, without a warning of the library.
+TEST_F(JpegDecoderTest, ArithmeticCodesNeedTheirEndMarker) {
+  std::vector<std::uint8_t> jpeg = arithmetic_jpeg();
+  ASSERT_TRUE(decode(jpeg)) << decoder_.problem();
+  jpeg.resize(jpeg.size() / 2);
+  EXPECT_FALSE(decode(jpeg));
 }
 
 TEST_F(JpegDecoderTest, AMissingPieceInTheMiddleIsRefused) {

@@ -66,7 +66,10 @@ inline std::string tiff_of(const cv::Mat& picture, int orientation, std::uint32_
                                    {0x115, 3, 1},
                                    {0x116, 3, rows},
                                    {0x117, 4, bytes},
-                                   {0x153, 3, picture.depth() == CV_32F ? 3U : 1U}};
+                                   {0x153, 3,
+                                    picture.depth() == CV_32F   ? 3U
+                                    : picture.depth() == CV_16S ? 2U
+                                                                : 1U}};
   std::string file = "II" + little_endian(42, 2) + little_endian(8 + bytes);
   file.append(reinterpret_cast<const char*>(picture.data), bytes);
   file += little_endian(static_cast<std::uint32_t>(entries.size()), 2);

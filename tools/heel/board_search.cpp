@@ -87,16 +87,18 @@ BoardViews find_board(const std::vector<std::string>& images, const Board& board
     cv::Size size;
     FoundCorners found;
     bool has_markers = true;
+    std::string missing{};
   };
   std::vector<std::promise<Searched>> promises(images.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     for (std::size_t i = next++; i < images.size(); i = next++) {
       try {
-        const cv::Mat grey = read_grey_image(images[i]).grey;
+        const GreyImage image = read_grey_image(images[i]);
+        const cv::Mat& grey = image.grey;
         FoundCorners corners = find_corners(grey, board);
         const bool markers = board.pattern != Pattern::Charuco || has_markers(grey, corners);
-        promises[i].set_value({grey.size(), std::move(corners), markers});
+        promises[i].set_value({grey.size(), std::move(corners), markers, image.missing});
       } catch (...) {
         promises[i].set_exception(std::current_exception());
       }
@@ -132,21 +134,26 @@ BoardViews find_board(const std::vector<std::string>& images, const Board& board
     } else {
       found.images_without_board.push_back(images[i]);
     }
-    progress({images[i], shows, is_part, i + 1, images.size()});
+    progress({images[i], shows, is_part, i + 1, images.size(), searched.missing});
   }
   const auto is_whole = [&](const BoardView& view) { return view.seen == board.corners; };
   const auto whole =
       static_cast<std::size_t>(std::count_if(found.views.begin(), found.views.end(), is_whole));
+  const std::size_t with_parts = found.views.size();
   if (whole < kLeastWholeViews) drop_parts(found, board);
   if (found.views.size() < least_views) {
+    std::string likely = mistaken_board(images, board, found.views.size());
+    if (const std::size_t parts = with_parts - found.views.size(); likely.empty() && parts > 0)
+      likely = fmt::format("; {} more show a part of it: does something cover it, or does light glare on it?",
+                           parts);
     const std::string without_board =
         found.images_without_board.empty()
             ? ""
             : fmt::format("; not seen in {}", fmt::join(found.images_without_board, ", "));
     throw Error(fmt::format(
         "only {} of {} images show the {}x{} board (expected at least {}, two of them the whole of it){}{}",
-        found.views.size(), images.size(), board.corners.width, board.corners.height, least_views,
-        mistaken_board(images, board, found.views.size()), without_board));
+        found.views.size(), images.size(), board.corners.width, board.corners.height, least_views, likely,
+        without_board));
   }
   require_markers(found);
   return found;

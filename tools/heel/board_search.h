@@ -34,6 +34,7 @@ struct SearchedImage {
   bool found = false;
   bool is_part = false;  ///< not the whole board
   std::size_t done = 0, images = 0;
+  std::string missing{};  ///< GreyImage::missing
 };
 
 /// Searches every image for the board, on all cores. Of a chessboard a part of at least 4 x 4 corners is

@@ -54,7 +54,7 @@ void print_report(const std::vector<BoardView>& views, const Calibration& result
       "error of a direction, at 3 m (95 %): middle {:.1f} cm, left and right edge {:.1f} cm, corners {:.1f} "
       "cm\n",
       edges.centre_cm, edges.side_cm, edges.corner_cm);
-  if (const std::string warning = warning_of(result); !warning.empty()) fmt::print("warning: {}\n", warning);
+  if (const std::string warning = warnings_of(result); !warning.empty()) fmt::print("warning: {}\n", warning);
   fmt::print("wrote {}\n", output);
 }
 
@@ -77,7 +77,7 @@ CalibrationJson json_of(const BoardViews& found, const Calibration& result, cons
                         {{"middle", result.edges.centre_cm},
                          {"side", result.edges.side_cm},
                          {"corner", result.edges.corner_cm}}},
-                       {"warning", warning_of(result)},
+                       {"warning", warnings_of(result)},
                        {"views", CalibrationJson::array()},
                        {"images_without_board", found.images_without_board}};
   for (const BoardView& view : found.views)
@@ -95,6 +95,8 @@ void run_calibrate(const CalibrateOptions& options) {
   BoardViews found = find_board(images, board, kMinViews, [&](const SearchedImage& searched) {
     progress.clear();
     if (!options.json) print_searched(searched);
+    if (!searched.missing.empty())
+      fmt::print(stderr, "heel calibrate: {}: {}\n", searched.image, searched.missing);
     progress.show(searched.done);
   });
   progress.clear();

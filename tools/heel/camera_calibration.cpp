@@ -197,4 +197,9 @@ std::string warning_of(const Calibration& calibration) {
   return "";
 }
 
+std::string warnings_of(const Calibration& calibration) {
+  const std::string lacks = warning_of(calibration), unusual = unusual_values(calibration.camera);
+  return lacks + (lacks.empty() || unusual.empty() ? "" : "; ") + unusual;
+}
+
 }  // namespace heel::cli

@@ -37,5 +37,7 @@ void require_good_calibration(const std::vector<BoardView>& views, const Calibra
 
 /// What a good calibration lacks, and what to add; empty when it lacks nothing.
 std::string warning_of(const Calibration& calibration);
+/// The same, and what is unusual of the camera, which more views do not change.
+std::string warnings_of(const Calibration& calibration);
 
 }  // namespace heel::cli

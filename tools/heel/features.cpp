@@ -26,7 +26,8 @@ struct FeaturesOptions {
 void write_features(const FeaturesOptions& options) {
   const GreyImage image = read_grey_image(options.image);
   const cv::Mat& grey = image.grey;
-  if (!image.note.empty()) fmt::print(stderr, "{}: {}\n", options.image, image.note);
+  for (const std::string& said : {image.note, image.missing})
+    if (!said.empty()) fmt::print(stderr, "{}: {}\n", options.image, said);
   FeatureExtractor extractor(grey.cols, grey.rows, options.settings);
   FeatureSet features;
   extractor.reserve(features);

@@ -77,7 +77,9 @@ Setup load_setup(const PoseOptions& options) {
   }
   const std::vector<ShirtTemplate> shirts = read_templates(setup.target);
   setup.camera_file = options.camera_file.empty() ? config.camera.info : options.camera_file;
-  setup.sent_camera = read_camera_model(setup.camera_file);
+  const CameraFile file = read_camera_file(setup.camera_file);
+  if (!file.warning.empty()) fmt::print(stderr, "heel pose: warning: {}\n", file.warning);
+  setup.sent_camera = file.camera;
   setup.turn = turn_of(options.turn, config.camera);
   setup.camera = turned_camera(setup.sent_camera, setup.turn);
   setup.templates = templates_for_turned(shirts, setup.sent_camera, setup.turn);

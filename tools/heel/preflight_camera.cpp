@@ -125,7 +125,7 @@ PreflightStep check_camera_and_use(const Config& config, const std::function<voi
 PreflightStep check_calibration(const Config& config) {
   PreflightStep step{.name = "calibration"};
   try {
-    const CameraModel camera = read_camera_model(config.camera.info);
+    const auto [camera, warning] = read_camera_file(config.camera.info);
     const PictureTurn turn = picture_turn(config.camera.rotate, config.camera.mirror);
     const CameraModel turned = turned_camera(camera, turn);
     const double view_deg =
@@ -133,9 +133,10 @@ PreflightStep check_calibration(const Config& config) {
     step.values = {{"file", config.camera.info},
                    {"width_px", camera.width_px},
                    {"height_px", camera.height_px},
-                   {"field_of_view_deg", view_deg}};
-    return step.pass(fmt::format("{}: {}x{} pixels, {:.0f}° wide", config.camera.info, camera.width_px,
-                                 camera.height_px, view_deg));
+                   {"field_of_view_deg", view_deg},
+                   {"warning", warning}};
+    return step.pass(fmt::format("{}: {}x{} pixels, {:.0f}° wide{}", config.camera.info, camera.width_px,
+                                 camera.height_px, view_deg, warning.empty() ? "" : "; warning: " + warning));
   } catch (const Error& error) {
     return not_there(step, error, "measure the camera: heel calibrate --help");
   }

@@ -14,7 +14,7 @@
 namespace heel::cli {
 namespace {
 
-constexpr const char* kForm = "X,Y,W,H: left, top, width and height in whole pixels, e.g. 250,120,140,180";
+const std::string kForm = "X,Y,W,H: left, top, width and height in whole pixels, e.g. 250,120,140,180";
 
 /// The numbers between commas and spaces; none where something else is there.
 std::optional<std::vector<int>> numbers_in(const std::string& text) {
@@ -61,15 +61,22 @@ std::string hint_of_corners(const Region& given, const CameraModel& camera) {
 
 }  // namespace
 
+std::string read_roi(const std::string& text, const CameraModel& camera, Region& region) {
+  const std::optional<std::vector<int>> numbers = numbers_in(text);
+  if (!numbers || numbers->size() != 4) return kForm + hint_of_geometry(text);
+  const Region given{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
+  if (!is_inside(given, camera))
+    return fmt::format("X,Y,W,H inside the {}x{} image{}", camera.width_px, camera.height_px,
+                       hint_of_corners(given, camera));
+  region = given;
+  return "";
+}
+
 Region parse_roi(const std::vector<std::string>& words, const CameraModel& camera) {
   const std::string text = fmt::format("{}", fmt::join(words, " "));
-  const std::optional<std::vector<int>> numbers = numbers_in(text);
-  if (!numbers || numbers->size() != 4)
-    throw Error(fmt::format("--roi: '{}' (expected {}{})", text, kForm, hint_of_geometry(text)));
-  const Region region{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
-  if (!is_inside(region, camera))
-    throw Error(fmt::format("--roi: {} (expected X,Y,W,H inside the {}x{} image{})", fmt::join(*numbers, ","),
-                            camera.width_px, camera.height_px, hint_of_corners(region, camera)));
+  Region region;
+  const std::string expected = read_roi(text, camera, region);
+  if (!expected.empty()) throw Error(fmt::format("--roi: '{}' (expected {})", text, expected));
   return region;
 }
 

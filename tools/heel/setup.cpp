@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "heel/error.h"
 #include "setup_steps.h"
+#include "shell_word.h"
 
 namespace heel::cli {
 namespace {
@@ -45,7 +46,8 @@ std::string options_from(const SetupStep& first, const SetupOptions& options) {
 
 void say_how_to_go_on(Setup& setup, const SetupStep& from) {
   setup.dialogue.say(fmt::format("What was done is kept in {}. Go on with:\n  heel setup --config {}{}",
-                                 setup.file.path(), setup.file.path(), options_from(from, setup.options)));
+                                 setup.file.path(), shell_word(setup.file.path()),
+                                 options_from(from, setup.options)));
 }
 
 void say_what_is_next(Setup& setup) {
@@ -56,7 +58,8 @@ void say_what_is_next(Setup& setup) {
       "  {}\n"
       "  heel set gate.v_max_m_s={:.2g}    # until heeld is restarted\n"
       "  heel start",
-      of_service ? "systemctl enable --now heeld" : "heeld --config " + setup.file.path(), v_m_s));
+      of_service ? "systemctl enable --now heeld" : "heeld --config " + shell_word(setup.file.path()),
+      v_m_s));
 }
 
 PreflightStep run_setup_step(Setup& setup, const SetupStep& step) {

@@ -151,7 +151,7 @@ PreflightStep live_calibration(Setup& setup, const Board& board) {
     step.measured += fmt::format("; {:.2f} px over {} views", result.rms_px, live.views());
     step.values["rms_px"] = result.rms_px;
     step.values["views"] = live.views();
-    step.values["warning"] = warning_of(result);
+    step.values["warning"] = warnings_of(result);
     return step;
   } catch (const Error& error) {
     return step.fail(error.what(), advice_on(error.what(), "docs/inputs.md says how to take the views"));

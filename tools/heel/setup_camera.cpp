@@ -17,6 +17,9 @@ namespace {
 
 constexpr double kLeastUsefulRate_hz = 8.0;  // of the pictures of a person who is followed
 
+constexpr const char* kExpectedCamera =
+    "a number of the list or an address: v4l2:PATH, libcamera:ID, file:PATH or sim:NAME";
+
 struct ChoosableCamera {
   std::string address, name;
 };
@@ -47,15 +50,17 @@ std::string chosen_camera(Setup& setup) {
     setup.dialogue.say(fmt::format("  {}  {}  {}", i + 1, cameras[i].address, cameras[i].name));
   if (cameras.empty()) setup.dialogue.say("  no V4L2 camera is there");
   std::string address;
-  setup.dialogue.ask_until("Which camera? Its number, or an address as v4l2:PATH or libcamera:ID",
-                           cameras.empty() ? "" : "1", "--camera", [&](const std::string& answer) {
-                             try {
-                               address = camera_of(answer, cameras);
-                               return std::string();
-                             } catch (const Error& error) {
-                               return std::string("a number of the list or an address; ") + error.what();
-                             }
-                           });
+  setup.dialogue.ask_until(
+      "Which camera? Its number, or an address as v4l2:PATH or libcamera:ID", cameras.empty() ? "" : "1",
+      "--camera", [&](const std::string& answer) {
+        try {
+          address = camera_of(answer, cameras);
+          return std::string();
+        } catch (const Error&) {
+          return std::string(kExpectedCamera) +
+                 (answer.find("://") == std::string::npos ? "" : "; heel reads no stream from a network");
+        }
+      });
   return address;
 }
 

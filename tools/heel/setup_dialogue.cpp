@@ -66,7 +66,8 @@ std::string Dialogue::ask(const std::string& question, const std::string& usual,
   std::string line;
   if (usual_answers_ || read_line(line) == Line::Ended) {
     say("");
-    throw Error(fmt::format("no answer to '{}' (expected {} or a line on standard input)", question, option));
+    throw NoAnswer(
+        fmt::format("no answer to '{}' (expected {} or a line on standard input)", question, option));
   }
   if (!at_terminal_) say(line);  // where nobody has typed it, it is to be read beside its question
   return line.empty() ? usual : line;

@@ -6,7 +6,15 @@
 #include <iosfwd>
 #include <string>
 
+#include "heel/error.h"
+
 namespace heel::cli {
+
+/// Nobody is there who answers.
+class NoAnswer : public Error {
+ public:
+  using Error::Error;
+};
 
 /// Thrown when the person ends the set-up by a signal.
 struct SetupInterrupted {};
@@ -18,7 +26,7 @@ class Dialogue {
   Dialogue(bool usual_answers, std::ostream& out);
 
   void say(const std::string& line);
-  /// A line; the usual answer for an empty one. Where there is no answer: throws heel::Error, which names the
+  /// A line; the usual answer for an empty one. Where there is no answer: throws NoAnswer, which names the
   /// option that would give it. Throws SetupInterrupted.
   std::string ask(const std::string& question, const std::string& usual, const std::string& option);
   /// Asks until `take` accepts the answer; it gives what was expected, or nothing.

@@ -108,12 +108,7 @@ void agree_on_region(Setup& setup, ShirtTemplate& shirt) {
     setup.dialogue.ask_until(question, "yes", "--roi", [&](const std::string& answer) -> std::string {
       agreed = answer == "yes" || answer == "y";
       if (agreed) return "";
-      try {
-        shirt.roi = parse_roi({answer}, shirt.camera);
-        return "";
-      } catch (const Error& error) {
-        return error.what();
-      }
+      return read_roi(answer, shirt.camera, shirt.roi);
     });
   }
 }
@@ -205,6 +200,8 @@ PreflightStep set_up_shirt(Setup& setup) {
       step.measured += "; the shirt taught before is kept";
     }
     return step;
+  } catch (const NoAnswer&) {
+    throw;  // no fault of the shirt
   } catch (const Error& error) {
     return step.fail(error.what(),
                      advice_on(error.what(), "do what it says, or pass the steps before first"));

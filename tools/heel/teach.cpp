@@ -141,7 +141,8 @@ std::optional<CardDistance> measured_card(const TeachOptions& options, const Cam
 
 ShirtTemplate make_template(const TeachOptions& options, std::optional<CardDistance>& card) {
   ShirtTemplate shirt;
-  const CameraModel sent_camera = read_camera_model(options.camera_file);
+  const auto [sent_camera, warning] = read_camera_file(options.camera_file);
+  if (!warning.empty()) fmt::print(stderr, "heel teach: warning: {}\n", warning);
   const PictureTurn turn = turn_of(options.turn);
   shirt.camera = turned_camera(sent_camera, turn);
   shirt.upright = turn.any() || options.turn.rotate.has_value();

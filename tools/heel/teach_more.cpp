@@ -37,6 +37,7 @@ std::vector<FurtherView> further_views(const ShirtTemplate& shirt, const std::ve
     FrameInput input({image}, 30.0);
     InputFrame frame;
     if (!input.next(frame)) throw Error(fmt::format("--more {}: no picture in it", image));
+    for (const std::string& note : input.notes()) fmt::print(stderr, "heel teach: {}\n", note);
     frame.grey = turned_picture(frame.grey, turn);
     require_size(frame, shirt.camera, camera_file);
     const PoseEstimate pose = tracker.estimate(frame_view_of(frame.grey));

@@ -61,7 +61,8 @@ OpenResult FileSource::open_images() {
   description_ = fmt::format("{}: {} image(s) at {:.4g} Hz", address_, images_.size(), own_rate_hz_);
   if (!videos.empty()) description_ += ", " + videos;
   const GreyImage first = decode_grey_image(images_.front());
-  if (!first.note.empty()) description_ += ", " + first.note;
+  for (const std::string& said : {first.note, first.missing})
+    if (!said.empty()) description_ += ", " + said;
   return OpenResult::Opened;
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "files/camera_info.h"
 #include "files/template_file.h"
 #include "heel/shirt_template.h"
 #include "loopback/daemon/scene.h"
@@ -51,6 +52,24 @@ TEST(HeeldCheck, AGoodConfigurationIsListedWithOriginsAndVerdict) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("gate.v_max_m_s"), HasSubstr(place_of(config, "v_max_m_s") + "\n"),
                                  HasSubstr("# default\n"), HasSubstr("taken at 2.00 m")));
+}
+
+TEST(HeeldCheck, ACameraFileOfSqueezedPicturesIsWarnedOf) {
+  const Scene scene(1);
+  const std::string config = scene.write_config({});
+  const auto usual = nlohmann::json::parse(heeld({"--config", config, "--check", "--json"}).out);
+  EXPECT_EQ(usual["warnings"], nlohmann::json::array());
+  const std::string file = usual["camera"]["file"];
+  CameraModel squeezed = read_camera_model(file);
+  squeezed.fy /= 1.5;
+  write_camera_model(squeezed, file);
+  const Outcome said = heeld({"--config", config, "--check"});
+  EXPECT_EQ(said.status, 0) << said.err;
+  const std::string warning = file + ": camera_matrix.data: fy ";
+  EXPECT_THAT(said.out, AllOf(HasSubstr("warning: " + warning), HasSubstr("squeezed to")));
+  const auto json = nlohmann::json::parse(heeld({"--config", config, "--check", "--json"}).out);
+  EXPECT_TRUE(json["valid"]);
+  EXPECT_THAT(json["warnings"][0].get<std::string>(), HasSubstr(warning));
 }
 
 TEST(HeeldCheck, WhoCanReachThePageIsSaid) {

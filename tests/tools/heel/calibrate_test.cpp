@@ -244,6 +244,35 @@ TEST_F(Calibrate, RefusesViewsThatDoNotShowTheEdges) {
 }
 
 /// Such pictures took minutes.
+TEST_F(Calibrate, SaysThatPicturesAreSqueezedAndThatTheEndOfOneIsMissing) {
+  std::vector<std::string> images = write_views(kGoodPoses);
+  for (const std::string& image : images) {
+    cv::Mat squeezed;
+    cv::resize(cv::imread(image, cv::IMREAD_GRAYSCALE), squeezed, {kWidth_px, kHeight_px * 2 / 3}, 0, 0,
+               cv::INTER_AREA);
+    cv::imwrite(image, squeezed);
+  }
+  std::vector<unsigned char> jpeg;
+  cv::imencode(".jpg", cv::imread(images.back(), cv::IMREAD_GRAYSCALE), jpeg);
+  images.back() = test::write_text(folder.file("last.jpg"), std::string(jpeg.begin(), jpeg.end() - 2));
+  const Outcome outcome = calibrate(images);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("warning: "), HasSubstr("were the pictures squeezed to 640x320")));
+  EXPECT_THAT(outcome.err, HasSubstr(images.back() + ": its end is missing"));
+}
+
+TEST_F(Calibrate, SaysThatTheBoardIsSeenInPart) {
+  const std::vector<std::string> images = write_views(kGoodPoses);
+  for (const std::string& image : images) {
+    cv::Mat glaring = cv::imread(image, cv::IMREAD_GRAYSCALE);
+    cv::circle(glaring, {kWidth_px / 2, kHeight_px / 2}, 70, cv::Scalar(255), cv::FILLED);
+    cv::imwrite(image, glaring);
+  }
+  const Outcome outcome = calibrate(images);
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("more show a part of it: does something cover it"));
+}
+
 TEST_F(Calibrate, IsDoneSoonWithPicturesOfNoise) {
   cv::Mat noise(960, 1280, CV_8U);
   cv::randu(noise, 0, 255);

@@ -230,6 +230,40 @@ TEST_F(Setup, WithoutAnAnswerItNamesTheOptionAndHowToGoOn) {
   EXPECT_THAT(asked.out, HasSubstr("heel setup --config " + file("heel.toml") + " --step camera\n"));
 }
 
+/// A command line that is to be copied.
+TEST_F(Setup, AFolderWithSpacesIsQuotedWhereItIsToGoOn) {
+  fs::create_directory(file("my robot's"));
+  const std::string config = file("my robot's/heel.toml");
+  const Outcome asked = test::run_heel({"setup", "--step", "camera", "--config", config});
+  EXPECT_EQ(asked.status, 2) << asked.out;
+  const std::size_t begin = asked.out.find("  heel setup --config ");
+  ASSERT_NE(begin, std::string::npos) << asked.out;
+  const std::string line = asked.out.substr(begin, asked.out.find('\n', begin) - begin);
+  const Outcome words = test::run_program({"/bin/sh", "-c", "heel() { printf '<%s>' \"$@\"; }; " + line});
+  EXPECT_EQ(words.out, "<setup><--config><" + config + "><--step><camera>");
+}
+
+/// What the shirt step needs, with a picture in which a person could stand.
+TEST_F(Setup, AShirtIsAskedForInWordsOfOneLevelAndNobodyThereIsNoFaultOfIt) {
+  write_camera_model({.width_px = 640, .height_px = 480, .fx = 600, .fy = 600, .cx = 320, .cy = 240},
+                     file("camera.yaml"));
+  write_image(file("back.png"), test::render_board(test::kGoodPoses[0]));
+  write_config("[camera]\nsource = \"file:back.png\"\ninfo = \"camera.yaml\"\n");
+  const std::string options = "--step shirt --height 1.75 --countdown 0 --reach-time 0";
+  const Outcome nobody = answered("", options);
+  EXPECT_EQ(nobody.status, 2) << nobody.out;
+  EXPECT_THAT(nobody.err, HasSubstr("no answer to 'From the camera to the back"));
+  EXPECT_THAT(nobody.err, HasSubstr("(expected --distance or --drive-back or a line on standard input)"));
+  EXPECT_THAT(nobody.out, HasSubstr("--step shirt\n"));
+  EXPECT_THAT(nobody.out, Not(HasSubstr("pass the steps before first")));
+  const Outcome outline = answered("1,2,3\\n600,140,160,200\\n", options + " --distance 1.5");
+  EXPECT_EQ(outline.status, 2) << outline.out;
+  EXPECT_THAT(outline.out,
+              HasSubstr("\n'1,2,3' (expected X,Y,W,H: left, top, width and height in whole pixels"));
+  EXPECT_THAT(outline.out, HasSubstr("\n'600,140,160,200' (expected X,Y,W,H inside the 640x480 image"));
+  EXPECT_THAT(outline.err, HasSubstr("expected --roi or a line on standard input"));
+}
+
 TEST_F(Setup, AnInterruptAtAQuestionKeepsWhatWasDone) {
   write_boards({test::kGoodPoses[0]});
   ASSERT_EQ(mkfifo(file("answers").c_str(), 0600), 0);
