@@ -27,6 +27,29 @@ std::string message(const std::string& text, const Read& read) {
   return "";
 }
 
+/// The parser would call itself for each part, until there is no stack left.
+TEST(Toml, ANameOfVeryManyPartsIsRefused) {
+  std::string name = "a";
+  for (int i = 0; i < 100000; ++i) name += ".a";
+  const auto said = [](const std::string& text) { return message(text, [](TomlSection&) {}); };
+  const std::string refused = "f.toml:2: a name of more than 200 parts (expected section.key)";
+  EXPECT_EQ(said("\n" + name + " = 1\n"), refused);
+  EXPECT_EQ(said("\n[" + name + "]\n"), refused);
+  EXPECT_EQ(said("\nx = {" + name + " = 1}\n"), refused);
+  std::string numbers = "x = [0.5";
+  for (int i = 0; i < 1000; ++i) numbers += ", 0.5";
+  EXPECT_EQ(said("# " + std::string(1000, '.') + "\n" + numbers + "]\n"), "");
+}
+
+TEST(Toml, AFileThatIsTooLargeIsNotReadToItsEnd) {
+  try {
+    read_toml_text("/dev/zero", "a configuration file");
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "/dev/zero: more than 4194304 bytes (expected a configuration file)");
+  }
+}
+
 TEST(Toml, WhatProgramsForTextMakeOfAFileIsNamed) {
   const auto said = [](const std::string& text) { return message(text, [](TomlSection&) {}); };
   const auto names = [&](const std::string& text, const std::string& cause) {
@@ -40,7 +63,15 @@ TEST(Toml, WhatProgramsForTextMakeOfAFileIsNamed) {
   EXPECT_TRUE(names("x = 1\nname = \u201cyard\u201d\n", "straight quotes"));
   EXPECT_TRUE(names("x = 1\nspeed = 0,5\n", "a point in a number"));
   EXPECT_TRUE(names("x = 1\nspeed = [0,5\n", "(expected TOML)"));
-  EXPECT_TRUE(names("# 0,5 \u201cyard\u201d\nspeed : 1\n", "(expected TOML)")) << "on another line";
+  EXPECT_TRUE(names("# 0,5 \u201cyard\u201d\nspeed 1\n", "(expected TOML)")) << "on another line";
+  EXPECT_TRUE(names("camera:\n  rate_hz: 30\n", "is this YAML?"));
+  EXPECT_TRUE(names(R"({"camera": {"rate_hz": 30}})", "this is JSON"));
+  EXPECT_TRUE(names("x = 1\nsource = file:walk.mp4\n", "text in quotes"));
+  EXPECT_TRUE(names("x = 1\npath = /dev/video0\n", "text in quotes"));
+  EXPECT_TRUE(names("rate_hz = 30fps\n", "a number without its unit"));
+  EXPECT_TRUE(names("gain = 0.5 1/s\n", "(expected TOML)"));
+  EXPECT_TRUE(
+      names(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), "another kind of file, e.g. a picture"));
   EXPECT_EQ(said("\xef\xbb\xbfspeed = 1\r\n"), "") << "a byte order mark, and line ends of Windows";
 }
 
