@@ -141,9 +141,9 @@ std::string reason_against(const ShirtTemplate& shirt, const TemplateVerdict& ve
   }
   if (verdict.features < kMinFeatures) {
     return format(
-        "only %d features: the shirt is too plain, or the picture too dark or blurred (expected at "
+        "only %d feature%s: the shirt is too plain, or the picture too dark or blurred (expected at "
         "least %d: a print or a coarse pattern)",
-        verdict.features, kMinFeatures);
+        verdict.features, verdict.features == 1 ? "" : "s", kMinFeatures);
   }
   if (verdict.spread < kMinSpread) {
     return format(
