@@ -36,8 +36,8 @@ class Rows(unittest.TestCase):
         self.assertEqual((row["far_m"], row["turn_deg"], row["features"], row["alike"]), (4.5, 30, 90, 0.3))
         row = self.page.worst("dotted", [verdict(), verdict(reason="the pattern repeats: 93 %")])
         self.assertEqual(row["reason"], "the pattern repeats: 93 %")
-        row = self.page.worst("plain", [verdict(reason="only 3 features", features=3), verdict(reason="only 1 features", features=1)])
-        self.assertEqual((row["reason"], row["features"]), ("only 1 features", 1))
+        row = self.page.worst("plain", [verdict(reason="only 3 features", features=3), verdict(reason="only 1 feature", features=1)])
+        self.assertEqual((row["reason"], row["features"]), ("only 1 feature", 1))
         row = self.page.worst("dotted", [verdict(), verdict(reason="the pattern repeats: 93 %")])
         self.assertIn("| – | – | refused: the pattern repeats |", self.page.table([row]))
 
