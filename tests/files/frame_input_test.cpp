@@ -70,6 +70,22 @@ TEST_F(FrameInputTest, SkipsFramesWithoutChangingTheirNumbers) {
   EXPECT_EQ(input.frames_passed(), 4U);
 }
 
+/// A camera that leaves the end marker out does so in every picture.
+TEST_F(FrameInputTest, ThatTheEndsOfPicturesAreMissingIsSaidOnce) {
+  std::filesystem::create_directory(folder_.file("walk"));
+  for (const char* name : {"walk/1.jpg", "walk/2.jpg"}) {
+    const std::string whole = test::read_text(image(name, 90));
+    test::write_text(folder_.file(name), whole.substr(0, whole.size() - 2));
+  }
+  FrameInput input({folder_.file("walk")}, 5.0);
+  InputFrame frame;
+  int frames = 0;
+  while (input.next(frame)) ++frames;
+  EXPECT_EQ(frames, 2);
+  ASSERT_EQ(input.notes().size(), 1U);
+  EXPECT_THAT(input.notes()[0], ::testing::HasSubstr("walk/1.jpg: its end is missing"));
+}
+
 TEST_F(FrameInputTest, AnImageIsRecognisedByItsEndingOrItsContent) {
   const std::string png = image("picture.png", 1);
   std::filesystem::copy(png, folder_.file("without_ending"));
