@@ -23,6 +23,10 @@ struct ErrorManager {
   std::array<char, JMSG_LENGTH_MAX> message{};
   bool end_missing = false;
   bool bytes_left_over = false;
+  // The first warning, from which a message is made only of a damaged image: cameras may cause harmless ones
+  // with every frame.
+  int first_code = 0;
+  decltype(jpeg_error_mgr::msg_parm) first_values{};
 };
 
 void keep_message(j_common_ptr jpeg) {
@@ -42,7 +46,10 @@ constexpr int kMaxHarmlessBytes = 16;
 void count_warning(j_common_ptr jpeg, int level) {
   if (level >= 0) return;
   auto* manager = reinterpret_cast<ErrorManager*>(jpeg->err);
-  if (manager->message[0] == '\0') keep_message(jpeg);
+  if (manager->first_code == 0) {
+    manager->first_code = jpeg->err->msg_code;
+    manager->first_values = jpeg->err->msg_parm;
+  }
   switch (jpeg->err->msg_code) {
     case JWRN_JPEG_EOF:
       manager->end_missing = true;
@@ -143,6 +150,7 @@ bool JpegDecoder::decode(const std::uint8_t* jpeg, std::size_t bytes, std::uint3
   d.errors.base.num_warnings = 0;
   d.errors.message[0] = '\0';
   d.errors.end_missing = d.errors.bytes_left_over = false;
+  d.errors.first_code = 0;
   if (setjmp(d.errors.back) != 0) {
     jpeg_abort_decompress(&d.jpeg);
     return false;
@@ -165,8 +173,12 @@ bool JpegDecoder::decode(const std::uint8_t* jpeg, std::size_t bytes, std::uint3
   d.all_scans = has_all_scans(d.jpeg);
   jpeg_finish_decompress(&d.jpeg);
   // Where bytes are left over, the end of the image may have been read out of what is none, as of zeros.
-  const bool whole = d.has_end() || (d.all_scans && !d.errors.bytes_left_over);
-  return whole && d.errors.base.num_warnings == 0;
+  const bool has_all = d.has_end() || (d.all_scans && !d.errors.bytes_left_over);
+  if (has_all && d.errors.base.num_warnings == 0) return true;
+  d.errors.base.msg_code = d.errors.first_code;
+  d.errors.base.msg_parm = d.errors.first_values;
+  keep_message(reinterpret_cast<j_common_ptr>(&d.jpeg));
+  return false;
 }
 
 }  // namespace heel
