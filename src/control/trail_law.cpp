@@ -85,7 +85,7 @@ void TrailLaw::extend_trail(const FollowInput& input, const Pose2& robot) {
     robot_s_m_ = trail_.first_m() - std::hypot(body_m.x() - robot.x_m, body_m.y() - robot.y_m);
 }
 
-double TrailLaw::beside_m(const Pose2& robot) const {
+double TrailLaw::left_of_trail_m(const Pose2& robot) const {
   const Trail::Place place = trail_.at(robot_s_m_, control_.smooth_m);
   return std::cos(place.heading_rad) * (robot.y_m - place.y_m) -
          std::sin(place.heading_rad) * (robot.x_m - place.x_m);
@@ -120,7 +120,7 @@ double TrailLaw::speed_m_s(const FollowInput& input) const {
 /// Samson's law towards the line `offset_m` beside the trail.
 double TrailLaw::yaw_rate_rad_s(const Pose2& robot, double v_m_s, double offset_m) const {
   const Trail::Place place = trail_.at(robot_s_m_, control_.smooth_m);
-  const double e_m = beside_m(robot) - offset_m;
+  const double e_m = left_of_trail_m(robot) - offset_m;
   const double theta_rad = wrap_angle_rad(robot.heading_rad - place.heading_rad);
   const double reach_m = control_.reach_m;
   // Far from the trail the robot drives towards it at a fixed angle.
@@ -148,7 +148,7 @@ WantedVelocity TrailLaw::velocity(const FollowInput& input) {
   if (input.searching) return search(input, robot);
   search_.end();
   if (!input.target.known) return {};
-  if (std::abs(beside_m(robot)) > kOffTrail_m) {
+  if (std::abs(left_of_trail_m(robot)) > kOffTrail_m) {
     trail_.reset();
     return {};
   }

@@ -65,7 +65,7 @@ class TrailLaw final : public FollowLaw {
   void update_person_speed(const TargetState& target, double dt_s);
   double speed_m_s(const FollowInput& input) const;
   double yaw_rate_rad_s(const Pose2& robot, double v_m_s, double offset_m) const;
-  double beside_m(const Pose2& robot) const;
+  double left_of_trail_m(const Pose2& robot) const;
   WantedVelocity search(const FollowInput& input, const Pose2& robot);
 
   Gains control_;
