@@ -27,6 +27,7 @@ namespace {
 constexpr std::size_t kMaxCameraInfoBytes = 1 << 20;
 constexpr int kMaxSensorSide_px = 32768;
 constexpr std::size_t kMostNodes = 10000;
+constexpr int kMostLevels = 50;  // of maps or lists in each other: one that holds itself has no end
 /// By which the camera files of other programs are known.
 constexpr std::array<std::pair<const char*, const char*>, 6> kForeignKeys{{
     {"cam0", "a camera chain of kalibr"},
@@ -111,8 +112,8 @@ const std::vector<std::string> kFx{"fx", "Fx"}, kFy{"fy", "Fy"}, kPpx{"ppx", "PP
 class NodeCount {
  public:
   explicit NodeCount(const std::string& path) : path_(path) {}
-  void add_one() {
-    if (++nodes_ > kMostNodes)
+  void add_one(int level) {
+    if (++nodes_ > kMostNodes || level > kMostLevels)
       throw Error(fmt::format("{}: more than {} values, by aliases (expected a camera_info file)", path_,
                               kMostNodes));
   }
@@ -123,16 +124,16 @@ class NodeCount {
 };
 
 /// YAML takes the first of two values and says nothing.
-void refuse_duplicates(const YAML::Node& map, const std::string& path, NodeCount& nodes) {
+void refuse_duplicates(const YAML::Node& map, const std::string& path, NodeCount& nodes, int level = 0) {
   std::set<std::string> keys;
   for (const auto& entry : map) {
-    nodes.add_one();
+    nodes.add_one(level);
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
     if (!keys.insert(key).second) {
       throw Error(
           fmt::format("{}:{}: {}: given twice (expected once)", path, entry.first.Mark().line + 1, key));
     }
-    if (entry.second.IsMap()) refuse_duplicates(entry.second, path, nodes);
+    if (entry.second.IsMap()) refuse_duplicates(entry.second, path, nodes, level + 1);
   }
 }
 
@@ -148,10 +149,10 @@ std::optional<long> whole_number(const YAML::Node& node) {
 
 /// Adds the numbers of a node: one, several between spaces, or a list of these.
 void add_numbers(const YAML::Node& node, const std::string& path, const std::string& key,
-                 std::vector<double>& values, NodeCount& nodes) {
-  nodes.add_one();
+                 std::vector<double>& values, NodeCount& nodes, int level = 0) {
+  nodes.add_one(level);
   if (node.IsSequence()) {
-    for (const YAML::Node& part : node) add_numbers(part, path, key, values, nodes);
+    for (const YAML::Node& part : node) add_numbers(part, path, key, values, nodes, level + 1);
     return;
   }
   std::istringstream words(node.IsScalar() ? node.Scalar() : "?");

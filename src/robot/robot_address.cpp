@@ -55,6 +55,8 @@ void parse_tcp(std::string_view rest, RobotAddress& address) {
     address.host = address.host.substr(1, address.host.size() - 2);  // an IPv6 address
   }
   if (address.host.empty()) refuse(address.text, "no host (expected tcp:HOST:PORT)");
+  if (address.host.find_first_of(" \t") != std::string::npos)
+    refuse(address.text, "a space in the host's name (expected tcp:HOST:PORT)");
   const int port = number_of(rest.substr(colon + 1));
   if (port < 1 || port > 65535) {
     refuse(address.text, fmt::format("'{}' is not a port (expected 1…65535)", rest.substr(colon + 1)));

@@ -58,6 +58,8 @@ TEST(RobotAddress, WrongAddressesAreNamedWithWhatIsExpected) {
       {"tcp://host:8101", "expected tcp:HOST:PORT"},
       {"tcp:host", "no port"},
       {"tcp::8101", "no host"},
+      {"tcp: 127.0.0.1:8101", "a space in the host's name"},
+      {"tcp:my robot:8101", "a space in the host's name"},
       {"tcp:host:", "'' is not a port"},
       {"tcp:host:0", "'0' is not a port"},
       {"tcp:host:65536", "'65536' is not a port"},

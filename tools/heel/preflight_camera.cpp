@@ -111,6 +111,8 @@ PreflightStep check_camera_and_use(const Config& config, const std::function<voi
     if (look.damaged_share() > kMostDamaged)
       return step.fail(fmt::format("{}, {:.0f} % damaged", measured, 100.0 * look.damaged_share()),
                        "use another cable or USB port, or camera.format = \"YUYV\"");
+    if (look.rate_hz() == 0.0 && config.camera.from_file())
+      return step.fail(measured, "one picture has no pace (expected a video, or a folder of pictures)");
     if (look.rate_hz() < kLeastRate * config.camera.rate_hz)
       return step.fail(measured, fmt::format("set camera.rate_hz to what it gives, or give it more light and "
                                              "a shorter camera.exposure_ms (expected {:g} pictures/s)",

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "vision/lens/lens_models.h"
@@ -28,12 +29,13 @@ double farthest_corner_px(const CameraModel& camera) {
 /// Of the fisheye model: the distance depends on the angle to the optical axis alone.
 std::optional<double> fisheye_fold_px(const CameraModel& camera) {
   const double focal_px = std::max(camera.fx, camera.fy), reach_px = farthest_corner_px(camera);
-  for (double theta = 0.0; theta <= kMaxFisheyeTheta_rad; theta += kStep_px / focal_px) {
+  for (std::int64_t i = 0;; ++i) {
+    const double theta = static_cast<double>(i) * kStep_px / focal_px;
+    if (theta > kMaxFisheyeTheta_rad) return std::nullopt;
     const double distance_px = focal_px * fisheye_distance(camera, theta);
     if (distance_px > reach_px) return std::nullopt;
     if (fisheye_slope(camera, theta) <= 0.0) return distance_px;
   }
-  return std::nullopt;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -103,6 +104,14 @@ TEST_F(Preflight, EverythingIsReadyAndTheRobotStandsStill) {
   for (const test::Truth& row : truth) ASSERT_EQ(row.v_m_s, 0.0);
 }
 
+TEST_F(Preflight, OnePictureHasNoPace) {
+  start_world();
+  camera_ = "file:" + file("shirt.png");
+  const json step = preflight({"camera"})["steps"][0];
+  EXPECT_EQ(step["verdict"], "fail") << step;
+  EXPECT_THAT(step["advice"].get<std::string>(), HasSubstr("expected a video, or a folder of pictures"));
+}
+
 TEST_F(Preflight, CountsTheFrontSonarsThatTheModelHas) {
   start_world({"--model", "amigo-sh"});
   const json step = preflight({"robot"})["steps"][0];
@@ -142,7 +151,8 @@ TEST_F(Preflight, APictureThatIsMountedOtherwiseIsNamedWithTheKeysToSet) {
 
 TEST_F(Preflight, EachThingThatIsMissingFailsItsStep) {
   start_world();
-  world_.reset();  // no camera, no robot
+  world_.reset();                          // no camera, no robot
+  std::filesystem::remove(file("robot"));  // killed, it leaves a link to a pty that another test may get
   const json answer = preflight({});
   for (const json& step : answer["steps"]) {
     const bool needs_world = step["step"] == "camera" || step["step"] == "person" || step["step"] == "robot";
